@@ -1,0 +1,35 @@
+// Asperities: the summits of a height map with their curvatures (paper, section 3).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+enum class Curvature { geometric, algebraic };
+
+// Structure of arrays, one entry an asperity. x, y, z [length] and radius [length] are always there; the rest is empty when
+// the asperities were given without curvatures.
+struct Asperities {
+    std::vector<double> x, y, z, radius;
+    std::vector<double> kappa1, kappa2;  // principal curvatures, kappa1 >= kappa2 > 0 [1/length]
+    std::vector<double> angle;           // direction of the kappa2 axis (the long axis of the contact ellipse) from x, in (-pi/2, pi/2]
+    std::vector<double> biharmonic;      // nabla^4 z at the summit [1/length^3]; empty unless a law needs it
+    std::size_t size() const { return x.size(); }
+};
+
+// What was counted on the way.
+struct SummitCount {
+    long summits = 0;          // asperities kept
+    long saddles = 0;          // grid maxima whose curvatures make them saddles: counted, not kept
+    double mean_kappa_g = 0;   // mean of the geometric mean curvature [1/length]
+    double mean_kappa_a = 0;   // mean of the algebraic mean curvature [1/length]
+};
+
+// Summits: grid points strictly above their 8 neighbours. Curvatures from second differences. Periodic maps wrap around,
+// others give interior points only. Order: row by row (y, then x).
+Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr);
+
+}  // namespace rsc

@@ -1,0 +1,33 @@
+// Power spectral density of an isotropic self-affine surface and its spectral moments (paper, section 2).
+#pragma once
+
+namespace rsc {
+
+// What defines the statistics of a synthetic rough surface on a square L x L.
+struct Spectrum {
+    double L = 1.0;             // side of the square [length]
+    double hurst = 0.8;         // Hurst exponent H, 0 <= H <= 1
+    double L_lambda_l = 24.0;   // L / lambda_l: lower cutoff kl = 2 pi / lambda_l
+    double L_lambda_s = 512.0;  // L / lambda_s: upper cutoff ks = 2 pi / lambda_s
+    bool plateau = false;       // PSD = Phi0 between 2 pi / L and kl (otherwise 0 there)
+    double sigma = 0.01;        // rms height [length]
+};
+
+// One-dimensional profile moments m0, m2, m4 of an isotropic surface; m_p has the unit length^(2-p).
+struct Moments {
+    double m0 = 0, m2 = 0, m4 = 0;
+    double nayak() const { return m0 * m4 / (m2 * m2); }  // Nayak's alpha
+    double rms_slope() const;                             // rms gradient sqrt(2 m2)
+    double summit_density() const;                        // D = sqrt(3) m4 / (18 pi m2) [1/length^2]
+    double mean_spacing() const;                          // <d> = 1/sqrt(D) [length]
+    double mean_radius() const;                           // the paper's r_g = 1/<kappa_g> = 0.737/sqrt(m4) [length]
+};
+
+// Closed forms of the continuous spectrum, scaled so that m0 = sigma^2.
+Moments theoretical_moments(const Spectrum& spectrum);
+
+// Relative PSD (Phi / Phi0) of the mode with integer wavevector of squared length q2 (K = (2 pi / L) sqrt(q2));
+// 0 outside the band. A mode exactly at K = kl belongs to the surface either way.
+double relative_psd(const Spectrum& spectrum, double q2);
+
+}  // namespace rsc

@@ -1,0 +1,47 @@
+// A height map and how a synthetic one is made.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "rough/spectrum.hpp"
+
+namespace rsc {
+
+// Heights on a regular rectangular grid: point (i, j) is at x = i dx, y = j dy (+ origin), value z(i, j) = data[j*stride + i].
+// A point is a cell: the map covers nx*dx by ny*dy. stride >= nx leaves room for the padding of an in-place transform.
+struct HeightMap {
+    int nx = 0, ny = 0;
+    std::ptrdiff_t stride = 0;
+    double dx = 0, dy = 0;
+    double x0 = 0, y0 = 0;  // coordinates of point (0, 0)
+    bool periodic = false;  // synthetic surfaces wrap around, measured ones do not
+    struct Free { void operator()(double* p) const noexcept; };
+    std::unique_ptr<double[], Free> data;
+
+    // Allocates (uninitialised, SIMD aligned); throws Error(no_memory) with the size asked for.
+    void allocate(int nx_, int ny_, std::ptrdiff_t stride_);
+    double* row(int j) { return data.get() + j * stride; }
+    const double* row(int j) const { return data.get() + j * stride; }
+    double operator()(int i, int j) const { return row(j)[i]; }
+    double Lx() const { return nx * dx; }
+    double Ly() const { return ny * dy; }
+};
+
+enum class Normalise { sample, ensemble };
+enum class Detrend { none, mean, plane };
+
+// Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
+// integer wavevector) alone. `sampled` (optional) receives the isotropic moments summed exactly over the modes drawn.
+HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
+                     Moments* sampled = nullptr);
+
+// Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): beside the spectral ones they
+// say how well the grid resolves lambda_s.
+Moments grid_moments(const HeightMap& map);
+
+// Subtracts the mean or the least-squares plane in place; returns the rms height left.
+double detrend(HeightMap& map, Detrend how);
+
+}  // namespace rsc

@@ -1,0 +1,80 @@
+// A case: every key of the namelist, with its value. The registry (registry.hpp) names, checks, prints and describes them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/indentation.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+enum class Source { synthetic, heights, asperities };
+enum class Control { separation, force };
+enum class LevelUnit { sigma, length };
+enum class Spacing { linear, log };
+enum class Format { netcdf4, cdf5, classic };
+enum class Contacts { automatic, none, last, all };
+enum class StudyMode { product, zip };
+
+struct Case {
+    struct Run {
+        std::string title;
+        std::int64_t seed = 1;
+        int realizations = 1, first_realization = 1;
+        int threads = 0;  // 0: all
+        std::string length_unit = "mm", force_unit = "N";
+    } run;
+    struct Solids {
+        double E[2] = {78.0e3, kInfinity}, nu[2] = {0.42, 0.0}, R[2] = {kInfinity, 2.5};
+    } solids;
+    struct Surface {
+        Source source = Source::synthetic;
+        std::string file;
+        std::optional<double> L;      // default 1.0; for heights and asperities: from the file unless set
+        int n = 2048;
+        double hurst = 0.8, L_lambda_l = 24.0, L_lambda_s = 512.0;
+        bool plateau = false;
+        std::optional<double> sigma;  // default 0.01 for synthetic; for heights and asperities: of what was read unless set
+        Normalise normalise = Normalise::sample;
+        Detrend detrend = Detrend::mean;
+    } surface;
+    struct AsperityKeys {
+        Curvature curvature = Curvature::geometric;
+        LawKind law = LawKind::hertz;
+    } asperities;
+    struct Indentation {
+        Control control = Control::separation;
+        double start = 4.0, stop = 1.0;
+        int steps = 100;
+        LevelUnit unit = LevelUnit::sigma;
+        Spacing spacing = Spacing::linear;
+        std::vector<double> levels;                // explicit list instead, in `unit`; empty: start, stop, steps
+        std::optional<double> centre[2];           // default: the middle of the surface
+        Selection selection = Selection::overlap;
+        double selection_factor = 1.5;
+    } indentation;
+    struct Solver {
+        Method method = Method::automatic;
+        double tolerance = 1.0e-6;
+        int max_iterations = 100;
+        double delta0 = 0.01;
+        Interaction interaction = Interaction::point;
+    } solver;
+    struct Output {
+        std::string file = "output/rsc.nc";
+        Format format = Format::netcdf4;
+        Contacts contacts = Contacts::automatic;
+        bool heights = false;
+        int map_cells = 50, radial_bins = 50;
+        std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
+        int pdf_bins = 60;
+        int compression = 4;
+    } output;
+
+    static constexpr double kInfinity = __builtin_huge_val();
+};
+
+}  // namespace rsc

@@ -1,0 +1,44 @@
+// The whole test framework: checks that say what failed and go on, and a summary as the exit status.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+
+namespace check {
+
+inline int failures = 0;
+inline int checks = 0;
+
+inline void that(bool ok, const char* what, const char* file, int line) {
+    ++checks;
+    if (ok) return;
+    ++failures;
+    std::printf("%s:%d: failed: %s\n", file, line, what);
+}
+
+// |a - b| <= tolerance.
+inline void close(double a, double b, double tolerance, const char* what, const char* file, int line) {
+    ++checks;
+    const double error = std::abs(a - b);
+    if (error <= tolerance) return;  // false for NaN
+    ++failures;
+    std::printf("%s:%d: failed: %s: %.17g against %.17g, error %.3g > %.3g\n", file, line, what, a, b, error, tolerance);
+}
+
+inline int summary() {
+    std::printf("%d checks, %d failed\n", checks, failures);
+    return failures == 0 ? 0 : 1;
+}
+
+}  // namespace check
+
+#define CHECK(condition) check::that((condition), #condition, __FILE__, __LINE__)
+#define CHECK_CLOSE(a, b, tolerance) check::close((a), (b), (tolerance), #a " = " #b, __FILE__, __LINE__)
+#define CHECK_RELATIVE(a, b, tolerance) \
+    check::close((a), (b), (tolerance) * std::abs(b), #a " = " #b " (relative)", __FILE__, __LINE__)
+#define CHECK_THROWS(expression, type)                                        \
+    do {                                                                      \
+        bool thrown = false;                                                  \
+        try { (void)(expression); } catch (const type&) { thrown = true; }    \
+        check::that(thrown, #expression " throws " #type, __FILE__, __LINE__); \
+    } while (0)
