@@ -1,0 +1,57 @@
+// The table of pair loops that one instruction set provides. Inside the room only; plain declarations, because the files that fill
+// the table are compiled with different flags and must not share inline functions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rsc {
+
+constexpr std::size_t kPairPadding = 16;  // every count and stride is a multiple of it, arrays need no alignment
+constexpr int kNearDegree = 24;           // the largest degree of a near-field polynomial
+
+constexpr double kSingleWeight = 2;         // the single precision loops return this times phi
+
+// Short-range kernel w(d) = 1/d - sum_k c[k] (d^2)^k for 0 < d^2 < cutoff2, 0 elsewhere.
+struct NearKernel {
+    double cutoff2 = 0;
+    int degree = 0;
+    double c[kNearDegree + 1] = {};
+};
+
+// Real = double: coordinates double. Real = float: coordinates 32-bit integers whose differences fit.
+// phi is added to everywhere. Pads carry f = 0.
+template <class Real, class Coordinate>
+struct PairLoops {
+    // All pairs within n points, both ways.
+    void (*self)(std::size_t n, const Coordinate* x, const Coordinate* y, const Real* f, Real* phi);
+    // All pairs between two disjoint sets, both ways.
+    void (*cross)(std::size_t ni, const Coordinate* xi, const Coordinate* yi, const Real* fi, Real* phi_i, std::size_t nj,
+                  const Coordinate* xj, const Coordinate* yj, const Real* fj, Real* phi_j);
+    // Sources j onto targets i.
+    void (*onto)(std::size_t ni, const Coordinate* xi, const Coordinate* yi, Real* phi_i, std::size_t nj, const Coordinate* xj,
+                 const Coordinate* yj, const Real* fj);
+};
+
+struct PairKernels {
+    const char* name;
+    PairLoops<double, double> exact;
+    PairLoops<float, std::int32_t> single;
+    // The same with a short-range kernel instead of 1/d.
+    void (*near_self)(const NearKernel& kernel, std::size_t n, const double* x, const double* y, const double* f, double* phi);
+    void (*near_cross)(const NearKernel& kernel, std::size_t ni, const double* xi, const double* yi, const double* fi, double* phi_i,
+                       std::size_t nj, const double* xj, const double* yj, const double* fj, double* phi_j);
+};
+
+// The table for "generic", "sse2", "avx2" or "avx512"; nullptr if this build or this processor has not got it.
+const PairKernels* pair_kernels(const char* instruction_set);
+// The best one.
+const PairKernels& pair_kernels();
+
+// One a file; nullptr where the file compiles to nothing.
+const PairKernels* pair_kernels_generic();
+const PairKernels* pair_kernels_sse2();
+const PairKernels* pair_kernels_avx2();
+const PairKernels* pair_kernels_avx512();
+
+}  // namespace rsc
