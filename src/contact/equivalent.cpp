@@ -1,0 +1,38 @@
+#include "contact/equivalent.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, int body, const std::string& expected) {
+    throw Error(Failure::bad_input, what + " of body " + std::to_string(body + 1) + " must be " + expected);
+}
+
+}  // namespace
+
+double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
+    double compliance = 0;
+    for (int i = 0; i < 2; ++i) {
+        if (!(E[i] > 0)) refuse("Young's modulus", i, "positive (Infinity for a rigid body)");
+        if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse("Poisson's ratio", i, "between -1 and 0.5");
+        compliance += (1 - nu[i] * nu[i]) / E[i];  // 0 for E = Infinity
+    }
+    if (!(compliance > 0)) throw Error(Failure::bad_input, "both bodies are rigid: at least one of the moduli E must be finite");
+    return 1 / compliance;
+}
+
+double equivalent_radius(const double (&R)[2]) {
+    double curvature = 0;
+    for (int i = 0; i < 2; ++i) {
+        if (!(R[i] > 0)) refuse("radius", i, "positive (Infinity for a flat body)");
+        curvature += 1 / R[i];
+    }
+    return curvature > 0 ? 1 / curvature : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace rsc

@@ -1,0 +1,156 @@
+#include "observe/distributions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+void count_value(CountHistogram& h, double value, double width) {
+    const double position = value / width;
+    if (position < static_cast<double>(h.count.size()))
+        ++h.count[static_cast<std::size_t>(position)];
+    else
+        ++h.overflow;
+    double power = 1;
+    for (double& sum : h.power) sum += power *= value;
+}
+
+// Adds area times the density 2 p / p0^2 on [0, p0], whose cumulative is (p/p0)^2.
+void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
+    double below = 0;
+    for (std::size_t b = 0; b < h.area.size() && below < 1; ++b) {
+        const double edge = width * static_cast<double>(b + 1) / p0;
+        const double cumulative = edge < 1 ? edge * edge : 1;
+        h.area[b] += area * (cumulative - below);
+        below = cumulative;
+    }
+    h.overflow += area * (1 - below);
+    h.total += area;
+    h.squares += area * area;
+    double power = 1;
+    for (std::size_t k = 0; k < h.power.size(); ++k) {  // <p^n> = 2 p0^n / (n + 2)
+        power *= p0;
+        h.power[k] += area * 2 * power / static_cast<double>(k + 3);
+    }
+}
+
+void add(CountHistogram& a, const CountHistogram& b) {
+    for (std::size_t i = 0; i < a.count.size(); ++i) a.count[i] += b.count[i];
+    a.overflow += b.overflow;
+    for (std::size_t k = 0; k < a.power.size(); ++k) a.power[k] += b.power[k];
+}
+
+void add(AreaHistogram& a, const AreaHistogram& b) {
+    for (std::size_t i = 0; i < a.area.size(); ++i) a.area[i] += b.area[i];
+    a.overflow += b.overflow;
+    a.total += b.total;
+    a.squares += b.squares;
+    for (std::size_t k = 0; k < a.power.size(); ++k) a.power[k] += b.power[k];
+}
+
+Binned binned(const CountHistogram& h, double width) {
+    Binned out{width, {}, static_cast<double>(h.overflow)};
+    for (std::int64_t n : h.count) out.weight.push_back(static_cast<double>(n));
+    return out;
+}
+
+std::vector<double> density(const Binned& binned) {
+    const double total = binned.total();
+    std::vector<double> pdf(binned.weight.size(), kAbsent);
+    if (!(total > 0)) return pdf;
+    for (std::size_t b = 0; b < pdf.size(); ++b) pdf[b] = binned.weight[b] / (total * binned.width);
+    return pdf;
+}
+
+}  // namespace
+
+PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4) {
+    if (bins < 1) throw Error(Failure::bad_input, "distributions: at least one bin is needed, not " + std::to_string(bins));
+    const double pressure = E_star * std::sqrt(sigma * sqrt_m4), area = sigma / sqrt_m4;
+    if (!(pressure > 0) || !std::isfinite(pressure) || !(area > 0) || !std::isfinite(area))
+        throw Error(Failure::bad_input, "distributions: E*, the rms height and the curvature scale must be positive and finite");
+    return {bins, 1.2 * pressure, 10 * area};
+}
+
+std::int64_t CountHistogram::total() const {
+    std::int64_t sum = overflow;
+    for (std::int64_t n : count) sum += n;
+    return sum;
+}
+
+Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step) {
+    const auto n = static_cast<std::size_t>(bins.bins);
+    Distributions d;
+    d.separation = level.separation;
+    d.levels = 1;
+    d.step = step;
+    d.mean_pressure.count.assign(n, 0);
+    d.pressure.area.assign(n, 0.0);
+    d.spot_area.count.assign(n, 0);
+    for (std::size_t k = 0; k < level.a.size(); ++k) {
+        const double area = std::numbers::pi * level.a[k] * level.a[k];
+        if (!(area > 0)) continue;
+        const double p = level.f[k] / area;
+        count_value(d.mean_pressure, p, bins.mean_pressure_width());
+        count_value(d.spot_area, area, bins.area_width());
+        spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
+    }
+    return d;
+}
+
+void add(Distributions& a, const Distributions& b) {
+    if (a.levels == 0) {
+        a = b;
+        return;
+    }
+    if (a.step != b.step) a.step = -1;
+    a.separation += b.separation;
+    a.levels += b.levels;
+    add(a.mean_pressure, b.mean_pressure);
+    add(a.pressure, b.pressure);
+    add(a.spot_area, b.spot_area);
+}
+
+DistributionMoments moments_of(double count, const std::array<double, 4>& power) {
+    DistributionMoments m;
+    if (!(count > 0)) return m;
+    const double m1 = power[0] / count, m2 = power[1] / count, m3 = power[2] / count, m4 = power[3] / count;
+    const double variance = std::max(0.0, m2 - m1 * m1);
+    m.mean = m1;
+    m.deviation = std::sqrt(variance);
+    if (variance > 1e-12 * m2) {  // below that the differences hold rounding errors only
+        m.skewness = (m3 - 3 * m1 * m2 + 2 * m1 * m1 * m1) / (variance * m.deviation);
+        m.kurtosis = (m4 - 4 * m1 * m3 + 6 * m1 * m1 * m2 - 3 * m1 * m1 * m1 * m1) / (variance * variance);
+    }
+    return m;
+}
+
+FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& sum) {
+    FittedDistributions out;
+    out.sum = sum;
+    const Binned mean_pressure = binned(sum.mean_pressure, bins.mean_pressure_width());
+    const Binned spot_area = binned(sum.spot_area, bins.area_width());
+    const Binned pressure{bins.pressure_width(), sum.pressure.area, sum.pressure.overflow};
+    const auto contacts = static_cast<double>(sum.mean_pressure.total());
+
+    out.mean_pressure_pdf = density(mean_pressure);
+    out.mean_pressure_moments = moments_of(contacts, sum.mean_pressure.power);
+    out.rayleigh = fit_rayleigh(contacts, sum.mean_pressure.power[1], mean_pressure);
+
+    out.spot_area_pdf = density(spot_area);
+    out.spot_area_moments = moments_of(contacts, sum.spot_area.power);
+    out.exponential = fit_exponential(contacts, sum.spot_area.power[0], spot_area);
+
+    out.pressure_pdf = density(pressure);
+    out.pressure_moments = moments_of(sum.pressure.total, sum.pressure.power);
+    if (sum.pressure.squares > 0)
+        out.gamma = fit_generalised_gamma(pressure, out.pressure_moments.mean, sum.pressure.total * sum.pressure.total / sum.pressure.squares);
+    return out;
+}
+
+}  // namespace rsc

@@ -1,0 +1,98 @@
+// What is kept of one realization, and how realizations add up (paper, section 5).
+//
+// observe() boils one realization down to a RealizationRecord: plain numbers and vectors, no reference to anything, fit to be written to
+// a checkpoint as they are. Accumulators::add() takes records in the order of their realizations, so that every sum is made in one
+// order whatever thread, rank or interrupted run made the records; finish() turns the sums into means, radial means and fits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/indentation.hpp"
+#include "observe/distributions.hpp"
+#include "observe/map.hpp"
+#include "rough/asperities.hpp"
+
+namespace rsc {
+
+struct ObserveOptions {
+    double tip_x = 0, tip_y = 0;     // centre of the radial means [length]
+    MapGrid map;
+    int radial_bins = 50;
+    std::vector<double> pdf_levels;  // separations whose nearest level gives the distributions [length]
+    PdfBins pdf;
+};
+
+// The surface of a realization; NaN is absent (asperities read from a file have no m2, say).
+struct SurfaceStatistics {
+    double sigma = kAbsent;                      // rms height [length]
+    double m2 = kAbsent, m4 = kAbsent;           // profile moments from the modes drawn (synthetic) or the grid (measured)
+    double m2_grid = kAbsent, m4_grid = kAbsent; // from finite differences
+    double mean_kappa_g = kAbsent, mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
+    std::int64_t summits = 0, saddles = 0;
+};
+
+// The scalars of one level.
+struct LevelRow {
+    double separation = 0, force = 0, area = 0, residual = 0;
+    double stiffness = kAbsent;  // dN/dZ0 with the sign that makes it positive, if it was computed [force/length]
+    std::int64_t products = 0, overlapping_pairs = 0;
+    std::int32_t contacts = 0, candidates = 0, iterations = 0;
+    std::int32_t status = 0, method = 0;  // values of LevelStatus and Method
+    std::int32_t large_contacts = 0;      // contacts with a > <d>/4
+    std::int32_t crowded_cells = 0;       // map cells with an area fraction above pi/16
+    std::int32_t outside_map = 0;         // contacts outside the map
+};
+
+struct RealizationRecord {
+    std::int64_t realization = 1;
+    SurfaceStatistics surface;
+    std::vector<LevelRow> levels;
+    std::vector<MapLevel> maps;               // one a level
+    std::vector<Distributions> distributions;  // one a pdf level
+};
+
+// Observes the levels of one realization. `stiffness` is empty or has one value a level.
+// Throws Error(internal) if a level holds a value that is not finite.
+RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
+                          const Asperities& asperities, const std::vector<Level>& levels, std::span<const double> stiffness = {});
+
+// The level whose separation is nearest to the wanted one; of two equally near the first. -1 if there is none.
+std::int32_t nearest_level(const std::vector<Level>& levels, double separation);
+
+struct Observations;
+
+// Sums over realizations. Copyable and plain: a campaign writes it to its checkpoint as it is.
+struct Accumulators {
+    ObserveOptions options;
+    std::size_t steps = 0;
+    std::vector<std::int64_t> realization;
+    std::vector<SurfaceStatistics> surface;
+    std::vector<LevelRow> rows;                // [realization][step]
+    std::vector<double> map_area, map_force;   // [step][cell], sums over realizations [length^2], [force]
+    std::vector<Distributions> distributions;  // [pdf level]
+
+    Accumulators() = default;
+    Accumulators(const ObserveOptions& options, std::size_t steps);
+    // Records come in increasing order of their realization; another order throws Error(internal), as does another number of levels.
+    void add(const RealizationRecord& record);
+    Observations finish() const;
+};
+
+// Means over the realizations added. The deviation is that of the sample (divisor M - 1), NaN for one realization.
+struct Observations {
+    ObserveOptions options;
+    std::size_t realizations = 0, steps = 0;
+    std::vector<std::int64_t> realization;
+    std::vector<SurfaceStatistics> surface;  // [realization]
+    std::vector<LevelRow> rows;              // [realization][step]
+    std::vector<double> separation_mean, force_mean, force_std, area_mean, area_std;  // [step]
+    std::vector<double> map_area_fraction, map_pressure;                              // [step][j][i]
+    std::vector<double> radii;                                                        // middle of the rings [length]
+    std::vector<double> radial_area_fraction, radial_pressure;                        // [step][radius]
+    std::vector<FittedDistributions> distributions;                                   // [pdf level]
+    const LevelRow& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
+};
+
+}  // namespace rsc

@@ -1,0 +1,33 @@
+// Closed forms beside which a rough sphere is read: the smooth sphere (Hertz) and the two regimes of the paper's section 5.
+#pragma once
+
+#include "rough/spectrum.hpp"
+
+namespace rsc {
+
+// A smooth sphere of radius R pressed by a force N into a half-space of modulus E* (Hertz; Johnson 1985, section 4.2).
+struct Hertz {
+    double radius = 0;       // contact radius a = (3 N R / (4 E*))^(1/3) [length]
+    double penetration = 0;  // delta = a^2 / R [length]
+    double peak = 0;         // peak pressure p0 = 3 N / (2 pi a^2) [force/length^2]
+    double area() const;     // pi a^2 [length^2]
+    // p(r) = p0 sqrt(1 - r^2/a^2), 0 outside the contact [force/length^2].
+    double pressure(double r) const;
+};
+
+// Throws Error(bad_input) unless N >= 0, and R and E* are positive and finite.
+Hertz hertz_contact(double force, double R, double E_star);
+
+// The paper's prefactor of the second regime.
+inline constexpr double kRegimeBeta = 0.2;
+
+// First regime, one asperity of the mean radius r_g carries the load: A_I = pi (3 r_g N / (4 E*))^(2/3) [length^2].
+double area_one_asperity(double force, double r_g, double E_star);
+
+// Second regime, area proportional to the load: A_II = beta sqrt(2 pi) N / (sqrt(2 m2) E*) [length^2].
+double area_proportional(double force, double m2, double E_star, double beta = kRegimeBeta);
+
+// The force at which A_I = A_II with r_g of the moments: 212.66 m2^(3/2) E* / m4 for beta = 0.2 [force].
+double transition_force(const Moments& moments, double E_star, double beta = kRegimeBeta);
+
+}  // namespace rsc
