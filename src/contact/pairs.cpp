@@ -63,7 +63,9 @@ double largest(std::size_t n, const T* f) {
 }
 
 // Single precision forces are taken relative to the largest, so that no product underflows.
-double force_unit(double largest) { return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::clamp(std::ilogb(largest), -1020, 1020)) : 1; }
+double force_unit(double largest) {
+    return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::clamp(std::ilogb(largest), -1020, 1020)) : 1;
+}
 
 template <class Real, class Coordinate>
 void symmetric(const PairLoops<Real, Coordinate>& loops, std::size_t n, const Coordinate* x, const Coordinate* y, const Real* f,
@@ -123,7 +125,7 @@ const PairKernels* pair_kernels(const char* instruction_set) {
 }
 
 const PairKernels& pair_kernels() {
-    static const PairKernels& best = [] () -> const PairKernels& {
+    static const PairKernels& best = []() -> const PairKernels& {
         for (const char* name : {"avx512", "avx2", "sse2"})
             if (const PairKernels* kernels = pair_kernels(name)) return *kernels;
         return *pair_kernels_generic();

@@ -1,8 +1,10 @@
-// Direct sums over pairs, phi_i = sum_{j, d_ij > 0} f_j / d_ij: the product with the interaction matrix B (paper, section 4) without
-// storing it. The factor 1/(pi E*) is the caller's. d_ij is the distance in the plane; points that coincide do not act on each other.
+// Direct sums over pairs, phi_i = sum_{j, d_ij > 0} f_j / d_ij: the product with the interaction matrix B (paper, section 4)
+// without storing it. The factor 1/(pi E*) is the caller's. d_ij is the distance in the plane; points that coincide do not act on
+// each other.
 //
-// The loops exist once (pairs_kernel.inl) and are compiled for several instruction sets; the best one the machine has is chosen at
-// run time. Within one instruction set the results are reproducible bit by bit. Distances below 2^-60 of the largest extent count as 0.
+// The loops exist once (pairs_kernel.inl) and are compiled for several instruction sets; the best one the machine has is chosen
+// at run time. Within one instruction set the results are reproducible bit by bit. Distances below 2^-60 of the largest extent
+// count as 0.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +19,8 @@ void pair_potential(std::size_t n_targets, const double* xt, const double* yt, s
                     const double* ys, const double* fs, double* phi);
 
 // The same with a loop in single precision: relative error about 1e-6 of sum_j |fs[j]| / d_ij. Coordinates become 31-bit integers
-// spanning the points, whose differences are exact; a pair closer than 2^-11 of the extent loses digits, (extent / d) 2^-31 of its own term.
+// spanning the points, whose differences are exact; a pair closer than 2^-11 of the extent loses digits, (extent / d) 2^-31 of
+// its own term.
 void pair_potential_single(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs,
                            const double* ys, const double* fs, double* phi);
 
@@ -30,6 +33,7 @@ public:
     std::size_t size() const { return n_; }
     // phi[i] = sum_{j, d_ij > 0} f[j] / d_ij with f and phi of size() entries that do not overlap; accuracies as above.
     void apply(const double* f, double* phi) const;
+    // Single precision takes any unit of length and force as long as f and phi themselves are within the range of float.
     void apply_single(const float* f, float* phi) const;
 
 private:

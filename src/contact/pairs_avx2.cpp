@@ -6,6 +6,8 @@
 
 #include <immintrin.h>
 
+#define FOR_ROWS _Pragma("GCC unroll 8") for (int k = 0; k < rows; ++k)
+
 namespace rsc {
 namespace {
 
@@ -28,23 +30,27 @@ struct Double {
         const __m128d b = _mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
         return _mm_cvtsd_f64(_mm_add_sd(b, _mm_unpackhi_pd(b, b)));
     }
-    // 12 bits from rsqrtps, then the binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2, |h| < 7.4e-4: the first term left out is 6e-17.
-    static V inverse_root(V d2) {
-        const V r = _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(d2)));
-        const V h = _mm256_fnmadd_pd(_mm256_mul_pd(d2, r), r, splat_real(1));
-        V p = fma(h, splat_real(35.0 / 128), splat_real(5.0 / 16));
-        p = fma(p, h, splat_real(3.0 / 8));
-        p = fma(p, h, splat_real(0.5));
-        return fma(mul(p, h), r, r);
+    // 12 bits from rsqrtps; 0 for points that coincide.
+    static V root_estimate(V d2) {
+        const __m128 a = _mm256_cvtpd_ps(d2);
+        return _mm256_cvtps_pd(_mm_and_ps(_mm_rsqrt_ps(a), _mm_cmpgt_ps(a, _mm_set1_ps(0x1p-120f))));
     }
-    static V inverse_distance(V d2) {
-        const V apart = _mm256_cmp_pd(d2, splat_real(0x1p-120), _CMP_GT_OQ);
-        return _mm256_and_pd(inverse_root(d2), apart);
+    // The binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2, |h| < 7.4e-4: the first term left out is 6e-17. r = 0 stays 0.
+    static void refine(V* d2, const V* r) {
+        V p[rows];
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = _mm256_fnmadd_pd(d2[k], r[k], splat(1));
+        FOR_ROWS p[k] = fma(d2[k], splat(35.0 / 128), splat(5.0 / 16));
+        FOR_ROWS p[k] = fma(p[k], d2[k], splat(3.0 / 8));
+        FOR_ROWS p[k] = fma(p[k], d2[k], splat(0.5));
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = fma(p[k], d2[k], r[k]);
     }
-    static V near_difference(V d2, V cutoff2, V smooth) {
-        const V apart = _mm256_cmp_pd(d2, splat_real(0x1p-120), _CMP_GT_OQ);
-        const V close = _mm256_cmp_pd(d2, cutoff2, _CMP_LT_OQ);
-        return _mm256_and_pd(_mm256_sub_pd(inverse_root(d2), smooth), _mm256_and_pd(apart, close));
+    // w - smooth where there is a w and d2 < cutoff2.
+    static V near_difference(V w, V smooth, V d2, V cutoff2) {
+        const V inside =
+            _mm256_and_pd(_mm256_cmp_pd(w, _mm256_setzero_pd(), _CMP_NEQ_OQ), _mm256_cmp_pd(d2, cutoff2, _CMP_LT_OQ));
+        return _mm256_and_pd(_mm256_sub_pd(w, smooth), inside);
     }
 };
 
@@ -54,7 +60,7 @@ struct Single {
     using V = __m256;
     using C = __m256i;
     static constexpr std::size_t W = 8;
-    static constexpr int rows = 4;
+    static constexpr int rows = 2;
     static C load(const std::int32_t* p) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)); }
     static C splat(std::int32_t a) { return _mm256_set1_epi32(a); }
     static V difference(C a, C b) { return _mm256_cvtepi32_ps(_mm256_sub_epi32(a, b)); }
@@ -68,12 +74,14 @@ struct Single {
         b = _mm_add_ps(b, _mm_movehl_ps(b, b));
         return _mm_cvtss_f32(_mm_add_ss(b, _mm_movehdup_ps(b)));
     }
-    // Twice 1/d (kSingleWeight): one Newton step on rsqrtps without its factor 1/2.
-    static V inverse_distance(V d2) {
-        const V apart = _mm256_cmp_ps(d2, _mm256_setzero_ps(), _CMP_GT_OQ);
-        const V r = _mm256_rsqrt_ps(d2);
-        const V e = _mm256_fnmadd_ps(mul(d2, r), r, splat_real(3));
-        return _mm256_and_ps(mul(r, e), apart);
+    static V root_estimate(V d2) {
+        return _mm256_and_ps(_mm256_rsqrt_ps(d2), _mm256_cmp_ps(d2, _mm256_setzero_ps(), _CMP_GT_OQ));
+    }
+    // Twice 1/d (kSingleWeight): one Newton step without its factor 1/2.
+    static void refine(V* d2, const V* r) {
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = _mm256_fnmadd_ps(d2[k], r[k], splat_real(3));
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
     }
 };
 

@@ -1,5 +1,5 @@
-// Pair loops with AVX-512 (F, DQ, VL): 8 lanes in double, 16 in single precision. Compiled with flags of its own: includes nothing
-// that could leave an inline function in this object for others to link to.
+// Pair loops with AVX-512 (F, DQ, VL): 8 lanes in double, 16 in single precision. Compiled with flags of its own: includes
+// nothing that could leave an inline function in this object for others to link to.
 #include "contact/pairs_kernel.hpp"
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
@@ -8,6 +8,8 @@
 
 // GCC 12's own header passes registers it declares undefined (GCC bug 105593).
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+#define FOR_ROWS _Pragma("GCC unroll 8") for (int k = 0; k < rows; ++k)
 
 namespace rsc {
 namespace {
@@ -32,21 +34,22 @@ struct Double {
         const __m128d c = _mm_add_pd(_mm256_castpd256_pd128(b), _mm256_extractf128_pd(b, 1));
         return _mm_cvtsd_f64(_mm_add_sd(c, _mm_unpackhi_pd(c, c)));
     }
-    // 14 bits from rsqrt14, then the binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2, |h| < 1.3e-4: the first term left out is 7e-17.
-    static V refine(V d2, V r) {
-        const V h = _mm512_fnmadd_pd(_mm512_mul_pd(d2, r), r, splat_real(1));
-        V p = fma(h, splat_real(5.0 / 16), splat_real(3.0 / 8));
-        p = fma(p, h, splat_real(0.5));
-        return fma(mul(p, h), r, r);
+    // 14 bits; 0 for points that coincide.
+    static V root_estimate(V d2) { return _mm512_maskz_rsqrt14_pd(_mm512_cmp_pd_mask(d2, splat(0x1p-120), _CMP_GT_OQ), d2); }
+    // The binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2, |h| < 1.3e-4: the first term left out is 7e-17. r = 0 stays 0.
+    static void refine(V* d2, const V* r) {
+        V p[rows];
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = _mm512_fnmadd_pd(d2[k], r[k], splat(1));
+        FOR_ROWS p[k] = fma(d2[k], splat(5.0 / 16), splat(3.0 / 8));
+        FOR_ROWS p[k] = fma(p[k], d2[k], splat(0.5));
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = fma(p[k], d2[k], r[k]);
     }
-    static V inverse_distance(V d2) {
-        const __mmask8 apart = _mm512_cmp_pd_mask(d2, splat_real(0x1p-120), _CMP_GT_OQ);
-        return refine(d2, _mm512_maskz_rsqrt14_pd(apart, d2));  // r = 0 stays 0
-    }
-    static V near_difference(V d2, V cutoff2, V smooth) {
-        const __mmask8 apart = _mm512_cmp_pd_mask(d2, splat_real(0x1p-120), _CMP_GT_OQ);
-        const __mmask8 both = _mm512_mask_cmp_pd_mask(apart, d2, cutoff2, _CMP_LT_OQ);
-        return _mm512_maskz_sub_pd(both, refine(d2, _mm512_rsqrt14_pd(d2)), smooth);
+    // w - smooth where there is a w and d2 < cutoff2.
+    static V near_difference(V w, V smooth, V d2, V cutoff2) {
+        const __mmask8 inside = _mm512_mask_cmp_pd_mask(_mm512_cmp_pd_mask(d2, cutoff2, _CMP_LT_OQ), w, splat(0), _CMP_NEQ_OQ);
+        return _mm512_maskz_sub_pd(inside, w, smooth);
     }
 };
 
@@ -71,11 +74,12 @@ struct Single {
         c = _mm_add_ps(c, _mm_movehl_ps(c, c));
         return _mm_cvtss_f32(_mm_add_ss(c, _mm_movehdup_ps(c)));
     }
-    // Twice 1/d (kSingleWeight): one Newton step on rsqrt14 without its factor 1/2; r = 0 stays 0.
-    static V inverse_distance(V d2) {
-        const __mmask16 apart = _mm512_cmp_ps_mask(d2, _mm512_setzero_ps(), _CMP_GT_OQ);
-        const V r = _mm512_maskz_rsqrt14_ps(apart, d2);
-        return mul(r, _mm512_fnmadd_ps(mul(d2, r), r, splat_real(3)));
+    static V root_estimate(V d2) { return _mm512_maskz_rsqrt14_ps(_mm512_cmp_ps_mask(d2, splat_real(0), _CMP_GT_OQ), d2); }
+    // Twice 1/d (kSingleWeight): one Newton step without its factor 1/2.
+    static void refine(V* d2, const V* r) {
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = _mm512_fnmadd_ps(d2[k], r[k], splat_real(3));
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
     }
 };
 

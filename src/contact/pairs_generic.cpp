@@ -24,14 +24,20 @@ struct Lane {
 };
 
 struct Double : Lane<double, double> {
-    static double inverse_distance(double d2) { return d2 > 0x1p-120 ? 1 / __builtin_sqrt(d2) : 0; }
-    static double near_difference(double d2, double cutoff2, double smooth) {
-        return d2 > 0x1p-120 && d2 < cutoff2 ? 1 / __builtin_sqrt(d2) - smooth : 0;
+    static double root_estimate(double d2) { return d2 > 0x1p-120 ? 1 / __builtin_sqrt(d2) : 0; }
+    static void refine(double* w, const double* r) {
+        for (int k = 0; k < rows; ++k) w[k] = r[k];
+    }
+    static double near_difference(double w, double smooth, double d2, double cutoff2) {
+        return w != 0 && d2 < cutoff2 ? w - smooth : 0;
     }
 };
 
 struct Single : Lane<float, std::int32_t> {
-    static float inverse_distance(float d2) { return d2 > 0 ? 2 / __builtin_sqrtf(d2) : 0; }  // twice 1/d (kSingleWeight)
+    static float root_estimate(float d2) { return d2 > 0 ? 1 / __builtin_sqrtf(d2) : 0; }
+    static void refine(float* w, const float* r) {
+        for (int k = 0; k < rows; ++k) w[k] = 2 * r[k];  // kSingleWeight
+    }
 };
 
 #include "contact/pairs_kernel.inl"

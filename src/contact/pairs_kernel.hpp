@@ -1,5 +1,5 @@
-// The table of pair loops that one instruction set provides. Inside the room only; plain declarations, because the files that fill
-// the table are compiled with different flags and must not share inline functions.
+// The table of pair loops that one instruction set provides. Inside the room only; plain declarations, because the files that
+// fill the table are compiled with different flags and must not share inline functions.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace rsc {
 constexpr std::size_t kPairPadding = 16;  // every count and stride is a multiple of it, arrays need no alignment
 constexpr int kNearDegree = 24;           // the largest degree of a near-field polynomial
 
-constexpr double kSingleWeight = 2;         // the single precision loops return this times phi
+constexpr double kSingleWeight = 2;  // the single precision loops return this times phi
 
 // Short-range kernel w(d) = 1/d - sum_k c[k] (d^2)^k for 0 < d^2 < cutoff2, 0 elsewhere.
 struct NearKernel {
@@ -39,8 +39,8 @@ struct PairKernels {
     PairLoops<float, std::int32_t> single;
     // The same with a short-range kernel instead of 1/d.
     void (*near_self)(const NearKernel& kernel, std::size_t n, const double* x, const double* y, const double* f, double* phi);
-    void (*near_cross)(const NearKernel& kernel, std::size_t ni, const double* xi, const double* yi, const double* fi, double* phi_i,
-                       std::size_t nj, const double* xj, const double* yj, const double* fj, double* phi_j);
+    void (*near_cross)(const NearKernel& kernel, std::size_t ni, const double* xi, const double* yi, const double* fi,
+                       double* phi_i, std::size_t nj, const double* xj, const double* yj, const double* fj, double* phi_j);
 };
 
 // The table for "generic", "sse2", "avx2" or "avx512"; nullptr if this build or this processor has not got it.

@@ -5,6 +5,8 @@
 
 #include <emmintrin.h>
 
+#define FOR_ROWS _Pragma("GCC unroll 8") for (int k = 0; k < rows; ++k)
+
 namespace rsc {
 namespace {
 
@@ -24,19 +26,25 @@ struct Double {
     static V mul(V a, V b) { return _mm_mul_pd(a, b); }
     static V fma(V a, V b, V c) { return _mm_add_pd(_mm_mul_pd(a, b), c); }
     static double sum(V a) { return _mm_cvtsd_f64(_mm_add_sd(a, _mm_unpackhi_pd(a, a))); }
-    // As with AVX2; d2 r^2 is rounded here before it is taken from 1, which costs half a unit of the last place.
-    static V inverse_root(V d2) {
-        const V r = _mm_cvtps_pd(_mm_rsqrt_ps(_mm_cvtpd_ps(d2)));
-        const V h = _mm_sub_pd(splat_real(1), mul(mul(d2, r), r));
-        V p = fma(h, splat_real(35.0 / 128), splat_real(5.0 / 16));
-        p = fma(p, h, splat_real(3.0 / 8));
-        p = fma(p, h, splat_real(0.5));
-        return fma(mul(p, h), r, r);
+    // 12 bits from rsqrtps; 0 for points that coincide.
+    static V root_estimate(V d2) {
+        const __m128 a = _mm_cvtpd_ps(d2);
+        return _mm_cvtps_pd(_mm_and_ps(_mm_rsqrt_ps(a), _mm_cmpgt_ps(a, _mm_set1_ps(0x1p-120f))));
     }
-    static V inverse_distance(V d2) { return _mm_and_pd(inverse_root(d2), _mm_cmpgt_pd(d2, splat_real(0x1p-120))); }
-    static V near_difference(V d2, V cutoff2, V smooth) {
-        const V apart = _mm_cmpgt_pd(d2, splat_real(0x1p-120)), close = _mm_cmplt_pd(d2, cutoff2);
-        return _mm_and_pd(_mm_sub_pd(inverse_root(d2), smooth), _mm_and_pd(apart, close));
+    // As with AVX2; d2 r^2 is rounded here before it is taken from 1, which costs half a unit of the last place.
+    static void refine(V* d2, const V* r) {
+        V p[rows];
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = _mm_sub_pd(splat(1), mul(d2[k], r[k]));
+        FOR_ROWS p[k] = fma(d2[k], splat(35.0 / 128), splat(5.0 / 16));
+        FOR_ROWS p[k] = fma(p[k], d2[k], splat(3.0 / 8));
+        FOR_ROWS p[k] = fma(p[k], d2[k], splat(0.5));
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = fma(p[k], d2[k], r[k]);
+    }
+    // w - smooth where there is a w and d2 < cutoff2.
+    static V near_difference(V w, V smooth, V d2, V cutoff2) {
+        return _mm_and_pd(_mm_sub_pd(w, smooth), _mm_and_pd(_mm_cmpneq_pd(w, _mm_setzero_pd()), _mm_cmplt_pd(d2, cutoff2)));
     }
 };
 
@@ -59,11 +67,12 @@ struct Single {
         const V b = _mm_add_ps(a, _mm_movehl_ps(a, a));
         return _mm_cvtss_f32(_mm_add_ss(b, _mm_shuffle_ps(b, b, 1)));
     }
-    // Twice 1/d (kSingleWeight): one Newton step on rsqrtps without its factor 1/2.
-    static V inverse_distance(V d2) {
-        const V r = _mm_rsqrt_ps(d2);
-        const V e = _mm_sub_ps(splat_real(3), mul(mul(d2, r), r));
-        return _mm_and_ps(mul(r, e), _mm_cmpgt_ps(d2, _mm_setzero_ps()));
+    static V root_estimate(V d2) { return _mm_and_ps(_mm_rsqrt_ps(d2), _mm_cmpgt_ps(d2, _mm_setzero_ps())); }
+    // Twice 1/d (kSingleWeight): one Newton step without its factor 1/2.
+    static void refine(V* d2, const V* r) {
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
+        FOR_ROWS d2[k] = _mm_sub_ps(splat_real(3), mul(d2[k], r[k]));
+        FOR_ROWS d2[k] = mul(d2[k], r[k]);
     }
 };
 
