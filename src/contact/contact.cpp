@@ -1,0 +1,394 @@
+#include "contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numeric>
+
+#include "contact/dgesv.hpp"
+#include "contact/pairs.hpp"
+#include "contact/uniqueness.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+double height_under_sphere(const Indenter& indenter, double x, double y, double z) {
+    if (std::isinf(indenter.R)) return z;
+    const double dx = x - indenter.x0, dy = y - indenter.y0, rho2 = dx * dx + dy * dy, R = indenter.R;
+    if (rho2 > R * R) return -kInfinity;
+    return z - rho2 / (R + std::sqrt(R * R - rho2));  // sqrt(R^2 - rho^2) - R without its cancellation
+}
+
+struct Contact::Impl {
+    const Asperities& asperities;
+    Indenter indenter;
+    SolverOptions options;
+    std::unique_ptr<Law> law;
+
+    // Asperities by falling height under the sphere, so that the candidates of a level are the first ones; sorted as far as the
+    // deepest level asked for.
+    struct Ranked {
+        double height;
+        int asperity;
+        bool operator<(const Ranked& other) const {
+            return height != other.height ? height > other.height : asperity < other.asperity;
+        }
+    };
+    std::vector<Ranked> ranked;
+    std::size_t sorted = 0;
+
+    // The candidates of the level at hand, and the answer.
+    WorkingSet candidates;
+    std::vector<std::size_t> rank;  // of each candidate
+    Vector v, force, slope;
+
+    std::unique_ptr<Products> products;
+    Newton newton;
+    WorkingSet working;
+    Vector working_v;
+
+    // Earlier levels: B F by rank, from which the next is predicted.
+    struct Past {
+        double separation;
+        Vector phi;
+    };
+    std::deque<Past> past;
+    bool past_unique = true;
+
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_)
+        : asperities(asperities_),
+          indenter(indenter_),
+          options(options_),
+          law(make_law(options_.law, asperities_, indenter_.E_star)),
+          products(make_direct_products(options_.interaction == Interaction::none ? kInfinity : indenter_.E_star)),
+          newton(*law, *products) {
+        if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) {
+            throw Error(Failure::bad_input, "E* must be positive and finite");
+        }
+        if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
+        ranked.reserve(asperities.size());
+        for (std::size_t i = 0; i < asperities.size(); ++i) {
+            const double h = height_under_sphere(indenter, asperities.x[i], asperities.y[i], asperities.z[i]);
+            if (h > -kInfinity) ranked.push_back({h, static_cast<int>(i)});
+        }
+    }
+
+    double E_star() const { return products->modulus(); }
+
+    void select(double Z0);
+    NewtonOutcome solve_from(const Vector& start);
+    bool predict(double Z0, Vector& start) const;
+    Vector cold_start();
+    bool one_solution() const { return has_one_solution(*law, E_star(), candidates.asperity, candidates.x, candidates.y, v, force, slope); }
+    void remember(double Z0, bool unique);
+    Level report(double Z0) const;
+};
+
+// Candidates: g0 > 0; B F >= 0 only lowers the surface, so nothing else can touch. The paper's selection drops also those outside
+// r0 = 1.5 sqrt(2 (4 sigma - Z0) R).
+void Contact::Impl::select(double Z0) {
+    const auto rest = ranked.begin() + static_cast<std::ptrdiff_t>(sorted);
+    const auto end = std::partition(rest, ranked.end(), [Z0](const Ranked& r) { return r.height > Z0; });
+    std::sort(rest, end);
+    sorted = static_cast<std::size_t>(end - ranked.begin());
+    const auto last = std::partition_point(ranked.begin(), end, [Z0](const Ranked& r) { return r.height > Z0; });
+
+    double r0_squared = kInfinity;
+    if (options.selection == Selection::paper) {
+        const double depth = std::max(0.0, 4 * options.sigma - Z0);
+        r0_squared = options.selection_factor * options.selection_factor * 2 * depth * indenter.R;
+    }
+    candidates = {};
+    rank.clear();
+    for (auto r = ranked.begin(); r != last; ++r) {
+        const auto i = at(r->asperity);
+        const double dx = asperities.x[i] - indenter.x0, dy = asperities.y[i] - indenter.y0;
+        if (dx * dx + dy * dy > r0_squared) continue;
+        rank.push_back(static_cast<std::size_t>(r - ranked.begin()));
+        candidates.asperity.push_back(r->asperity);
+        candidates.x.push_back(asperities.x[i]);
+        candidates.y.push_back(asperities.y[i]);
+        candidates.g0.push_back(r->height - Z0);
+    }
+}
+
+// The no-interaction forces F = f(<g0 - s>) of a sphere held higher by s, where s is the mean of B F over those forces: the mean field
+// of the interaction. Found by bisection, with a fixed number of products.
+Vector Contact::Impl::cold_start() {
+    const int n = candidates.size();
+    Vector start(at(n)), F(at(n)), D(at(n)), W(at(n)), active_F, phi(at(n));
+    std::vector<int> active;
+    products->set_points(n, candidates.x.data(), candidates.y.data());
+    double low = 0, high = candidates.g0.front();
+    for (double g : candidates.g0) high = std::max(high, g);
+    constexpr int bisections = 6;
+    for (int i = 0; i < bisections; ++i) {
+        const double s = 0.5 * (low + high);
+        for (std::size_t k = 0; k < at(n); ++k) start[k] = candidates.g0[k] - s;
+        law->respond(n, candidates.asperity.data(), start.data(), F.data(), D.data(), W.data());
+        active.clear();
+        active_F.clear();
+        double total = 0, weighted = 0;
+        for (int k = 0; k < n; ++k) {
+            if (!(F[at(k)] > 0)) continue;
+            active.push_back(k);
+            active_F.push_back(F[at(k)]);
+            total += F[at(k)];
+        }
+        products->set_active(active);
+        products->inner(active_F.data(), phi.data());
+        for (std::size_t k = 0; k < active.size(); ++k) weighted += active_F[k] * phi[k];
+        (weighted > s * total ? low : high) = s;
+    }
+    for (std::size_t k = 0; k < at(n); ++k) start[k] = candidates.g0[k] - low;
+    return start;
+}
+
+// From a start over the candidates to the solution v, force, slope over the candidates. Candidates far from touching are left out
+// of the working set, checked at the end, and taken in where they do touch after all.
+NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
+    const std::size_t n = at(candidates.size());
+    const double highest = *std::max_element(start.begin(), start.end());
+    std::vector<char> in(n);
+    for (std::size_t k = 0; k < n; ++k) in[k] = start[k] > -0.1 * highest;
+    v = start;
+    NewtonOutcome total;
+    std::vector<std::size_t> inside, outside;
+    Vector xo, yo, phi;
+    for (;;) {
+        inside.clear();
+        outside.clear();
+        working = {};
+        working_v.clear();
+        for (std::size_t k = 0; k < n; ++k) {
+            if (!in[k]) {
+                outside.push_back(k);
+                continue;
+            }
+            inside.push_back(k);
+            working.asperity.push_back(candidates.asperity[k]);
+            working.x.push_back(candidates.x[k]);
+            working.y.push_back(candidates.y[k]);
+            working.g0.push_back(candidates.g0[k]);
+            working_v.push_back(v[k]);
+        }
+        products->set_points(working.size(), working.x.data(), working.y.data());
+        const auto outcome = newton.solve(working, options.tolerance, options.max_iterations - total.iterations, working_v);
+        total.iterations += outcome.iterations;
+        total.converged = outcome.converged;
+        total.minimum = outcome.minimum;
+        total.residual = outcome.residual;
+        force.assign(n, 0.0);
+        slope.assign(n, 0.0);
+        for (std::size_t k = 0; k < inside.size(); ++k) {
+            force[inside[k]] = newton.force()[k];
+            slope[inside[k]] = newton.slope()[k];
+            v[inside[k]] = working_v[k] > 0 ? working_v[k] : candidates.g0[inside[k]] - newton.phi()[k];
+        }
+        if (outside.empty()) break;
+        xo.clear();
+        yo.clear();
+        for (std::size_t k : outside) {
+            xo.push_back(candidates.x[k]);
+            yo.push_back(candidates.y[k]);
+        }
+        phi.resize(outside.size());
+        newton.potential_at(outside.size(), xo.data(), yo.data(), phi.data());
+        bool complete = true;
+        for (std::size_t k = 0; k < outside.size(); ++k) {
+            v[outside[k]] = candidates.g0[outside[k]] - phi[k];
+            // Single precision decides only what it can: within its error of touching, the point joins the working set.
+            if (v[outside[k]] > -1e-4 * phi[k]) {
+                in[outside[k]] = 1;
+                complete = false;
+            }
+        }
+        if (complete || !total.converged) break;
+    }
+    return total;
+}
+
+// B F extrapolated through earlier levels, rank by rank; candidates without a past are taken not to touch (they are checked).
+bool Contact::Impl::predict(double Z0, Vector& start) const {
+    if (past.empty() || !past_unique) return false;
+    std::size_t used = 1;
+    while (used < past.size() && used < 4) {
+        const double gap = std::abs(past[used - 1].separation - past[used].separation);
+        if (!(gap > 0) || std::abs(Z0 - past[0].separation) > 2.5 * gap) break;
+        ++used;
+    }
+    double weight[4];
+    for (std::size_t a = 0; a < used; ++a) {
+        weight[a] = 1;
+        for (std::size_t b = 0; b < used; ++b) {
+            if (b != a) weight[a] *= (Z0 - past[b].separation) / (past[a].separation - past[b].separation);
+        }
+    }
+    start.resize(rank.size());
+    bool any = false;
+    for (std::size_t k = 0; k < rank.size(); ++k) {
+        double phi = 0;
+        bool known = true;
+        for (std::size_t a = 0; a < used && known; ++a) {
+            known = rank[k] < past[a].phi.size();
+            if (known) phi += weight[a] * past[a].phi[rank[k]];
+        }
+        if (!known && rank[k] < past[0].phi.size()) {
+            phi = past[0].phi[rank[k]];
+            known = true;
+        }
+        start[k] = known && std::isfinite(phi) ? candidates.g0[k] - phi : -kInfinity;
+        any = any || start[k] > 0;
+    }
+    return any;
+}
+
+void Contact::Impl::remember(double Z0, bool unique) {
+    past_unique = unique;
+    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, std::numeric_limits<double>::quiet_NaN())};
+    for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.g0[k] - v[k];
+    past.push_front(std::move(level));
+    if (past.size() > 4) past.pop_back();
+}
+
+Level Contact::Impl::report(double Z0) const {
+    Level level;
+    level.separation = Z0;
+    level.candidates = candidates.size();
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        if (force[k] > 0) order.push_back(k);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return candidates.asperity[a] < candidates.asperity[b]; });
+    Vector x, y;
+    for (std::size_t k : order) {
+        const double area = law->area(candidates.asperity[k], v[k]);
+        level.asperity.push_back(candidates.asperity[k]);
+        level.f.push_back(force[k]);
+        level.a.push_back(std::sqrt(area / std::numbers::pi));
+        level.u.push_back(v[k]);
+        level.force += force[k];
+        level.area += area;
+        level.large_contacts += options.mean_spacing > 0 && level.a.back() > options.mean_spacing / 4;
+        x.push_back(candidates.x[k]);
+        y.push_back(candidates.y[k]);
+    }
+    level.overlapping_pairs = count_overlapping(x, y, level.a);
+    if (level.large_contacts > 0) level.status = LevelStatus::out_of_validity;
+    if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
+    return level;
+}
+
+Contact::Contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
+Contact::~Contact() = default;
+Contact::Contact(Contact&&) noexcept = default;
+
+Level Contact::at_separation(double Z0) {
+    Impl& my = *impl_;
+    if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
+    my.select(Z0);
+    if (my.candidates.size() == 0) {
+        my.v.clear();
+        my.force.clear();
+        my.slope.clear();
+        my.remember(Z0, true);
+        return my.report(Z0);
+    }
+    const long products_before = my.products->count();
+    NewtonOutcome outcome;
+    int iterations = 0;
+    bool unique = false;
+    const bool dense = my.options.method == Method::dgesv;
+    if (dense) {
+        const PaperMethod method{my.options.delta0 * my.options.sigma, my.options.delta_cut, my.options.tolerance,
+                                 my.options.max_iterations};
+        const auto paper = solve_by_dgesv(*my.law, my.E_star(), my.candidates, method, my.v, my.force);
+        iterations = paper.iterations;
+        outcome.converged = paper.converged;
+        outcome.residual = paper.residual;
+        my.slope.resize(my.v.size());
+        Vector target(my.v.size()), work(my.v.size());
+        my.law->respond(my.candidates.size(), my.candidates.asperity.data(), my.v.data(), target.data(), my.slope.data(), work.data());
+        unique = paper.converged && my.one_solution();
+    } else {
+        Vector start;
+        if (my.predict(Z0, start)) {
+            outcome = my.solve_from(start);
+            iterations = outcome.iterations;
+            unique = outcome.converged && my.one_solution();
+        }
+    }
+    if (!unique) {  // the rule that defines the answer: from the no-interaction start, downhill to a minimum
+        outcome = my.solve_from(my.cold_start());
+        iterations += outcome.iterations;
+        unique = outcome.converged && my.one_solution();
+    }
+    my.remember(Z0, unique);
+    Level level = my.report(Z0);
+    level.iterations = iterations;
+    level.products = my.products->count() - products_before;
+    level.residual = outcome.residual;
+    level.method = dense ? Method::dgesv : Method::direct;
+    if (!unique) level.status = LevelStatus::not_unique;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    return level;
+}
+
+// Newton on ln N(Z0), whose slope the stiffness gives, kept inside a bracket that shrinks at every level.
+Level Contact::at_force(double N) {
+    Impl& my = *impl_;
+    if (!(N > 0) || !std::isfinite(N)) throw Error(Failure::bad_input, "the force must be positive and finite");
+    double above = -kInfinity;  // separations that carry less
+    for (const auto& r : my.ranked) above = std::max(above, r.height);
+    if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the sphere: no force can be carried");
+    double below = -kInfinity;  // separations that carry more
+    // A first depth: what the highest asperity alone would need.
+    const auto highest = std::min_element(my.ranked.begin(), my.ranked.end())->asperity;
+    double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
+    while (my.law->force(highest, depth) < N) depth *= 2;
+    double Z0 = my.past.empty() || my.force.empty() ? above - 0.25 * depth : my.past.front().separation;
+    Level level;
+    int iterations = 0;
+    long products = 0;
+    constexpr int most = 200;
+    for (int i = 0; i < most; ++i) {
+        level = at_separation(Z0);
+        iterations += level.iterations;
+        products += level.products;
+        const double miss = level.force / N - 1;
+        if (std::abs(miss) <= my.options.tolerance || level.status == LevelStatus::not_converged) break;
+        (miss < 0 ? above : below) = Z0;
+        double next = level.force > 0 ? Z0 - std::log1p(miss) * level.force / stiffness() : -kInfinity;
+        if (std::isinf(below)) {
+            const double furthest = above - std::max(2 * (my.past.size() > 1 ? above - Z0 : 0.0) + depth, 0.0);
+            next = std::isfinite(next) ? std::max(next, furthest) : furthest;
+            depth *= 2;
+        }
+        if (!(next < above) || !(next > below)) next = std::isinf(below) ? above - depth : 0.5 * (above + below);
+        if (next == Z0 || next >= above || next <= below) {  // a jump of N(Z0): no separation carries N
+            level.status = std::max(level.status, LevelStatus::not_unique);
+            if (std::abs(miss) > my.options.tolerance) level.status = LevelStatus::not_converged;
+            break;
+        }
+        Z0 = next;
+        if (i + 1 == most) level.status = LevelStatus::not_converged;
+    }
+    level.iterations = iterations;
+    level.products = products;
+    return level;
+}
+
+double Contact::stiffness() { return impl_->newton.stiffness(1e-10); }
+
+}  // namespace rsc

@@ -1,0 +1,55 @@
+// Products with the interaction matrix B, B_ij = 1/(pi E* d_ij), B_ii = 0 (paper, section 4), without the matrix.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/indentation.hpp"
+
+namespace rsc {
+
+// The solver works on a set of points, of which some, the active ones, carry force. `full` is what answers are judged by;
+// `inner` is what iterations are made of, and may be less accurate.
+class Products {
+public:
+    virtual ~Products() = default;
+
+    // The working set; coordinates are copied.
+    virtual void set_points(int n, const double* x, const double* y) = 0;
+    // Positions in the working set that carry force, increasing. Valid until the next set_points.
+    virtual void set_active(const std::vector<int>& active) = 0;
+    // With `precise`, inner products are taken as accurately as full ones.
+    virtual void set_precise(bool precise) = 0;
+
+    // phi = B f at the active points; f, phi in the order of the active list.
+    virtual void inner(const double* f, double* phi) = 0;
+    // phi = B f at the passive points (those not active, increasing); f over the active list; accuracy of `inner`.
+    virtual void inner_passive(const double* f, double* phi) = 0;
+    // phi = B f of the active points at n other places, in single precision at best.
+    virtual void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) = 0;
+    // phi = B f at every point of the working set, in full accuracy; f over the active list.
+    virtual void full(const double* f, double* phi) = 0;
+
+    double modulus() const { return E_star_; }  // Infinity: B = 0
+
+    // Relative error (2-norm) of full products.
+    virtual double full_error() const = 0;
+    const std::vector<int>& active() const { return active_; }
+    const std::vector<int>& passive() const { return passive_; }
+    long count() const { return count_; }  // products taken so far, a full one counting as one
+
+protected:
+    explicit Products(double E_star) : E_star_(E_star) {}
+    // Fills passive_ with the positions below n that are not in active_.
+    void complement(int n);
+    std::vector<int> active_, passive_;
+    double E_star_;
+    long count_ = 0;
+};
+
+// Direct sums over pairs. E_star = Infinity makes B = 0 (no interaction).
+std::unique_ptr<Products> make_direct_products(double E_star);
+// Particle-mesh sums; relative errors of full and inner products (2-norm).
+std::unique_ptr<Products> make_mesh_products(double E_star, double full_error, double inner_error);
+
+}  // namespace rsc
