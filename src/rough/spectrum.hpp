@@ -23,11 +23,28 @@ struct Moments {
     double mean_radius() const;                           // the paper's r_g = 1/<kappa_g> = 0.737/sqrt(m4) [length]
 };
 
-// Closed forms of the continuous spectrum, scaled so that m0 = sigma^2.
+// Throws Error(bad_input) naming the member unless L > 0, 0 <= hurst <= 1, 1 <= L_lambda_l <= L_lambda_s (strictly less without
+// the plateau), sigma > 0, all finite, and at least one mode lies in the band.
+void check(const Spectrum& spectrum);
+
+// Closed forms of the continuous spectrum, scaled so that m0 = sigma^2. Throws as check().
 Moments theoretical_moments(const Spectrum& spectrum);
 
+// The same of the modes a periodic L x L square has (integer wavevectors), scaled so that m0 = sigma^2: what the sampled
+// moments are in expectation. A sum over all modes: takes time in proportion to L_lambda_s^2. Throws as check().
+Moments discrete_moments(const Spectrum& spectrum);
+
 // Relative PSD (Phi / Phi0) of the mode with integer wavevector of squared length q2 (K = (2 pi / L) sqrt(q2));
-// 0 outside the band. A mode exactly at K = kl belongs to the surface either way.
+// 0 outside the band. A mode exactly at K = kl (or ks) belongs to the surface either way, to a relative 1e-12 of q2.
 double relative_psd(const Spectrum& spectrum, double q2);
+
+// The band in integer wavevectors, the tolerance at its ends included.
+struct Band {
+    double lowest_q2 = 0;      // smallest q2 of the power law
+    double highest_q2 = 0;     // largest q2 of all
+    int highest_kx = 0;        // floor(sqrt(highest_q2))
+    int highest_ky(int kx) const;  // largest ky with kx^2 + ky^2 <= highest_q2
+};
+Band band(const Spectrum& spectrum);
 
 }  // namespace rsc

@@ -33,15 +33,19 @@ enum class Normalise { sample, ensemble };
 enum class Detrend { none, mean, plane };
 
 // Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
-// integer wavevector) alone. `sampled` (optional) receives the isotropic moments summed exactly over the modes drawn.
+// integer wavevector) alone, so that the surface is the same on every grid that holds its modes: L_lambda_s <= n/2, or
+// Error(bad_input). The rms height is sigma: of this surface over its points (sample), or in expectation (ensemble).
+// `sampled` (optional) receives the isotropic moments summed exactly over the modes drawn. The bits do not depend on `threads`.
+// make_asperities() of asperities.hpp finds the summits of the same surface without ever storing it.
 HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                     Moments* sampled = nullptr);
+                     Moments* sampled = nullptr, int threads = 1);
 
 // Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): beside the spectral ones they
-// say how well the grid resolves lambda_s.
+// say how well the grid resolves lambda_s. First differences between neighbours give m20, m02; second differences m40, m04, m22.
+// A map that is not periodic gives what lies inside it; too small a map gives zeros.
 Moments grid_moments(const HeightMap& map);
 
-// Subtracts the mean or the least-squares plane in place; returns the rms height left.
+// Subtracts the mean or the least-squares plane in place; returns the rms height left, about its mean.
 double detrend(HeightMap& map, Detrend how);
 
 }  // namespace rsc

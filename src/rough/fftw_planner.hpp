@@ -1,0 +1,28 @@
+// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds this lock.
+// Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
+#pragma once
+
+#include <fftw3.h>
+
+#include <memory>
+#include <mutex>
+#include <type_traits>
+
+namespace rsc {
+
+inline std::mutex& fftw_planner_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+struct FftwPlanDestroyer {
+    void operator()(fftw_plan plan) const noexcept {
+        const std::lock_guard lock(fftw_planner_mutex());
+        fftw_destroy_plan(plan);
+    }
+};
+
+// Owns a plan; executing it from several threads at once, each on its own arrays, is safe (fftw_execute_dft and its kin).
+using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwPlanDestroyer>;
+
+}  // namespace rsc

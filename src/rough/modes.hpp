@@ -1,0 +1,26 @@
+// The modes of a random surface, drawn column by column of the half plane kx > 0, or kx = 0 and ky > 0 (the other half is its
+// mirror image: the surface is real). A surface is z(x, y) = sum over the half plane of 2 Re[c exp(2 pi i (kx x + ky y)/L)].
+#pragma once
+
+#include <complex>
+
+#include "rough/noise.hpp"
+#include "rough/spectrum.hpp"
+
+namespace rsc {
+
+// Sums over modes, wavevectors in integers, amplitudes relative to Phi0 = 1.
+struct ModeSums {
+    double expected = 0;  // mean square height in expectation
+    double m0 = 0;        // mean square height, continuous in x and y
+    double m2 = 0;        // (m20 + m02)/2
+    double m4 = 0;        // (m40 + m04 + 3 m22)/3
+    double grid = 0;      // mean square height over the n x n points (differs from m0 by the modes at the grid's Nyquist limit)
+    void add(const ModeSums& other);
+};
+
+// Writes the Fourier coefficients of column kx (0 <= kx <= n/2) of an n x n complex-to-real transform to column[0..n), index
+// ky mod n, and zero where there is no mode. The band must fit the grid: highest_kx <= n/2.
+ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, std::complex<double>* column);
+
+}  // namespace rsc

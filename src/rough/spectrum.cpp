@@ -1,0 +1,112 @@
+#include "rough/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kEdgeTolerance = 1e-12;  // of q2: a cutoff such as 0.1*240 still holds the modes that lie on it
+constexpr double kMostModes = 46340.0;    // largest L / lambda_s: integer wavevectors and their squares stay in 32 bits
+
+[[noreturn]] void refuse(const std::string& what, double value) {
+    throw Error(Failure::bad_input, "surface: " + what + ", not " + std::to_string(value));
+}
+
+// (zeta^e - 1)/e = integral of t^(e-1) from 1 to zeta; the logarithm at e = 0, and accurate beside it.
+double power_integral(double log_zeta, double e) {
+    const double x = e * log_zeta;
+    return x == 0.0 ? log_zeta : log_zeta * std::expm1(x) / x;
+}
+
+// (1 - xi^q)/q: the plateau's part.
+double plateau_integral(double xi, double q) { return (1.0 - std::pow(xi, q)) / q; }
+
+}  // namespace
+
+double Moments::rms_slope() const { return std::sqrt(2.0 * m2); }
+double Moments::summit_density() const { return std::sqrt(3.0) * m4 / (18.0 * std::numbers::pi * m2); }
+double Moments::mean_spacing() const { return 1.0 / std::sqrt(summit_density()); }
+double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
+
+void check(const Spectrum& s) {
+    const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
+    if (!positive(s.L)) refuse("L must be positive and finite", s.L);
+    if (!(s.hurst >= 0.0 && s.hurst <= 1.0)) refuse("hurst must lie between 0 and 1", s.hurst);
+    if (!(s.L_lambda_l >= 1.0 && std::isfinite(s.L_lambda_l))) refuse("L_lambda_l must be at least 1 and finite", s.L_lambda_l);
+    if (!(s.L_lambda_s <= kMostModes)) refuse("L_lambda_s must be at most 46340", s.L_lambda_s);
+    if (!(s.plateau ? s.L_lambda_s >= s.L_lambda_l : s.L_lambda_s > s.L_lambda_l))
+        refuse("L_lambda_s must be greater than L_lambda_l = " + std::to_string(s.L_lambda_l), s.L_lambda_s);
+    if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
+    const Band b = band(s);
+    for (int kx = 0; kx <= b.highest_kx; ++kx) {
+        const int ky = b.highest_ky(kx);
+        if (relative_psd(s, static_cast<double>(kx) * kx + static_cast<double>(ky) * ky) > 0.0) return;
+    }
+    refuse("no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) + " and L_lambda_s; widen the band",
+           s.L_lambda_s);
+}
+
+int Band::highest_ky(int kx) const {
+    const double rest = highest_q2 - static_cast<double>(kx) * kx;
+    return rest < 0.0 ? -1 : static_cast<int>(std::sqrt(rest));
+}
+
+Band band(const Spectrum& s) {
+    Band b;
+    b.lowest_q2 = s.L_lambda_l * s.L_lambda_l * (1.0 - kEdgeTolerance);
+    b.highest_q2 = s.L_lambda_s * s.L_lambda_s * (1.0 + kEdgeTolerance);
+    b.highest_kx = static_cast<int>(std::sqrt(b.highest_q2));
+    return b;
+}
+
+double relative_psd(const Spectrum& s, double q2) {
+    const Band b = band(s);
+    if (!(q2 > 0.0 && q2 <= b.highest_q2)) return 0.0;
+    // The plateau begins at K = 2 pi / L, q2 = 1.
+    if (q2 < b.lowest_q2) return s.plateau && q2 >= 1.0 - kEdgeTolerance ? 1.0 : 0.0;
+    return std::pow(q2 / (s.L_lambda_l * s.L_lambda_l), -(1.0 + s.hurst));
+}
+
+// m_p = T(p) times the integral of K^(p+1) Phi(K) over K, T(p) = integral of cos^p over the circle; in units of kl.
+Moments theoretical_moments(const Spectrum& s) {
+    check(s);
+    const double kl = 2.0 * std::numbers::pi * s.L_lambda_l / s.L;
+    const double log_zeta = std::log(s.L_lambda_s / s.L_lambda_l);
+    const double xi = 1.0 / s.L_lambda_l;
+    const auto radial = [&](double p) {
+        return (s.plateau ? plateau_integral(xi, p + 2.0) : 0.0) + power_integral(log_zeta, p - 2.0 * s.hurst);
+    };
+    const double scale = s.sigma * s.sigma / (2.0 * radial(0.0));  // pi Phi0 kl^2
+    Moments m;
+    m.m0 = s.sigma * s.sigma;
+    m.m2 = scale * kl * kl * radial(2.0);
+    m.m4 = scale * 0.75 * kl * kl * kl * kl * radial(4.0);
+    return m;
+}
+
+Moments discrete_moments(const Spectrum& s) {
+    check(s);
+    const Band b = band(s);
+    const double step = 2.0 * std::numbers::pi / s.L;
+    double s0 = 0, s2 = 0, s4 = 0;
+    for (int kx = 0; kx <= b.highest_kx; ++kx) {
+        const double x2 = static_cast<double>(kx) * kx;
+        for (int ky = 0; ky <= b.highest_ky(kx); ++ky) {
+            const double y2 = static_cast<double>(ky) * ky;
+            const double copies = (kx > 0 ? 2.0 : 1.0) * (ky > 0 ? 2.0 : 1.0);
+            const double w = copies * relative_psd(s, x2 + y2);
+            s0 += w;
+            s2 += w * (x2 + y2) / 2.0;
+            s4 += w * (x2 * x2 + y2 * y2 + 3.0 * x2 * y2) / 3.0;
+        }
+    }
+    const double scale = s.sigma * s.sigma / s0;
+    return {s.sigma * s.sigma, scale * step * step * s2, scale * step * step * step * step * s4};
+}
+
+}  // namespace rsc

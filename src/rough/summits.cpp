@@ -1,0 +1,102 @@
+#include "rough/summits.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "rough/dispatch.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr int kGroup = 8;  // points tested together: one in a hundred is a summit, so most groups end with one test
+
+// Sets flags[g] where the group of points 1 + g*kGroup ... holds one that is above its eight neighbours.
+RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, const double* above, int groups,
+                                        std::uint64_t* flags) {
+    for (int g = 0; g < groups; ++g) {
+        const int first = 1 + g * kGroup;
+        std::uint64_t above_all[kGroup];
+        for (int k = 0; k < kGroup; ++k) {
+            const int i = first + k;
+            const double h = z[i];
+            const bool summit = (h > z[i - 1]) & (h > z[i + 1]) & (h > below[i - 1]) & (h > below[i]) & (h > below[i + 1]) &
+                                (h > above[i - 1]) & (h > above[i]) & (h > above[i + 1]);
+            above_all[k] = summit ? ~std::uint64_t{0} : 0;
+        }
+        std::uint64_t any = 0;
+        for (int k = 0; k < kGroup; ++k) any |= above_all[k];
+        flags[g] = any;
+    }
+}
+
+RSC_DISPATCH(flag_groups, flag_groups_body,
+             (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
+             (below, z, above, groups, flags))
+
+struct RowScan {
+    const RowPlace& place;
+    const double *below, *z, *above;
+    Curvature curvature;
+    Asperities& found;
+    long saddles = 0;
+
+    // Point i with its neighbours l and r along the row.
+    void test(int l, int i, int r) {
+        const double h = z[i];
+        if (h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] && h > above[r])
+            keep(l, i, r);
+    }
+
+    // Curvatures of the paper's section 3 (with kappa_a = |a + b|: the paper's factor 1/2 is a slip).
+    void keep(int l, int i, int r) {
+        const double h = z[i];
+        const double a = 0.5 * ((z[l] - h) + (z[r] - h)) / (place.dx * place.dx);
+        const double b = 0.5 * ((below[i] - h) + (above[i] - h)) / (place.dy * place.dy);
+        const double c = 0.125 * ((above[r] - above[l]) - (below[r] - below[l])) / (place.dx * place.dy);
+        const double gauss = 4.0 * (a * b - c * c);  // kappa1 kappa2
+        if (!(gauss > 0.0)) {
+            ++saddles;
+            return;
+        }
+        const double kappa1 = -(a + b) + std::sqrt((a - b) * (a - b) + 4.0 * c * c);
+        found.x.push_back(place.x0 + i * place.dx);
+        found.y.push_back(place.y);
+        found.z.push_back(h);
+        found.radius.push_back(curvature == Curvature::geometric ? 1.0 / std::sqrt(gauss) : -1.0 / (a + b));
+        found.kappa1.push_back(kappa1);
+        // Without the cancellation of -(a + b) - sqrt(...); rounding must not turn a circle inside out.
+        found.kappa2.push_back(std::fmin(gauss / kappa1, kappa1));
+        const double angle = 0.5 * std::atan2(2.0 * c, a - b);
+        found.angle.push_back(angle > -0.5 * std::numbers::pi ? angle : 0.5 * std::numbers::pi);
+    }
+};
+
+}  // namespace
+
+long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
+                    Asperities& found) {
+    RowScan scan{place, below, z, above, curvature, found};
+    const int nx = place.nx;
+    if (nx < 2) return 0;
+    if (place.periodic) scan.test(nx - 1, 0, 1);
+    constexpr int kBuffer = 256;
+    std::uint64_t flags[kBuffer];
+    int i = 1;
+    while (i + kGroup <= nx - 1) {
+        const int groups = (nx - 1 - i) / kGroup < kBuffer ? (nx - 1 - i) / kGroup : kBuffer;
+        flag_groups(below + (i - 1), z + (i - 1), above + (i - 1), groups, flags);
+        for (int g = 0; g < groups; ++g) {
+            if (!flags[g]) continue;
+            const int first = i + g * kGroup;
+            for (int k = first; k < first + kGroup; ++k) scan.test(k - 1, k, k + 1);
+        }
+        i += groups * kGroup;
+    }
+    for (; i < nx - 1; ++i) scan.test(i - 1, i, i + 1);
+    if (place.periodic) scan.test(nx - 2, nx - 1, 0);
+    return scan.saddles;
+}
+
+}  // namespace rsc

@@ -1,0 +1,131 @@
+#include "rough/synthesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+
+#include "error.hpp"
+#include "rough/modes.hpp"
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+fftw_complex* fftw(std::complex<double>* p) { return reinterpret_cast<fftw_complex*>(p); }
+fftw_complex* fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
+
+using Buffer = std::unique_ptr<double[], HeightMap::Free>;
+
+}  // namespace
+
+double* allocate_doubles(std::size_t n, const char* purpose) {
+    // The system may promise memory that it does not have; more than a pointer can span it cannot even promise.
+    constexpr std::size_t kMost = std::size_t{1} << 44;
+    void* p = nullptr;
+    if (n < kMost) {
+        const std::size_t bytes = std::max<std::size_t>(n, 1) * sizeof(double);
+        const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : 64;
+        p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+#if defined(__linux__)
+        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // advice only: failure costs time, nothing else
+#endif
+    }
+    if (!p) {
+        const double megabytes = static_cast<double>(n) * sizeof(double) / 1048576.0;
+        throw Error(Failure::no_memory,
+                    "no memory for " + std::string(purpose) + ": " + std::to_string(std::llround(megabytes)) + " MB asked for");
+    }
+    return static_cast<double*>(p);
+}
+
+RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
+                     int threads) {
+    check(spectrum);
+    if (n < 2 || n % 2 != 0)
+        throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
+    columns_ = band(spectrum).highest_kx + 1;
+    if (columns_ - 1 > n / 2)
+        throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot carry L_lambda_s = " +
+                                            std::to_string(spectrum.L_lambda_s) + ": n must be at least 2 L_lambda_s");
+    n_ = n;
+    column_stride_ = (n + 3) / 4 * 4 + 4;  // rows of 64 bytes, and columns not a power of two apart
+    row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
+    columns_data_.reset(allocate_doubles(2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
+                                         "the modes of a synthetic surface"));
+    draw(spectrum, normalise, seed, realization, std::max(threads, 1));
+}
+
+void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads) {
+    const NoiseKey key{seed, realization};
+    auto* const store = reinterpret_cast<std::complex<double>*>(columns_data_.get());
+    const auto doubles = static_cast<std::size_t>(2 * column_stride_);
+    std::vector<Buffer> drawn(static_cast<std::size_t>(threads));
+    for (auto& buffer : drawn) buffer.reset(allocate_doubles(doubles, "a column of a synthetic surface"));
+    Buffer row(allocate_doubles(2 * static_cast<std::size_t>(row_stride_), "a row of a synthetic surface"));
+    FftwPlan column_plan;
+    {
+        const std::lock_guard lock(fftw_planner_mutex());
+        column_plan.reset(fftw_plan_dft_1d(n_, fftw(drawn[0].get()), fftw(store), FFTW_BACKWARD, FFTW_ESTIMATE));
+        row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row.get()), row.get() + row_stride_, FFTW_ESTIMATE));
+    }
+    if (!column_plan || !row_plan_) throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
+
+    // Nothing in the loop throws. The sums go by column and are added in order, whichever thread drew them.
+    std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
+    auto& plan = *column_plan;
+    // Thread t takes the columns t, t + threads, ...: the low ones hold more modes than the high ones.
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int t = 0; t < threads; ++t) {
+        auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
+        for (int kx = t; kx < columns_; kx += threads) {
+            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, column);
+            fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
+        }
+    }
+    ModeSums total;
+    for (const ModeSums& s : sums) total.add(s);
+    const double mean_square = normalise == Normalise::sample ? total.grid : total.expected;
+    factor_ = spectrum.sigma / std::sqrt(mean_square);
+    const double step = 2.0 * std::numbers::pi / spectrum.L;
+    const double f2 = factor_ * factor_, k2 = step * step;
+    sampled_ = {f2 * total.m0, f2 * k2 * total.m2, f2 * k2 * k2 * total.m4};
+}
+
+RowSource::Scratch::Scratch(const RowSource& source)
+    : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_), "rows of a synthetic surface")) {}
+
+void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const {
+    const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
+    double* const coefficients = scratch.coefficients_.get();
+    const double factor = factor_;
+    auto& plan = *row_plan_;
+    while (count > 0) {
+        j = (j % n_ + n_) % n_;
+        const int block = std::min({count, kBlock, n_ - j});
+        for (int kx = 0; kx < columns_; ++kx) {
+            const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + j);
+            double* const to = coefficients + 2 * kx;
+            for (int r = 0; r < block; ++r) {
+                to[r * row_stride_] = factor * from[2 * r];
+                to[r * row_stride_ + 1] = factor * from[2 * r + 1];
+            }
+        }
+        for (int r = 0; r < block; ++r) {
+            double* const row = coefficients + r * row_stride_;
+            std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes there, and the last transform left its traces
+            fftw_execute_dft_c2r(&plan, fftw(row), out + r * stride);
+        }
+        j += block;
+        count -= block;
+        out += block * stride;
+    }
+}
+
+}  // namespace rsc

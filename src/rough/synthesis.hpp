@@ -1,0 +1,58 @@
+// The making of a synthetic surface, in two halves: the modes and the transforms along y of the columns that have any, then
+// the transforms along x, row by row, by whoever wants the rows. Half the transforms of a full two-dimensional one fall away,
+// and a row can be used while it is in the cache.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "rough/fftw_planner.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+// Aligned memory for n doubles, in huge pages where the system has them; throws Error(no_memory) saying what it was for.
+double* allocate_doubles(std::size_t n, const char* purpose);
+
+class RowSource {
+public:
+    // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is sound, n even and
+    // L_lambda_s <= n/2, Error(no_memory).
+    RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads);
+
+    int n() const { return n_; }
+    const Moments& sampled() const { return sampled_; }  // exact sums over the modes drawn
+
+    // Memory a thread needs to make rows.
+    class Scratch {
+    public:
+        explicit Scratch(const RowSource& source);
+
+    private:
+        friend class RowSource;
+        std::unique_ptr<double[], HeightMap::Free> coefficients_;
+    };
+
+    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows aligned to 64 bytes. The bits of a row do
+    // not depend on the call it was made by.
+    void rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const;
+
+    static constexpr int kBlock = 16;  // rows at a time for which rows() is efficient
+
+private:
+    void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads);
+
+    int n_ = 0;
+    int columns_ = 0;                 // kx = 0 ... columns_ - 1 hold modes
+    std::ptrdiff_t column_stride_ = 0;  // in complex numbers
+    std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles
+    std::unique_ptr<double[], HeightMap::Free> columns_data_;
+    double factor_ = 1;               // from relative amplitudes to lengths
+    Moments sampled_;
+    FftwPlan row_plan_;
+};
+
+}  // namespace rsc
