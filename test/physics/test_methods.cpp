@@ -1,0 +1,146 @@
+// All methods give one answer, a local minimum of the energy, on many kinds of surfaces; and a level gives the same answer alone as
+// in a series. Counts of Newton steps and products are printed, so that a regression shows.
+#include <numbers>
+
+#include "check.hpp"
+#include "contact/contact.hpp"
+#include "random_asperities.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kE = 1.0;
+constexpr double kTolerance = 1e-8;  // of the loads between methods; each is asked for a residual of 1e-11
+
+struct Family {
+    const char* name;
+    int n;
+    double spacing, sigma, radius, spread, separation, R;
+};
+
+// clustered: spacing so small that spots overlap and the energy is not convex.
+const Family kFamilies[] = {
+    {"none", 0, 0.0, 0.01, 1e-3, 0.0, 0.0, 2.5},
+    {"one", 1, 0.0, 0.01, 1e-3, 0.0, -0.2, 2.5},
+    {"ordinary", 300, 0.02, 0.01, 5e-4, 0.5, -0.01, 2.5},
+    {"flat sphere", 400, 0.015, 0.01, 5e-4, 0.5, 0.005, 1e4},
+    {"tiny radii", 300, 0.01, 0.01, 1e-9, 1.0, -0.01, 2.5},
+    {"huge radii", 100, 0.04, 0.01, 1e-1, 0.5, 0.0, 2.5},
+    {"ten decades", 200, 0.02, 0.01, 1e-5, 5.0, -0.01, 2.5},
+    {"clustered", 200, 0.0005, 0.01, 0.3, 1.0, -0.01, 2.5},
+    {"overlapping", 100, 0.0, 0.01, 3.0, 1.0, -0.03, 2.5},
+    {"thousands", 3000, 0.002, 0.01, 2e-4, 0.5, -0.01, 2.5},
+};
+
+SolverOptions options(Method method) {
+    SolverOptions o;
+    o.method = method;
+    o.tolerance = 1e-11;
+    o.sigma = 0.01;
+    return o;
+}
+
+// Lowest eigenvalue of I + S B S by power iterations on its shift: slow, independent of the solver's own test.
+double lowest_eigenvalue(const Asperities& a, const Level& level) {
+    const std::size_t n = level.f.size();
+    std::vector<double> M(n * n), w(n), image(n);
+    double bound = 0;  // the largest row sum lies above every eigenvalue
+    for (std::size_t i = 0; i < n; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < n; ++j) {
+            const auto p = static_cast<std::size_t>(level.asperity[i]), q = static_cast<std::size_t>(level.asperity[j]);
+            const double d = std::hypot(a.x[p] - a.x[q], a.y[p] - a.y[q]);
+            M[i * n + j] = i == j ? 1.0 : 2 / std::numbers::pi * std::sqrt(level.a[i] * level.a[j]) / d;
+            row += M[i * n + j];
+        }
+        bound = std::max(bound, row);
+        w[i] = std::sin(7.0 * static_cast<double>(i + 1)) + 0.3;
+    }
+    double value = 1;
+    for (int iteration = 0; iteration < 500; ++iteration) {
+        double ww = 0, wm = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            image[i] = 0;
+            for (std::size_t j = 0; j < n; ++j) image[i] += M[i * n + j] * w[j];
+            ww += w[i] * w[i];
+            wm += w[i] * image[i];
+        }
+        value = wm / ww;
+        for (std::size_t i = 0; i < n; ++i) w[i] = (bound * w[i] - image[i]) / std::sqrt(ww) / bound;
+    }
+    return value;
+}
+
+void methods_agree() {
+    for (const Family& family : kFamilies) {
+        long steps = 0, products = 0, solves = 0, not_unique = 0;
+        double worst = 0, worst_residual = 0;
+        const int seeds = family.n > 1000 ? 1 : 8;
+        for (int seed = 0; seed < seeds; ++seed) {
+            const Asperities a = random_asperities(family.n, family.spacing, family.sigma, family.radius, family.spread, 100u + static_cast<unsigned>(seed));
+            const Indenter indenter{kE, family.R, 0.5, 0.5};
+            const Level direct = Contact(a, indenter, options(Method::direct)).at_separation(family.separation);
+            const Level dgesv = Contact(a, indenter, options(Method::dgesv)).at_separation(family.separation);
+            CHECK(direct.status != LevelStatus::not_converged);
+            CHECK(dgesv.status != LevelStatus::not_converged);
+            CHECK(direct.residual <= 1e-10);
+            CHECK(direct.f.size() == dgesv.f.size());
+            CHECK_CLOSE(dgesv.force, direct.force, kTolerance * direct.force);
+            CHECK_CLOSE(dgesv.area, direct.area, kTolerance * direct.area);
+            if (direct.force > 0) worst = std::max(worst, std::abs(dgesv.force / direct.force - 1));
+            worst_residual = std::max(worst_residual, direct.residual);
+            steps += direct.iterations;
+            products += direct.products;
+            solves += dgesv.iterations;
+            not_unique += direct.status == LevelStatus::not_unique;
+            if (family.n <= 300 && direct.f.size() > 1) CHECK(lowest_eigenvalue(a, direct) > 0);
+        }
+        std::printf("%-12s %d sets: Newton steps %ld, products %ld, dgesv solves %ld, not unique %ld, loads differ %.1e, residual %.1e\n",
+                    family.name, seeds, steps, products, solves, not_unique, worst, worst_residual);
+    }
+}
+
+// Where the energy has several minima too: the clustered family, alone and within a series of levels, forwards and backwards.
+void levels_do_not_remember() {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        const Asperities a = random_asperities(200, seed % 2 ? 0.0005 : 0.01, 0.01, seed % 2 ? 0.3 : 5e-4, 0.7, 200 + seed);
+        const Indenter indenter{kE, 2.5, 0.5, 0.5};
+        constexpr int levels = 30;
+        const auto separation = [](int k) { return 0.03 - 0.001 * k; };
+        Contact down(a, indenter, options(Method::direct)), up(a, indenter, options(Method::direct));
+        std::vector<double> forward(levels), backward(levels);
+        for (int k = 0; k < levels; ++k) forward[static_cast<std::size_t>(k)] = down.at_separation(separation(k)).force;
+        for (int k = levels - 1; k >= 0; --k) backward[static_cast<std::size_t>(k)] = up.at_separation(separation(k)).force;
+        for (int k = 0; k < levels; ++k) {
+            const double alone = Contact(a, indenter, options(Method::direct)).at_separation(separation(k)).force;
+            CHECK_CLOSE(forward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
+            CHECK_CLOSE(backward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
+        }
+    }
+}
+
+// Two equal asperities so close that the symmetric solution is a saddle of the energy: the paper's iteration stops there, the answer
+// must not. d < (2/pi) a makes I + S B S indefinite.
+void saddle_is_left() {
+    const double r = 1e-2, g = 0.01, d = 0.002;
+    Asperities a;
+    a.x = {0.5 - d / 2, 0.5 + d / 2}, a.y = {0.5, 0.5}, a.z = {g, g}, a.radius = {r, r};
+    for (Method method : {Method::dgesv, Method::direct}) {
+        const Level level = Contact(a, {kE, 1e9, 0.5, 0.5}, options(method)).at_separation(0.0);
+        CHECK(level.status == LevelStatus::not_unique);
+        CHECK(level.residual <= 1e-10);
+        // Of the two only one carries: the other's summit is pulled below the sphere.
+        CHECK(level.f.size() == 1);
+        CHECK_CLOSE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-6 * level.force);
+    }
+}
+
+}  // namespace
+
+int main() {
+    methods_agree();
+    levels_do_not_remember();
+    saddle_is_left();
+    return check::summary();
+}
