@@ -1,0 +1,81 @@
+// Fortran namelist text, parsed without knowing any key: groups of assignments, each with its subscript and its list of values.
+// Separators, repeat counts, null values and comments are taken as gfortran's runtime takes them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rsc::namelist {
+
+// Where something stands in the text; both count from 1, line 0 means nowhere.
+struct Position {
+    int line = 0, column = 0;
+};
+
+// Something wrong (or, among the warnings, doubtful) at a place.
+struct Fault {
+    Position at;
+    std::string text;
+};
+
+// One value of a list, or a null value (which keeps the default), `repeat` times over.
+struct Item {
+    std::string text;  // as written; quotes removed and doubled ones undone when `quoted`
+    bool null = false;
+    bool quoted = false;
+    bool counted = false;    // a repeat count was written
+    bool commented = false;  // a comment follows without a blank between
+    long repeat = 1;         // >= 1
+    Position at;
+};
+
+// (first), (first:last) or (first:last:step); what was left out is empty.
+struct Subscript {
+    std::optional<long> first, last;
+    long step = 1;
+    bool section = false;  // a colon was written
+    Position at;
+};
+
+struct Assignment {
+    std::string key;  // lower case
+    std::optional<Subscript> subscript;
+    std::vector<Item> items;
+    Position at;
+};
+
+struct Group {
+    std::string name;  // lower case
+    std::vector<Assignment> assignments;
+    Position at;
+};
+
+struct Document {
+    std::vector<Group> groups;
+    std::vector<Fault> faults;    // what gfortran would refuse as well, and unknown groups
+    std::vector<Fault> warnings;  // what gfortran reads otherwise than the Fortran standard
+};
+
+inline constexpr std::size_t kLargestText = std::size_t{4} << 20;  // bytes
+inline constexpr long kLargestRepeat = 200'000'000;                // gfortran's
+inline constexpr std::size_t kMostItems = 100'000;                 // in one assignment
+inline constexpr std::size_t kMostFaults = 100;                    // reported at once
+
+// Parses a whole text: groups of the given (lower case) names, anything outside of them being ignored. Never throws on bad text:
+// faults are collected.
+Document parse(std::string_view text, const std::vector<std::string_view>& known_groups);
+
+// Parses the assignments of one group, without its &name and its end: `sigma = 0.01`.
+Document parse_assignments(std::string_view text);
+
+// The one of `candidates` that `word` is most likely a misspelling of; empty when none is near.
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
+
+std::string lower_case(std::string_view word);
+
+// "name:line:column: text", or "name: text" for a fault that is nowhere.
+std::string format(const std::string& name, const Fault& fault);
+
+}  // namespace rsc::namelist
