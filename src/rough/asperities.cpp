@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <functional>
+#include <numeric>
+#include <tuple>
 
 #include "error.hpp"
 #include "rough/summits.hpp"
@@ -85,6 +89,48 @@ void scan_while_making(const RowSource& source, double step, Curvature curvature
 }
 
 }  // namespace
+
+void validate(const Asperities& a, const std::function<std::string(std::size_t)>& name) {
+    const std::size_t n = a.size();
+    const auto refuse = [](const std::string& message) { throw Error(Failure::bad_input, message); };
+    const auto text = [](double v) {
+        char buffer[32];
+        std::snprintf(buffer, sizeof buffer, "%.17g", v);
+        return std::string(buffer);
+    };
+    if (n == 0) refuse("there is no asperity");
+    const struct {
+        const char* name;
+        const std::vector<double>& values;
+        bool required;
+    } fields[] = {{"x", a.x, true},           {"y", a.y, true},           {"z", a.z, true},
+                  {"radius", a.radius, true}, {"kappa1", a.kappa1, false}, {"kappa2", a.kappa2, false},
+                  {"angle", a.angle, false},  {"biharmonic", a.biharmonic, false}};
+    for (const auto& field : fields) {
+        if (field.values.empty() && !field.required) continue;
+        if (field.values.size() != n)
+            refuse(std::string("asperities: ") + std::to_string(field.values.size()) + " values of " + field.name + " for " +
+                   std::to_string(n) + " asperities");
+        for (std::size_t i = 0; i < n; ++i)
+            if (!std::isfinite(field.values[i])) refuse(name(i) + ": " + field.name + " is not finite");
+    }
+    if (a.kappa1.size() != a.kappa2.size() || a.kappa1.size() != a.angle.size())
+        refuse("asperities: kappa1, kappa2 and angle must be given together");
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(a.radius[i] > 0)) refuse(name(i) + ": the radius must be positive, not " + text(a.radius[i]));
+        if (!a.kappa1.empty() && !(a.kappa1[i] >= a.kappa2[i] && a.kappa2[i] > 0))
+            refuse(name(i) + ": kappa1 >= kappa2 > 0 was expected, not " + text(a.kappa1[i]) + " and " + text(a.kappa2[i]));
+    }
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::tuple(a.x[i], a.y[i], i); };
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
+    for (std::size_t k = 1; k < n; ++k) {
+        const std::size_t i = order[k - 1], j = order[k];
+        if (a.x[i] == a.x[j] && a.y[i] == a.y[j])
+            refuse(name(j) + ": lies at the same point as " + name(i) + " (x = " + text(a.x[i]) + ", y = " + text(a.y[i]) + ")");
+    }
+}
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads) {
     const int edge = map.periodic ? 0 : 1;

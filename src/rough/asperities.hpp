@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "rough/surface.hpp"
@@ -19,6 +21,11 @@ struct Asperities {
     std::vector<double> biharmonic;      // nabla^4 z at the summit [1/length^3]; empty unless a law needs it
     std::size_t size() const { return x.size(); }
 };
+
+// Asperities that come from outside: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
+// one length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at the
+// same (x, y). `name(i)` says in the message which one is meant.
+void validate(const Asperities& asperities, const std::function<std::string(std::size_t)>& name);
 
 // What was counted on the way.
 struct SummitCount {

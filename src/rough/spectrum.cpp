@@ -33,7 +33,7 @@ double Moments::summit_density() const { return std::sqrt(3.0) * m4 / (18.0 * st
 double Moments::mean_spacing() const { return 1.0 / std::sqrt(summit_density()); }
 double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
 
-void check(const Spectrum& s) {
+void validate(const Spectrum& s) {
     const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
     if (!positive(s.L)) refuse("L must be positive and finite", s.L);
     if (!(s.hurst >= 0.0 && s.hurst <= 1.0)) refuse("hurst must lie between 0 and 1", s.hurst);
@@ -74,7 +74,7 @@ double relative_psd(const Spectrum& s, double q2) {
 
 // m_p = T(p) times the integral of K^(p+1) Phi(K) over K, T(p) = integral of cos^p over the circle; in units of kl.
 Moments theoretical_moments(const Spectrum& s) {
-    check(s);
+    validate(s);
     const double kl = 2.0 * std::numbers::pi * s.L_lambda_l / s.L;
     const double log_zeta = std::log(s.L_lambda_s / s.L_lambda_l);
     const double xi = 1.0 / s.L_lambda_l;
@@ -90,7 +90,7 @@ Moments theoretical_moments(const Spectrum& s) {
 }
 
 Moments discrete_moments(const Spectrum& s) {
-    check(s);
+    validate(s);
     const Band b = band(s);
     const double step = 2.0 * std::numbers::pi / s.L;
     double s0 = 0, s2 = 0, s4 = 0;

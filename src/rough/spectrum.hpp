@@ -25,13 +25,13 @@ struct Moments {
 
 // Throws Error(bad_input) naming the member unless L > 0, 0 <= hurst <= 1, 1 <= L_lambda_l <= L_lambda_s (strictly less without
 // the plateau), sigma > 0, all finite, and at least one mode lies in the band.
-void check(const Spectrum& spectrum);
+void validate(const Spectrum& spectrum);
 
-// Closed forms of the continuous spectrum, scaled so that m0 = sigma^2. Throws as check().
+// Closed forms of the continuous spectrum, scaled so that m0 = sigma^2. Throws as validate().
 Moments theoretical_moments(const Spectrum& spectrum);
 
 // The same of the modes a periodic L x L square has (integer wavevectors), scaled so that m0 = sigma^2: what the sampled
-// moments are in expectation. A sum over all modes: takes time in proportion to L_lambda_s^2. Throws as check().
+// moments are in expectation. A sum over all modes: takes time in proportion to L_lambda_s^2. Throws as validate().
 Moments discrete_moments(const Spectrum& spectrum);
 
 // Relative PSD (Phi / Phi0) of the mode with integer wavevector of squared length q2 (K = (2 pi / L) sqrt(q2));

@@ -1,0 +1,37 @@
+// Surfaces from files: height maps and lists of asperities, NetCDF or text. What a file is, is told by its first bytes, not by
+// its name. Anything wrong is Error(bad_input) naming the file, the line or index, and what was expected.
+// The NetCDF library is not made for several threads: one call at a time.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "rough/asperities.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+// Heights from `path`.
+// NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable there is. scale_factor and
+//   add_offset are applied; missing values (_FillValue, missing_value, NaN, Inf) are refused, and so are height and coordinates
+//   in different `units`. The spacing comes from the coordinate variables of the two dimensions, which must be uniform to 1e-6
+//   of a step (or to the rounding of their own type); x0, y0 are the first coordinates; falling coordinates are turned round.
+//   Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. With both, nx dx must be L to 1e-6.
+// Text: a matrix, a line a y, rising; numbers separated by blanks or one comma or semicolon; `#` starts a comment. Needs L.
+// L: extent in x [length], a point being a cell (L = nx dx). At least 3 x 3 points. The map is not periodic.
+HeightMap read_heights(const std::string& path, std::optional<double> L);
+
+// Asperities from `path`.
+// NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1, _kappa2 and _angle when all
+//   three are there, asperity_biharmonic when it is there.
+// Text: four columns x y z r, separators and comments as above.
+// At least one; everything finite, radii positive, kappa1 >= kappa2 > 0, no two at the same (x, y).
+Asperities read_asperities(const std::string& path);
+
+// The smallest rectangle that holds the asperities' summits.
+struct Extent {
+    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+};
+Extent extent(const Asperities& asperities);
+
+}  // namespace rsc

@@ -1,0 +1,210 @@
+// Spectral moments against quadrature of the PSD, and the noise of a mode against Random123 and the Gaussian law.
+#include "rough/spectrum.hpp"
+
+#include <Random123/philox.h>
+
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "rough/noise.hpp"
+#include "rough/vector_math.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Spectrum spectrum(double hurst, double l, double s, bool plateau) { return {.L = 1.7, .hurst = hurst, .L_lambda_l = l, .L_lambda_s = s, .plateau = plateau, .sigma = 0.03}; }
+
+// Integral of Phi over the plane with weight cos^p K^p, by Simpson's rule in ln K on either side of kl and over the angle, with a
+// PSD written out here. Returns the three moments scaled to m0 = sigma^2.
+Moments by_quadrature(const Spectrum& s) {
+    const double kl = 2 * kPi * s.L_lambda_l / s.L, ks = 2 * kPi * s.L_lambda_s / s.L, k0 = 2 * kPi / s.L;
+    const auto radial = [&](double p, double from, double to, double exponent) {
+        if (!(to > from)) return 0.0;
+        const int steps = 4000;
+        const double h = std::log(to / from) / steps;
+        double sum = 0;
+        for (int i = 0; i <= steps; ++i) {
+            const double K = from * std::exp(i * h);
+            sum += (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2) * std::pow(K, p + 2) * std::pow(K / kl, exponent);
+        }
+        return sum * h / 3;
+    };
+    const auto angular = [](int p) {
+        double sum = 0;
+        for (int i = 0; i < 64; ++i) sum += std::pow(std::cos(2 * kPi * i / 64), p);
+        return sum * 2 * kPi / 64;  // exact for trigonometric polynomials
+    };
+    const auto moment = [&](int p) {
+        return angular(p) * (radial(p, kl, ks, -2 * (1 + s.hurst)) + (s.plateau ? radial(p, k0, kl, 0) : 0));
+    };
+    const double scale = s.sigma * s.sigma / moment(0);
+    return {scale * moment(0), scale * moment(2), scale * moment(4)};
+}
+
+void closed_forms() {
+    // H = 0 and H = 1 are where p = 2H turns a power into a logarithm; just beside them nothing may be lost to cancellation.
+    for (const double hurst : {0.0, 1e-9, 0.3, 0.5, 0.8, 1.0 - 1e-12, 1.0})
+        for (const bool plateau : {false, true}) {
+            const Spectrum s = spectrum(hurst, 6, 300, plateau);
+            const Moments m = theoretical_moments(s), q = by_quadrature(s);
+            CHECK_RELATIVE(m.m0, q.m0, 1e-13);
+            CHECK_RELATIVE(m.m2, q.m2, 1e-9);  // of the quadrature
+            CHECK_RELATIVE(m.m4, q.m4, 1e-9);
+        }
+    // A ring of one wavelength: Nayak's parameter is 3/2 and the rms gradient K sigma.
+    const Spectrum ring = spectrum(0.5, 100, 100.001, false);
+    const Moments m = theoretical_moments(ring);
+    CHECK_CLOSE(m.nayak(), 1.5, 1e-4);
+    CHECK_RELATIVE(m.rms_slope(), 2 * kPi * 100 / 1.7 * 0.03, 1e-4);
+    CHECK_RELATIVE(m.mean_spacing() * m.mean_spacing() * m.summit_density(), 1.0, 1e-14);
+}
+
+void band_edges() {
+    const Spectrum s = spectrum(0.8, 5, 13, false);
+    CHECK(relative_psd(s, 24) == 0.0);
+    CHECK(relative_psd(s, 25) == 1.0);  // at kl: inside
+    CHECK(relative_psd(s, 169) > 0.0);  // at ks: inside
+    CHECK(relative_psd(s, 170) == 0.0);
+    CHECK_RELATIVE(relative_psd(s, 100), std::pow(2.0, -3.6), 1e-14);  // K = 2 kl
+    Spectrum flat = s;
+    flat.plateau = true;
+    CHECK(relative_psd(flat, 0) == 0.0);
+    CHECK(relative_psd(flat, 1) == 1.0);
+    CHECK(relative_psd(flat, 24) == 1.0);
+    CHECK(relative_psd(flat, 25) == 1.0);
+    // A cutoff that rounding has moved still holds the modes on it.
+    Spectrum rounded = s;
+    rounded.L_lambda_l = 5 * (1 + 1e-15);
+    rounded.L_lambda_s = 13 * (1 - 1e-15);
+    CHECK_CLOSE(relative_psd(rounded, 25), 1.0, 1e-12);
+    CHECK(relative_psd(rounded, 169) > 0.0);
+}
+
+void discrete_tend_to_continuous() {
+    // The lattice of wavevectors fills the band as it widens: errors fall with the number of modes at the lower edge.
+    const Spectrum coarse = spectrum(0.8, 4, 64, true), fine = spectrum(0.8, 64, 1024, true);
+    const Moments dc = discrete_moments(coarse), df = discrete_moments(fine);
+    const Moments tc = theoretical_moments(coarse), tf = theoretical_moments(fine);
+    CHECK_RELATIVE(dc.m2, tc.m2, 0.1);
+    CHECK_RELATIVE(df.m2, tf.m2, 2e-3);
+    CHECK_RELATIVE(df.m4, tf.m4, 2e-3);
+    CHECK(std::abs(df.m2 / tf.m2 - 1) < std::abs(dc.m2 / tc.m2 - 1));
+}
+
+void bad_spectra() {
+    const auto message = [](Spectrum s) -> std::string {
+        try {
+            validate(s);
+        } catch (const Error& e) {
+            CHECK(e.kind() == Failure::bad_input);
+            return e.what();
+        }
+        return "accepted";
+    };
+    const auto names = [&](const Spectrum& s, const char* word) { CHECK(message(s).find(word) != std::string::npos); };
+    const double nan = std::nan("");
+    CHECK(message(Spectrum{}) == "accepted");
+    for (const double bad : {0.0, -1.0, nan, HUGE_VAL}) {
+        Spectrum s;
+        s.L = bad, names(s, "L must");
+        s = {}, s.sigma = bad, names(s, "sigma");
+        s = {}, s.L_lambda_l = bad, names(s, "L_lambda_l");
+        s = {}, s.L_lambda_s = bad, names(s, "L_lambda_s");
+    }
+    for (const double bad : {-0.1, 1.1, nan}) {
+        Spectrum s;
+        s.hurst = bad, names(s, "hurst");
+    }
+    names(spectrum(0.8, 24, 24, false), "greater");
+    CHECK(message(spectrum(0.8, 24, 24, true)) == "accepted");
+    names(spectrum(0.8, 1.5, 1.9, false), "no mode");  // between sqrt(2) and 2 there is none
+}
+
+void elementary_functions() {
+    double worst_log = 0, worst_exp = 0, worst_trig = 0;
+    for (int i = 1; i < 200000; ++i) {
+        const double u = i / 200000.0, x = std::exp(60 * u - 36);
+        worst_log = std::max(worst_log, std::abs(vector_math::log_positive(x) - std::log(x)) / (std::abs(std::log(x)) + 1e-300));
+        const double e = 80 * u - 40;
+        worst_exp = std::max(worst_exp, std::abs(vector_math::exp_moderate(e) / std::exp(e) - 1));
+        double c, s;
+        vector_math::cos_sin_turns(u, c, s);
+        const long double turn = 2 * std::numbers::pi_v<long double> * u;
+        worst_trig = std::max({worst_trig, std::abs(c - static_cast<double>(std::cos(turn))), std::abs(s - static_cast<double>(std::sin(turn)))});
+    }
+    const double ulp = 2.3e-16;
+    CHECK(worst_log < 2 * ulp);  // our error and the library's
+    CHECK(worst_exp < 3 * ulp);
+    CHECK(worst_trig < 2 * ulp);
+    CHECK(vector_math::log_positive(1.0) == 0.0);
+}
+
+void noise_is_philox() {
+    // The words of a mode are Random123's for key = seed, counter = (kx, ky, realization); every bit of all four counts.
+    const NoiseKey key{.seed = 0x123456789abcdef, .realization = -3};
+    const std::int32_t kx = 17, ky = -5;
+    const r123::Philox4x32 philox;
+    const auto w = philox({{17u, static_cast<std::uint32_t>(-5), 0xfffffffdu, 0xffffffffu}}, {{0x89abcdefu, 0x01234567u}});
+    const auto uniform = [](std::uint32_t low, std::uint32_t high) {
+        return static_cast<double>(low | (static_cast<std::uint64_t>(high & 0xfffff) << 32)) / 4503599627370496.0;
+    };
+    const double radius = std::sqrt(-std::log(1 - uniform(w[0], w[1]))), phase = 2 * kPi * uniform(w[2], w[3]);
+    const std::complex<double> z = mode_noise(key, kx, ky);
+    CHECK_CLOSE(z.real(), radius * std::cos(phase), 1e-14);  // rounding of the phase here
+    CHECK_CLOSE(z.imag(), radius * std::sin(phase), 1e-14);
+    CHECK(mode_noise({key.seed + (std::int64_t{1} << 40), key.realization}, kx, ky) != z);
+    CHECK(mode_noise({key.seed, key.realization + (std::int64_t{1} << 40)}, kx, ky) != z);
+    CHECK(mode_noise(key, kx, -ky) != z);
+    // A column gives the modes one by one, whatever its length.
+    std::vector<double> re(101), im(101);
+    column_noise(key, kx, -50, 101, re.data(), im.data());
+    bool same = true;
+    for (int i = 0; i < 101; ++i) {
+        const auto one = mode_noise(key, kx, i - 50);
+        same = same && one.real() == re[static_cast<std::size_t>(i)] && one.imag() == im[static_cast<std::size_t>(i)];
+    }
+    CHECK(same);
+}
+
+void noise_is_gaussian() {
+    // Moments of N = 2e6 standard deviates x = sqrt(2) Re z: bounds at five standard errors.
+    const int columns = 1000, rows = 1000;
+    std::vector<double> re(rows), im(rows);
+    double m1 = 0, m2 = 0, m4 = 0, cross = 0, neighbour = 0;
+    for (int kx = 0; kx < columns; ++kx) {
+        column_noise({42, 7}, kx, -rows / 2, rows, re.data(), im.data());
+        for (std::size_t i = 0; i < re.size(); ++i) {
+            m1 += re[i] + im[i];
+            m2 += 2 * (re[i] * re[i] + im[i] * im[i]);
+            m4 += 4 * (std::pow(re[i], 4) + std::pow(im[i], 4));
+            cross += 2 * re[i] * im[i];
+            if (i > 0) neighbour += 2 * re[i] * re[i - 1];
+        }
+    }
+    const double n = 2.0 * columns * rows;
+    CHECK_CLOSE(m1 * std::sqrt(2.0) / n, 0.0, 5 / std::sqrt(n));
+    CHECK_CLOSE(m2 / n, 1.0, 5 * std::sqrt(2 / n));
+    CHECK_CLOSE(m4 / n, 3.0, 5 * std::sqrt(96 / n));
+    CHECK_CLOSE(2 * cross / n, 0.0, 5 * std::sqrt(2 / n));
+    CHECK_CLOSE(2 * neighbour / n, 0.0, 5 * std::sqrt(2 / n));
+}
+
+}  // namespace
+
+int main() {
+    closed_forms();
+    band_edges();
+    discrete_tend_to_continuous();
+    bad_spectra();
+    elementary_functions();
+    noise_is_philox();
+    noise_is_gaussian();
+    return check::summary();
+}

@@ -1,0 +1,256 @@
+// Synthetic surfaces against a slow sum of cosines, and their invariances: grid, band, threads, normalisation.
+#include "rough/surface.hpp"
+
+#include <complex>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "rough/noise.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double rms(const HeightMap& map) {
+    double sum = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) sum += map(i, j) * map(i, j);
+    return std::sqrt(sum / (static_cast<double>(map.nx) * map.ny));
+}
+
+double largest_difference(const HeightMap& a, const HeightMap& b) {
+    double worst = 0;
+    for (int j = 0; j < a.ny; ++j)
+        for (int i = 0; i < a.nx; ++i) worst = std::max(worst, std::abs(a(i, j) - b(i, j)));
+    return worst;
+}
+
+// z = sum over the half plane of 2 Re[c exp(i K.x)], mode by mode and point by point.
+std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
+    struct Mode {
+        int kx, ky;
+        std::complex<double> c;
+    };
+    std::vector<Mode> modes;
+    double expected = 0;
+    const int top = static_cast<int>(s.L_lambda_s);
+    for (int kx = 0; kx <= top; ++kx)
+        for (int ky = kx > 0 ? -top : 1; ky <= top; ++ky) {
+            const double psd = relative_psd(s, kx * kx + ky * ky);
+            if (!(psd > 0)) continue;
+            modes.push_back({kx, ky, std::sqrt(psd) * mode_noise(key, kx, ky)});
+            expected += 2 * psd;
+        }
+    std::vector<double> z;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            double h = 0;
+            for (const Mode& m : modes) h += 2 * (m.c * std::polar(1.0, 2 * kPi * (m.kx * i + m.ky * j) / n)).real();
+            z.push_back(h * s.sigma / std::sqrt(expected));
+        }
+    return z;
+}
+
+void against_cosines() {
+    // n = 30 has n = 2 L_lambda_s modes at the limit of the grid; 32 and 36 do not. All must follow the definition.
+    for (const bool plateau : {false, true})
+        for (const int n : {30, 32, 36}) {
+            const Spectrum s{.L = 2.0, .hurst = 0.6, .L_lambda_l = 3.0, .L_lambda_s = 15.0, .plateau = plateau, .sigma = 0.1};
+            const HeightMap map = synthesize(s, n, Normalise::ensemble, 11, 5);
+            const std::vector<double> z = by_cosines(s, n, {11, 5});
+            double worst = 0;
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
+            CHECK_CLOSE(worst, 0.0, 1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
+            CHECK(map.periodic && map.nx == n && map.ny == n);
+            CHECK_RELATIVE(map.dx * n, 2.0, 1e-15);
+        }
+}
+
+void same_surface_on_finer_grid() {
+    const Spectrum s{.L_lambda_l = 4, .L_lambda_s = 64};
+    const HeightMap coarse = synthesize(s, 128, Normalise::ensemble, 1, 1), fine = synthesize(s, 256, Normalise::ensemble, 1, 1);
+    double worst = 0;
+    for (int j = 0; j < 128; ++j)
+        for (int i = 0; i < 128; ++i) worst = std::max(worst, std::abs(coarse(i, j) - fine(2 * i, 2 * j)));
+    CHECK_CLOSE(worst, 0.0, 1e-12 * s.sigma);
+}
+
+// Amplitude of cos(2 pi (kx x + ky y)/L + phase) of the map, by a projection.
+std::complex<double> project(const HeightMap& map, int kx, int ky) {
+    std::complex<double> sum = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) sum += map(i, j) * std::polar(1.0, -2 * kPi * (kx * i + ky * j) / map.nx);
+    return sum / (static_cast<double>(map.nx) * map.ny);
+}
+
+void smaller_lambda_s_adds_modes_only() {
+    const Spectrum wide{.L_lambda_l = 4, .L_lambda_s = 30}, narrow{.L_lambda_l = 4, .L_lambda_s = 12};
+    const HeightMap a = synthesize(narrow, 64, Normalise::ensemble, 3, 2), b = synthesize(wide, 64, Normalise::ensemble, 3, 2);
+    // The old modes are the same up to the one factor that keeps sigma.
+    const double factor = std::abs(project(b, 5, 0) / project(a, 5, 0));
+    for (int kx = 0; kx <= 12; kx += 2)
+        for (int ky = -12; ky <= 12; ky += 3) {
+            const auto in_a = project(a, kx, ky), in_b = project(b, kx, ky);
+            CHECK_CLOSE(std::abs(in_b - factor * in_a) * (kx * kx + ky * ky <= 144 ? 1 : 0), 0.0, 1e-15);
+        }
+    CHECK(std::abs(project(a, 13, 0)) < 1e-16);
+    CHECK(std::abs(project(b, 13, 0)) > 1e-6);
+}
+
+void normalisation() {
+    const Spectrum s{.L_lambda_l = 3, .L_lambda_s = 32, .sigma = 0.02};
+    Moments sampled;
+    for (const int n : {64, 128}) {  // 64: with modes at the limit of the grid
+        const HeightMap map = synthesize(s, n, Normalise::sample, 9, 4, &sampled);
+        CHECK_RELATIVE(rms(map), s.sigma, 1e-13);
+        double mean = 0;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) mean += map(i, j);
+        CHECK_CLOSE(mean / (n * n), 0.0, 1e-15);
+    }
+    CHECK_RELATIVE(sampled.m0, s.sigma * s.sigma, 1e-13);
+    // In expectation: the mean square over surfaces, whose own scatter gives the bound (five standard errors).
+    double sum = 0, square = 0;
+    const int surfaces = 400;
+    for (int k = 1; k <= surfaces; ++k) {
+        const HeightMap map = synthesize(s, 64, Normalise::ensemble, 9, k, &sampled);
+        const double m0 = rms(map) * rms(map) / (s.sigma * s.sigma);
+        sum += m0;
+        square += m0 * m0;
+    }
+    const double mean = sum / surfaces, error = std::sqrt((square / surfaces - mean * mean) / surfaces);
+    CHECK_CLOSE(mean, 1.0, 5 * error);
+    CHECK(error > 1e-3);  // the surfaces do differ
+}
+
+void sampled_moments() {
+    // Exact sums over modes against the heights themselves: derivatives of a band-limited map by projection on its modes.
+    const Spectrum s{.L = 3.0, .L_lambda_l = 2, .L_lambda_s = 9, .sigma = 0.5};
+    Moments sampled;
+    const HeightMap map = synthesize(s, 20, Normalise::sample, 5, 6, &sampled);
+    double m20 = 0, m02 = 0, m40 = 0, m04 = 0, m22 = 0;
+    for (int kx = -9; kx <= 9; ++kx)
+        for (int ky = -9; ky <= 9; ++ky) {
+            const double e = std::norm(project(map, kx, ky)), x = 2 * kPi * kx / 3.0, y = 2 * kPi * ky / 3.0;
+            m20 += e * x * x, m02 += e * y * y, m40 += e * x * x * x * x, m04 += e * y * y * y * y, m22 += e * x * x * y * y;
+        }
+    CHECK_RELATIVE(sampled.m2, (m20 + m02) / 2, 1e-12);
+    CHECK_RELATIVE(sampled.m4, (m40 + m04 + 3 * m22) / 3, 1e-12);
+    // Averages over surfaces tend to the sums in expectation (five standard errors), and those to the closed forms.
+    const Spectrum wide{.L_lambda_l = 24, .L_lambda_s = 128};
+    const Moments expected = discrete_moments(wide);
+    double sum2 = 0, square2 = 0, sum4 = 0, square4 = 0;
+    const int surfaces = 100;
+    for (int k = 1; k <= surfaces; ++k) {
+        synthesize(wide, 256, Normalise::ensemble, 1, k, &sampled);
+        sum2 += sampled.m2, square2 += sampled.m2 * sampled.m2, sum4 += sampled.m4, square4 += sampled.m4 * sampled.m4;
+    }
+    const auto within = [&](double sum, double square, double truth) {
+        const double mean = sum / surfaces, error = std::sqrt((square / surfaces - mean * mean) / surfaces);
+        CHECK_CLOSE(mean, truth, 5 * error);
+        CHECK(error < 0.01 * truth);
+    };
+    within(sum2, square2, expected.m2);
+    within(sum4, square4, expected.m4);
+    CHECK_RELATIVE(expected.m2, theoretical_moments(wide).m2, 0.02);  // a lattice of modes for a continuum
+    CHECK_RELATIVE(expected.m4, theoretical_moments(wide).m4, 0.02);
+}
+
+void grid_moments_converge() {
+    const Spectrum s{.L_lambda_l = 4, .L_lambda_s = 16};
+    Moments exact;
+    double before2 = 1, before4 = 1;
+    for (const int n : {64, 128, 256, 512}) {
+        const Moments grid = grid_moments(synthesize(s, n, Normalise::sample, 2, 1, &exact));
+        CHECK_RELATIVE(grid.m0, exact.m0, 1e-12);
+        const double error2 = 1 - grid.m2 / exact.m2, error4 = 1 - grid.m4 / exact.m4;
+        // Second order: halving the step divides the error by four, and differences always lose.
+        if (n > 64) CHECK_CLOSE(before2 / error2, 4.0, 0.3), CHECK_CLOSE(before4 / error4, 4.0, 0.3);
+        CHECK(error2 > 0 && error4 > 0);
+        before2 = error2, before4 = error4;
+    }
+    // A paraboloid x^2 + 2 y^2, not periodic: zxx = 2, zyy = 4, zxy = 0 at every interior point.
+    HeightMap map;
+    map.allocate(7, 5, 9);
+    map.dx = 0.5, map.dy = 0.25;
+    for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 7; ++i) map.row(j)[i] = std::pow(i * 0.5, 2) + 2 * std::pow(j * 0.25, 2);
+    CHECK_RELATIVE(grid_moments(map).m4, (4.0 + 16.0) / 3, 1e-12);
+}
+
+void threads_give_the_same_bits() {
+    const Spectrum s{.L_lambda_l = 5, .L_lambda_s = 90};
+    Moments m1, mt;
+    const HeightMap one = synthesize(s, 250, Normalise::sample, 77, 8, &m1, 1);
+    for (const int threads : {2, 3, 16}) {
+        const HeightMap many = synthesize(s, 250, Normalise::sample, 77, 8, &mt, threads);
+        CHECK(largest_difference(one, many) == 0.0);
+        CHECK(std::memcmp(&m1, &mt, sizeof m1) == 0);
+    }
+    CHECK(largest_difference(one, synthesize(s, 250, Normalise::sample, 77, 9)) > 0.01);
+    CHECK(largest_difference(one, synthesize(s, 250, Normalise::sample, 78, 8)) > 0.01);
+}
+
+void detrending() {
+    HeightMap map;
+    map.allocate(13, 8, 13);
+    map.dx = 0.1, map.dy = 0.3;
+    const auto bump = [](int i, int j) { return std::sin(1.3 * i + 0.2) * std::cos(0.9 * j); };
+    const auto fill = [&](double c, double sx, double sy) {
+        for (int j = 0; j < 8; ++j)
+            for (int i = 0; i < 13; ++i) map.row(j)[i] = bump(i, j) + c + sx * i + sy * j;
+    };
+    // What is left does not depend on the plane that was added, and is orthogonal to 1, x and y.
+    fill(0, 0, 0);
+    const double bare = detrend(map, Detrend::plane);
+    HeightMap first = std::move(map);
+    map.allocate(13, 8, 13);
+    fill(1000, -3, 7);
+    CHECK_RELATIVE(detrend(map, Detrend::plane), bare, 1e-11);
+    CHECK_CLOSE(largest_difference(first, map), 0.0, 1e-11);  // a thousand was added and taken away
+    double s1 = 0, sx = 0, sy = 0;
+    for (int j = 0; j < 8; ++j)
+        for (int i = 0; i < 13; ++i) s1 += first(i, j), sx += i * first(i, j), sy += j * first(i, j);
+    CHECK_CLOSE(s1, 0, 1e-12);
+    CHECK_CLOSE(sx, 0, 1e-11);
+    CHECK_CLOSE(sy, 0, 1e-11);
+    fill(5, 0, 0);
+    const double deviation = detrend(map, Detrend::mean);
+    CHECK_RELATIVE(rms(map), deviation, 1e-14);
+    fill(5, 0, 0);
+    CHECK_RELATIVE(detrend(map, Detrend::none), deviation, 1e-13);  // the rms about the mean, which stays
+    CHECK(map(0, 0) == bump(0, 0) + 5);
+}
+
+void refusals() {
+    const Spectrum s;
+    CHECK_THROWS(synthesize(s, 1022, Normalise::sample, 1, 1), Error);  // L_lambda_s = 512 needs 1024
+    CHECK_THROWS(synthesize(s, 2047, Normalise::sample, 1, 1), Error);
+    CHECK_THROWS(synthesize(s, 0, Normalise::sample, 1, 1), Error);
+    CHECK_THROWS(synthesize(s, -4, Normalise::sample, 1, 1), Error);
+    HeightMap map;
+    CHECK_THROWS(map.allocate(0, 5, 5), Error);
+    CHECK_THROWS(map.allocate(5, 5, 4), Error);
+    CHECK_THROWS(map.allocate(2000000000, 2000000000, 2000000000), Error);
+}
+
+}  // namespace
+
+int main() {
+    against_cosines();
+    same_surface_on_finer_grid();
+    smaller_lambda_s_adds_modes_only();
+    normalisation();
+    sampled_moments();
+    grid_moments_converge();
+    threads_give_the_same_bits();
+    detrending();
+    refusals();
+    return check::summary();
+}
