@@ -46,11 +46,9 @@ struct Double {
         FOR_ROWS d2[k] = mul(d2[k], r[k]);
         FOR_ROWS d2[k] = fma(p[k], d2[k], r[k]);
     }
-    // w - smooth where there is a w and d2 < cutoff2.
-    static V near_difference(V w, V smooth, V d2, V cutoff2) {
-        const V inside =
-            _mm256_and_pd(_mm256_cmp_pd(w, _mm256_setzero_pd(), _CMP_NEQ_OQ), _mm256_cmp_pd(d2, cutoff2, _CMP_LT_OQ));
-        return _mm256_and_pd(_mm256_sub_pd(w, smooth), inside);
+    // w - smooth where `inside` is positive.
+    static V difference_where_positive(V w, V smooth, V inside) {
+        return _mm256_and_pd(_mm256_sub_pd(w, smooth), _mm256_cmp_pd(inside, _mm256_setzero_pd(), _CMP_GT_OQ));
     }
 };
 
@@ -85,6 +83,7 @@ struct Single {
     }
 };
 
+#include "contact/mesh_kernel.inl"
 #include "contact/pairs_kernel.inl"
 
 constexpr PairKernels table = make_table<Double, Single>("avx2");

@@ -46,10 +46,9 @@ struct Double {
         FOR_ROWS d2[k] = mul(d2[k], r[k]);
         FOR_ROWS d2[k] = fma(p[k], d2[k], r[k]);
     }
-    // w - smooth where there is a w and d2 < cutoff2.
-    static V near_difference(V w, V smooth, V d2, V cutoff2) {
-        const __mmask8 inside = _mm512_mask_cmp_pd_mask(_mm512_cmp_pd_mask(d2, cutoff2, _CMP_LT_OQ), w, splat(0), _CMP_NEQ_OQ);
-        return _mm512_maskz_sub_pd(inside, w, smooth);
+    // w - smooth where `inside` is positive.
+    static V difference_where_positive(V w, V smooth, V inside) {
+        return _mm512_maskz_sub_pd(_mm512_cmp_pd_mask(inside, splat(0), _CMP_GT_OQ), w, smooth);
     }
 };
 
@@ -83,6 +82,7 @@ struct Single {
     }
 };
 
+#include "contact/mesh_kernel.inl"
 #include "contact/pairs_kernel.inl"
 
 constexpr PairKernels table = make_table<Double, Single>("avx512");

@@ -28,9 +28,7 @@ struct Double : Lane<double, double> {
     static void refine(double* w, const double* r) {
         for (int k = 0; k < rows; ++k) w[k] = r[k];
     }
-    static double near_difference(double w, double smooth, double d2, double cutoff2) {
-        return w != 0 && d2 < cutoff2 ? w - smooth : 0;
-    }
+    static double difference_where_positive(double w, double smooth, double inside) { return inside > 0 ? w - smooth : 0; }
 };
 
 struct Single : Lane<float, std::int32_t> {
@@ -40,6 +38,7 @@ struct Single : Lane<float, std::int32_t> {
     }
 };
 
+#include "contact/mesh_kernel.inl"
 #include "contact/pairs_kernel.inl"
 
 constexpr PairKernels table = make_table<Double, Single>("generic");

@@ -34,13 +34,13 @@ struct NearWeight {
         for (int k = 0; k <= degree; ++k) c[k] = P::splat_real(kernel.c[k]);
     }
     [[gnu::always_inline]] void operator()(V* d2) const {
-        V r[P::rows], smooth[P::rows], w[P::rows];
+        V inside[P::rows], smooth[P::rows], r[P::rows];
+        RSC_FOR_ROWS inside[k] = P::difference(cutoff2, d2[k]);
         RSC_FOR_ROWS smooth[k] = c[degree];
-        for (int m = degree - 1; m >= 0; --m) RSC_FOR_ROWS smooth[k] = P::fma(smooth[k], d2[k], c[m]);
-        RSC_FOR_ROWS w[k] = d2[k];
-        RSC_FOR_ROWS r[k] = P::root_estimate(w[k]);
-        P::refine(w, r);
-        RSC_FOR_ROWS d2[k] = P::near_difference(w[k], smooth[k], d2[k], cutoff2);
+        for (int m = degree - 1; m >= 0; --m) RSC_FOR_ROWS smooth[k] = P::fma(smooth[k], inside[k], c[m]);
+        RSC_FOR_ROWS r[k] = P::root_estimate(d2[k]);
+        P::refine(d2, r);
+        RSC_FOR_ROWS d2[k] = P::difference_where_positive(d2[k], smooth[k], inside[k]);
     }
 };
 
@@ -115,12 +115,33 @@ struct Loops {
         for (std::size_t i = 0; i < ni; i += P::rows)
             block<P, false>(PointWeight<P>{}, xi + i, yi + i, fj, phi_i + i, nj, xj, yj, fj, phi_i);
     }
-    static void near_self(const NearKernel& kernel, std::size_t n, const X* x, const X* y, const R* f, R* phi) {
-        self_loop<P>(NearWeight<P>(kernel), n, x, y, f, phi);
+    // Strips by increasing x: the points within reach of a block lie between two marks that move along with it.
+    static void near_own(const NearKernel& kernel, std::size_t n, const X* x, const X* y, const R* f, R* phi) {
+        constexpr std::size_t kBlock = P::W > std::size_t(P::rows) ? P::W : std::size_t(P::rows);
+        const NearWeight<P> weight(kernel);
+        std::size_t end = 0;
+        for (std::size_t b = 0; b < n; b += kBlock) {
+            const std::size_t e = b + kBlock;
+            for (std::size_t i = b; i < e && i < n; i += P::rows) {
+                const std::size_t last = i + P::rows < n ? i + P::rows - 1 : n - 1;
+                while (end < n && x[end] < x[last] + kernel.reach) ++end;
+                block<P, false>(weight, x + i, y + i, f + i, phi + i, kBlock, x + b, y + b, f + b, phi + b);
+                if (e < end) block<P, true>(weight, x + i, y + i, f + i, phi + i, end - e, x + e, y + e, f + e, phi + e);
+            }
+        }
     }
-    static void near_cross(const NearKernel& kernel, std::size_t ni, const X* xi, const X* yi, const R* fi, R* phi_i,
-                           std::size_t nj, const X* xj, const X* yj, const R* fj, R* phi_j) {
-        cross_loop<P>(NearWeight<P>(kernel), ni, xi, yi, fi, phi_i, nj, xj, yj, fj, phi_j);
+    static void near_strips(const NearKernel& kernel, std::size_t ni, const X* xi, const X* yi, const R* fi, R* phi_i,
+                            std::size_t nj, const X* xj, const X* yj, const R* fj, R* phi_j) {
+        const NearWeight<P> weight(kernel);
+        std::size_t begin = 0, end = 0;
+        for (std::size_t i = 0; i < ni; i += P::rows) {
+            const std::size_t last = i + P::rows < ni ? i + P::rows - 1 : ni - 1;
+            while (begin < nj && xj[begin] <= xi[i] - kernel.reach) ++begin;
+            while (end < nj && xj[end] < xi[last] + kernel.reach) ++end;
+            if (begin < end)
+                block<P, true>(weight, xi + i, yi + i, fi + i, phi_i + i, end - begin, xj + begin, yj + begin, fj + begin,
+                               phi_j + begin);
+        }
     }
 };
 
@@ -129,8 +150,10 @@ constexpr PairKernels make_table(const char* name) {
     return {name,
             {Loops<D>::self, Loops<D>::cross, Loops<D>::onto},
             {Loops<S>::self, Loops<S>::cross, Loops<S>::onto},
-            Loops<D>::near_self,
-            Loops<D>::near_cross};
+            Loops<D>::near_own,
+            Loops<D>::near_strips,
+            spread,
+            interpolate};
 }
 
 #undef RSC_FOR_ROWS

@@ -42,9 +42,9 @@ struct Double {
         FOR_ROWS d2[k] = mul(d2[k], r[k]);
         FOR_ROWS d2[k] = fma(p[k], d2[k], r[k]);
     }
-    // w - smooth where there is a w and d2 < cutoff2.
-    static V near_difference(V w, V smooth, V d2, V cutoff2) {
-        return _mm_and_pd(_mm_sub_pd(w, smooth), _mm_and_pd(_mm_cmpneq_pd(w, _mm_setzero_pd()), _mm_cmplt_pd(d2, cutoff2)));
+    // w - smooth where `inside` is positive.
+    static V difference_where_positive(V w, V smooth, V inside) {
+        return _mm_and_pd(_mm_sub_pd(w, smooth), _mm_cmpgt_pd(inside, _mm_setzero_pd()));
     }
 };
 
@@ -76,6 +76,7 @@ struct Single {
     }
 };
 
+#include "contact/mesh_kernel.inl"
 #include "contact/pairs_kernel.inl"
 
 constexpr PairKernels table = make_table<Double, Single>("sse2");
