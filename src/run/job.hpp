@@ -1,0 +1,52 @@
+// A case made ready: what is read, computed and checked once, and how one realization of it is run.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "observe/record.hpp"
+#include "rough/asperities.hpp"
+#include "run/case.hpp"
+#include "run/result.hpp"
+
+namespace rsc {
+
+struct Job {
+    Case settings;
+    Domain domain;                 // the surface's rectangle
+    Indenter indenter;
+    SolverOptions solver;
+    double sigma = 0;              // the length unit='sigma' and delta0 mean
+    std::vector<double> levels;    // separations [length], or forces [force] with control='force'
+    std::optional<Spectrum> spectrum;
+    std::optional<Moments> theory;
+    ObserveOptions observe;
+    // Of a surface that was read: it is the same in every realization.
+    Asperities given;
+    SurfaceStatistics given_statistics;
+    std::optional<HeightMap> given_heights;
+};
+
+// Reads what the case names, works out levels, domain and ranges. Throws Error(bad_input) for what cannot be run.
+Job prepare(const Case& settings);
+
+// One realization: its surface, its asperities, its levels.
+struct Realization {
+    SurfaceStatistics statistics;
+    Asperities asperities;
+    std::vector<Level> levels;
+    std::vector<double> stiffness;      // a value a level with control='force', otherwise empty
+    std::optional<HeightMap> heights;   // if the case wants them
+};
+
+// Realization `number` of the case. `on_level` is called after each level with its number; returning false stops the run there.
+// `threads` may work on the surface; the answer does not depend on it.
+Realization realize(const Job& job, std::int64_t number, int threads,
+                    const std::function<bool(std::size_t, const Level&)>& on_level = {});
+
+RealizationRecord observe(const Job& job, std::int64_t number, const Realization& realization);
+
+}  // namespace rsc

@@ -1,0 +1,111 @@
+#include "run/screen.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "observe/regimes.hpp"
+
+namespace rsc {
+namespace {
+
+template <class... Args>
+std::string format(const char* text, Args... args) {
+    char buffer[400];
+    std::snprintf(buffer, sizeof buffer, text, args...);
+    return buffer;
+}
+
+}  // namespace
+
+const char* method_name(Method method) {
+    switch (method) {
+        case Method::automatic: return "auto";
+        case Method::dgesv: return "dgesv";
+        case Method::direct: return "direct";
+        case Method::mesh: return "mesh";
+    }
+    return "?";
+}
+
+const char* status_name(LevelStatus status) {
+    switch (status) {
+        case LevelStatus::converged: return "converged";
+        case LevelStatus::out_of_validity: return "large contacts";
+        case LevelStatus::overlapping: return "overlapping";
+        case LevelStatus::not_unique: return "not unique";
+        case LevelStatus::not_converged: return "NOT CONVERGED";
+    }
+    return "?";
+}
+
+void print_heading(std::ostream& out, const Job& job) {
+    const auto& run = job.settings.run;
+    const char* l = run.length_unit.c_str();
+    const char* f = run.force_unit.c_str();
+    if (!run.title.empty()) out << run.title << '\n';
+    out << format("sphere R = %g %s on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.R, l, job.indenter.E_star, f, l,
+                  job.sigma, l);
+    if (job.theory) {
+        const Moments& m = *job.theory;
+        out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s, transition force N* %.5g %s\n",
+                      m.rms_slope(), m.nayak(), m.summit_density(), l, m.mean_radius(), l, transition_force(m, job.indenter.E_star), f);
+    }
+    out << format("\n%5s %12s %9s %14s %14s %9s %10s %5s %9s  %s\n", "level", format("Z0 [%s]", l).c_str(), "Z0/sigma",
+                  format("N [%s]", f).c_str(), format("A [%s2]", l).c_str(), "contacts", "candidates", "steps", "residual", "status");
+}
+
+void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
+    out << format("%5zu %12.6g %9.5f %14.8g %14.8g %9zu %10d %5d %9.1e  %s\n", number + 1, level.separation, level.separation / job.sigma,
+                  level.force, level.area, level.asperity.size(), level.candidates, level.iterations, level.residual,
+                  status_name(level.status));
+}
+
+void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts, long levels) {
+    const auto tell = [&](LevelStatus status, const char* meaning) {
+        const auto found = counts.find(status);
+        if (found == counts.end() || found->second == 0) return;
+        out << format("  %ld of %ld levels: %s - %s\n", found->second, levels, status_name(status), meaning);
+    };
+    tell(LevelStatus::out_of_validity,
+         "contacts with a > <d>/4, a quarter of the mean spacing of summits: the asperity model is leaving its range.");
+    tell(LevelStatus::overlapping,
+         "pairs of contact spots nearer than the sum of their radii: asperities that would merge are counted as two.");
+    tell(LevelStatus::not_unique,
+         "spots so deep in each other that other solutions may exist: the one given is a local minimum of the energy, reached by a fixed rule.");
+    tell(LevelStatus::not_converged,
+         "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
+}
+
+std::string duration(double seconds) {
+    if (seconds < 1) return format("%.0f ms", 1000 * seconds);
+    if (seconds < 100) return format("%.1f s", seconds);
+    if (seconds < 5400) return format("%d min %02d s", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
+    return format("%d h %02d min", static_cast<int>(seconds / 3600), static_cast<int>(seconds / 60) % 60);
+}
+
+ProgressLine::ProgressLine(std::ostream* out, bool terminal, const char* unit)
+    : out_(out), terminal_(terminal), unit_(unit), start_(Clock::now()), last_(start_) {}
+
+ProgressLine::~ProgressLine() {
+    if (drawn_ && terminal_) *out_ << "\r\033[K" << std::flush;
+}
+
+void ProgressLine::show(double done, double total) {
+    if (!out_) return;
+    const auto now = Clock::now();
+    const double since = std::chrono::duration<double>(now - last_).count(), spent = std::chrono::duration<double>(now - start_).count();
+    if (since < (terminal_ ? 0.1 : 30.0)) return;
+    last_ = now;
+    drawn_ = true;
+    const std::string left = done > 0 ? duration(spent * (total / done - 1)) + " left" : "";
+    if (terminal_) {
+        constexpr int width = 30;
+        const int filled = static_cast<int>(width * done / total);
+        *out_ << "\r[" << std::string(static_cast<std::size_t>(filled), '#') << std::string(static_cast<std::size_t>(width - filled), '.')
+              << format("] %.0f/%.0f %s, %s\033[K", done, total, unit_, left.c_str()) << std::flush;
+    } else {
+        *out_ << format("rsc: %.0f of %.0f %s, %s\n", done, total, unit_, left.c_str()) << std::flush;
+    }
+}
+
+}  // namespace rsc

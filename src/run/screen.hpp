@@ -1,0 +1,44 @@
+// What a run shows: the table of levels, the closing summary, the progress line.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <ostream>
+#include <string>
+
+#include "contact/indentation.hpp"
+#include "run/job.hpp"
+
+namespace rsc {
+
+const char* method_name(Method method);
+const char* status_name(LevelStatus status);
+
+// A line for the surface and the column heads; then a line a level.
+void print_heading(std::ostream& out, const Job& job);
+void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
+
+// How often each status came, with what it means and what to do.
+void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts, long levels);
+
+// "12.3 s", "4 min 10 s", ...
+std::string duration(double seconds);
+
+// A line on a terminal that is written over, with the time left; on other streams a line now and then.
+class ProgressLine {
+public:
+    // `out` null: silent. `terminal`: redraw in place.
+    ProgressLine(std::ostream* out, bool terminal, const char* unit);
+    ~ProgressLine();  // wipes the line
+    void show(double done, double total);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::ostream* out_;
+    bool terminal_, drawn_ = false;
+    const char* unit_;
+    Clock::time_point start_, last_;
+};
+
+}  // namespace rsc
