@@ -9,21 +9,17 @@
 namespace rsc {
 namespace {
 
-constexpr int kBatch = 256;
+constexpr int kBatch = 128;
 constexpr int kLanes = 8;  // partial sums, fixed so that the sum has the same bits on every machine
 
-// Relative amplitudes sqrt(Phi/Phi0) of the modes (kx, ky), ky = ky_first ... + kBatch - 1, all below the upper cutoff.
-RSC_ALWAYS_INLINE void amplitudes_body(const Spectrum& s, double lowest_q2, int kx, int ky_first, double* amplitude) {
+// Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < kBatch; (kx, ky) is nowhere (0, 0).
+RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, int kx, int ky_first, double* amplitude) {
     const double x2 = static_cast<double>(kx) * kx;
     const double log_ql2 = vector_math::log_positive(s.L_lambda_l * s.L_lambda_l);
     const double exponent = -0.5 * (1.0 + s.hurst);
-    const double below = s.plateau ? 1.0 : 0.0;
     for (int i = 0; i < kBatch; ++i) {
         const double y = static_cast<double>(ky_first + i);
-        const double q2 = x2 + y * y;
-        const double bounded = q2 < lowest_q2 ? lowest_q2 : q2;
-        const double power = vector_math::exp_moderate(exponent * (vector_math::log_positive(bounded) - log_ql2));
-        amplitude[i] = q2 < lowest_q2 ? below : power;
+        amplitude[i] = vector_math::exp_moderate(exponent * (vector_math::log_positive(x2 + y * y) - log_ql2));
     }
 }
 
@@ -31,36 +27,28 @@ struct Lanes {
     double e[kLanes] = {}, y2[kLanes] = {}, y4[kLanes] = {}, a[kLanes] = {};
 };
 
-// Multiplies the noise by the amplitudes into interleaved coefficients, and adds up the energies and their moments in ky.
-RSC_ALWAYS_INLINE void apply_body(const double* amplitude, const double* re, const double* im, int ky_first, int count,
-                                  double* coefficient, Lanes& sums) {
-    alignas(64) double energy[kBatch], square[kBatch];
-    for (int i = 0; i < kBatch; ++i) {
-        const double a = i < count ? amplitude[i] : 0.0;
-        square[i] = a * a;
-        energy[i] = square[i] * (re[i] * re[i] + im[i] * im[i]);
-    }
-    for (int i = 0; i < count; ++i) {
-        coefficient[2 * i] = amplitude[i] * re[i];
-        coefficient[2 * i + 1] = amplitude[i] * im[i];
-    }
+// Adds up the energies of a batch of coefficients and their moments in ky, lane by lane.
+RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* re, const double* im, int ky_first, Lanes& total) {
+    Lanes sums = total;
     for (int i = 0; i < kBatch; i += kLanes)
         for (int l = 0; l < kLanes; ++l) {
-            const double y = static_cast<double>(ky_first + i + l);
+            const int k = i + l;
+            const double y = static_cast<double>(ky_first + k);
             const double y2 = y * y;
-            const double e = energy[i + l];
+            const double square = amplitude[k] * amplitude[k];
+            const double e = square * (re[k] * re[k] + im[k] * im[k]);
             sums.e[l] += e;
             sums.y2[l] += e * y2;
             sums.y4[l] += e * (y2 * y2);
-            sums.a[l] += square[i + l];
+            sums.a[l] += square;
         }
+    total = sums;
 }
 
-RSC_DISPATCH(amplitudes, amplitudes_body, (const Spectrum& s, double lowest_q2, int kx, int ky_first, double* amplitude),
-             (s, lowest_q2, kx, ky_first, amplitude))
-RSC_DISPATCH(apply, apply_body,
-             (const double* amplitude, const double* re, const double* im, int ky_first, int count, double* coefficient, Lanes& sums),
-             (amplitude, re, im, ky_first, count, coefficient, sums))
+RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude), (s, kx, ky_first, amplitude))
+RSC_DISPATCH(add_energies, add_energies_body,
+             (const double* amplitude, const double* re, const double* im, int ky_first, Lanes& total),
+             (amplitude, re, im, ky_first, total))
 
 double sum(const double* lanes) {
     double total = 0;
@@ -72,11 +60,18 @@ double sum(const double* lanes) {
 void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, int kx, int first, int last,
               std::complex<double>* coefficient, Lanes& lanes) {
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
+    const double x2 = static_cast<double>(kx) * kx;
     for (int ky = first; ky <= last; ky += kBatch) {
         const int count = std::min(kBatch, last - ky + 1);
-        amplitudes(spectrum, lowest_q2, kx, ky, amplitude);
+        power_law(spectrum, kx, ky, amplitude);
+        std::fill(amplitude + count, amplitude + kBatch, 0.0);
+        if (x2 < lowest_q2)
+            for (int i = 0; i < count; ++i)
+                if (x2 + static_cast<double>(ky + i) * (ky + i) < lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);
-        apply(amplitude, re, im, ky, count, reinterpret_cast<double*>(coefficient + (ky - first)), lanes);
+        add_energies(amplitude, re, im, ky, lanes);
+        for (int i = 0; i < count; ++i) coefficient[i] = {amplitude[i] * re[i], amplitude[i] * im[i]};
+        coefficient += count;
     }
 }
 
