@@ -11,8 +11,8 @@
 
 namespace rsc {
 
-// Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a point to 1.5 pressure_max (the peak of a
-// Hertz contact is 1.5 times its mean), the area of a spot to `area_max`. What lies beyond is counted as overflow.
+// Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a point to 1.5 pressure_max (the
+// peak of a Hertz contact is 1.5 times its mean), the area of a spot to `area_max`. What lies beyond is counted as overflow.
 struct PdfBins {
     int bins = 60;
     double pressure_max = 0;  // [force/length^2]
@@ -22,10 +22,10 @@ struct PdfBins {
     double area_width() const { return area_max / bins; }
 };
 
-// Ranges that hold nearly everything down to a separation of one sigma or so. Lengths are measured by sigma and curvatures by sqrt(m4):
-// a summit of curvature k pressed in by g has the mean pressure 4/(3 pi) E* sqrt(k g) and the area pi g / k. Without interaction
-// about one contact in a thousand lies beyond them at separations of 2 sigma, and interaction only lowers g.
-// Throws Error(bad_input) unless everything is positive and finite.
+// Ranges that hold nearly everything down to a separation of one sigma or so. Lengths are measured by sigma and curvatures by
+// sqrt(m4): a summit of curvature k pressed in by g has the mean pressure 4/(3 pi) E* sqrt(k g) and the area pi g / k. Without
+// interaction about one contact in a thousand lies beyond them at separations of 2 sigma, and interaction only lowers g. Throws
+// Error(bad_input) unless everything is positive and finite.
 PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4);
 
 // Equal contributions: one count a contact, and sums of the powers 1 to 4 of the values.
@@ -38,25 +38,25 @@ struct CountHistogram {
 
 // Contributions by area: the pressure at a random point of the contact area.
 struct AreaHistogram {
-    std::vector<double> area;  // [length^2]
-    double overflow = 0;       // [length^2]
-    double total = 0;          // sum of pi a^2
-    double squares = 0;        // sum of (pi a^2)^2: total^2/squares is the number of equal contacts these stand for
+    std::vector<double> area;       // [length^2]
+    double overflow = 0;            // [length^2]
+    double total = 0;               // sum of pi a^2
+    double squares = 0;             // sum of (pi a^2)^2: total^2/squares is the number of equal contacts these stand for
     std::array<double, 4> power{};  // sums of area times the powers 1 to 4 of the pressure
 };
 
 // The three distributions of one level of one realization, or their sums over realizations.
 struct Distributions {
-    double separation = 0;   // Z0 of the level, summed over realizations [length]
-    std::int64_t levels = 0; // how many realizations are in it
-    std::int32_t step = 0;   // the level's index, from 0; -1 once realizations differ in it
+    double separation = 0;    // Z0 of the level, summed over realizations [length]
+    std::int64_t levels = 0;  // how many realizations are in it
+    std::int32_t step = 0;    // the level's index, from 0; -1 once realizations differ in it
     CountHistogram mean_pressure;
     AreaHistogram pressure;
     CountHistogram spot_area;
 };
 
-// One level. Mean pressure p = f/(pi a^2); each contact gives the point pressure its own density 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2),
-// integrated exactly over each bin. Contacts of no area are left out.
+// One level. Mean pressure p = f/(pi a^2); each contact gives the point pressure its own density 2 p/p0^2 on [0, p0], p0 = 1.5
+// f/(pi a^2), integrated exactly over each bin. Contacts of no area are left out.
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step);
 
 // a += b, in the fixed order the caller gives.

@@ -95,7 +95,8 @@ double gamma_normalisation(const Parameters& theta) {
 }
 
 // One step of Fisher scoring, halved until the likelihood does not fall; false at the end of the road.
-bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width, double& size) {
+bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width,
+             double& size) {
     const Score s = score(theta, weight, p, width);
     Matrix inverse;
     if (!invert(s.information, inverse)) return false;
@@ -185,7 +186,7 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
     GammaFit fit;
     const double total = binned.total();
     const auto filled = std::count_if(binned.weight.begin(), binned.weight.end(), [](double w) { return w > 0; });
-    if (!(total > 0) || !(mean > 0) || filled < 5) return fit;
+    if (!(total > 0) || !(mean > 0) || filled < 5 || !(independent >= 10)) return fit;
 
     // In units of the mean every number below is of order one.
     const double width = binned.width / mean;
@@ -195,12 +196,13 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
 
     // <x> = delta Gamma((alpha+2)/beta) / Gamma((alpha+1)/beta)
     const double alpha = 2.0 / 3.0, beta = 1.5;
-    Parameters theta{std::log(alpha + 1), std::log(beta), std::log(std::tgamma((alpha + 1) / beta) / std::tgamma((alpha + 2) / beta))};
+    Parameters theta{std::log(alpha + 1), std::log(beta),
+                     std::log(std::tgamma((alpha + 1) / beta) / std::tgamma((alpha + 2) / beta))};
     std::vector<double> p = probabilities(theta, binned.weight.size(), width);
     double likelihood = log_likelihood(weight, p), size = 1;
     if (!std::isfinite(likelihood)) return fit;
     bool converged = false;
-    for (int iteration = 0; iteration < 500 && !converged; ++iteration) {
+    for (int iteration = 0; iteration < 200 && !converged; ++iteration) {
         if (!improve(theta, p, likelihood, weight, width, size)) break;
         converged = size < 1e-9;
     }

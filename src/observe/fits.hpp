@@ -1,5 +1,5 @@
-// Distributions the paper fits to its contacts (section 5): Rayleigh, exponential, and the generalised gamma of the full pressure.
-// A value that cannot be had (no contacts, too few bins) is NaN: absent.
+// Distributions the paper fits to its contacts (section 5): Rayleigh, exponential, and the generalised gamma of the full
+// pressure. A value that cannot be had (no contacts, too few bins) is NaN: absent.
 #pragma once
 
 #include <limits>
@@ -31,14 +31,15 @@ struct Binned {
     double total() const;  // of the bins and the overflow
 };
 
-// Maximum likelihood from the power sums of all values (no binning enters): s^2 = <x^2>/2 with error s/(2 sqrt(n)), s = <x> with error s/sqrt(n).
+// Maximum likelihood from the power sums of all values (no binning enters): s^2 = <x^2>/2 with error s/(2 sqrt(n)), s = <x> with
+// error s/sqrt(n).
 ScaleFit fit_rayleigh(double count, double sum_of_squares, const Binned& binned);
 ScaleFit fit_exponential(double count, double sum, const Binned& binned);
 
-// Maximum likelihood of the binned data (each bin, and the overflow, with its exact probability: the bin width biases nothing), by
-// Fisher scoring from alpha = 2/3, beta = 3/2, the paper's exponents, and delta of the mean. `independent` is the number of independent
-// observations the weights stand for; the standard errors are those of so many draws. Absent when fewer than 5 bins hold anything
-// or the scoring does not converge.
+// Maximum likelihood of the binned data (each bin, and the overflow, with its exact probability: the bin width biases nothing),
+// by Fisher scoring from alpha = 2/3, beta = 3/2, the paper's exponents, and delta of the mean. `independent` is the number of
+// independent observations the weights stand for; the standard errors are those of so many draws. Absent when fewer than 5 bins
+// hold anything, for fewer than 10 independent observations, or when the scoring does not converge.
 GammaFit fit_generalised_gamma(const Binned& binned, double mean, double independent);
 
 // Cumulative distribution of the fitted law.

@@ -11,10 +11,11 @@ namespace rsc {
 
 // Interpolation on n equispaced nodes 0, 1, ..., n-1 at a position s, as weights of `count` nodes from `first` on.
 //
-// Between nodes i and i+1 the curve is a cubic Bezier with control points f_i, f_i + t_i/3, f_(i+1) - t_(i+1)/3, f_(i+1). The tangents
-// are those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, inside, and the slopes of the parabola through the three outermost nodes
-// at the two ends. Both are exact for parabolas, so the curve reproduces them everywhere; it is continuously differentiable, and
-// linear in the data. Beyond the end nodes the end piece goes on (a map reaches half a cell beyond its outermost centres). Two nodes give the line, one the constant.
+// Between nodes i and i+1 the curve is a cubic Bezier with control points f_i, f_i + t_i/3, f_(i+1) - t_(i+1)/3, f_(i+1). The
+// tangents are those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, inside, and the slopes of the parabola through the three
+// outermost nodes at the two ends. Both are exact for parabolas, so the curve reproduces them everywhere; it is continuously
+// differentiable, and linear in the data. Beyond the end nodes the end piece goes on (a map reaches half a cell beyond its
+// outermost centres). Two nodes give the line, one the constant.
 struct BezierWeights {
     int first = 0, count = 0;
     std::array<double, 4> weight{};
@@ -28,14 +29,14 @@ double interpolate(const MapGrid& grid, const std::vector<double>& values, doubl
 // mean over realizations of radial means is the radial mean of the mean map.
 class RadialMean {
 public:
-    // `bins` rings of equal width between the centre (x0, y0) and the largest circle inside the map; a mean is taken on the circle
-    // in the middle of its ring. No ring at all if the centre lies outside the map or on its edge.
+    // `bins` rings of equal width between the centre (x0, y0) and the largest circle inside the map; a mean is taken on the
+    // circle in the middle of its ring. No ring at all if the centre lies outside the map or on its edge.
     RadialMean(const MapGrid& grid, double x0, double y0, int bins);
 
     const std::vector<double>& radii() const { return radii_; }  // middle of the rings [length]
     double ring_width() const { return ring_width_; }            // [length]
-    // Mean of a map (grid.cells() values) over each circle: over equispaced angles, at least 64 and at least 8 a cell side, which is
-    // exact for parabolic maps. Added up in a fixed order.
+    // Mean of a map (grid.cells() values) over each circle: over equispaced angles, at least 64 and at least 8 a cell side, which
+    // is exact for parabolic maps. Added up in a fixed order.
     std::vector<double> operator()(const double* values) const;
 
 private:

@@ -27,9 +27,12 @@ LevelRow row_of(const Level& level) {
 }
 
 void require_finite(const Level& level, std::size_t step) {
-    bool finite = std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual);
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
-    if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
+    bool finite = std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) &&
+                  std::isfinite(level.residual);
+    for (std::size_t k = 0; k < level.asperity.size(); ++k)
+        finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
+    if (!finite)
+        throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
 }
 
 // Mean and sample deviation of one quantity over realizations, two passes in their order.
@@ -54,7 +57,8 @@ void mean_and_deviation(const Observations& o, Get get, std::vector<double>& mea
 std::int32_t nearest_level(const std::vector<Level>& levels, double separation) {
     std::int32_t best = -1;
     for (std::size_t s = 0; s < levels.size(); ++s)
-        if (best < 0 || std::abs(levels[s].separation - separation) < std::abs(levels[static_cast<std::size_t>(best)].separation - separation))
+        if (best < 0 || std::abs(levels[s].separation - separation) <
+                            std::abs(levels[static_cast<std::size_t>(best)].separation - separation))
             best = static_cast<std::int32_t>(s);
     return best;
 }
@@ -75,7 +79,8 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
     }
     for (double wanted : options.pdf_levels) {
         const std::int32_t step = nearest_level(levels, wanted);
-        if (step >= 0) record.distributions.push_back(distributions_of(options.pdf, levels[static_cast<std::size_t>(step)], step));
+        if (step >= 0)
+            record.distributions.push_back(distributions_of(options.pdf, levels[static_cast<std::size_t>(step)], step));
     }
     return record;
 }
@@ -88,8 +93,8 @@ Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_) :
 
 void Accumulators::add(const RealizationRecord& record) {
     if (record.levels.size() != steps || record.maps.size() != steps || record.distributions.size() != distributions.size())
-        throw Error(Failure::internal, "realization " + std::to_string(record.realization) + " has " + std::to_string(record.levels.size()) +
-                                           " levels, the others " + std::to_string(steps));
+        throw Error(Failure::internal, "realization " + std::to_string(record.realization) + " has " +
+                                           std::to_string(record.levels.size()) + " levels, the others " + std::to_string(steps));
     if (!realization.empty() && record.realization <= realization.back())
         throw Error(Failure::internal, "realization " + std::to_string(record.realization) + " added after realization " +
                                            std::to_string(realization.back()));
@@ -115,9 +120,12 @@ Observations Accumulators::finish() const {
     o.realization = realization;
     o.surface = surface;
     o.rows = rows;
-    mean_and_deviation(o, [](const LevelRow& r) { return r.separation; }, o.separation_mean, nullptr);
-    mean_and_deviation(o, [](const LevelRow& r) { return r.force; }, o.force_mean, &o.force_std);
-    mean_and_deviation(o, [](const LevelRow& r) { return r.area; }, o.area_mean, &o.area_std);
+    mean_and_deviation(
+        o, [](const LevelRow& r) { return r.separation; }, o.separation_mean, nullptr);
+    mean_and_deviation(
+        o, [](const LevelRow& r) { return r.force; }, o.force_mean, &o.force_std);
+    mean_and_deviation(
+        o, [](const LevelRow& r) { return r.area; }, o.area_mean, &o.area_std);
 
     const double divisor = options.map.side * options.map.side * static_cast<double>(o.realizations > 0 ? o.realizations : 1);
     o.map_area_fraction = map_area;

@@ -1,8 +1,9 @@
 // What is kept of one realization, and how realizations add up (paper, section 5).
 //
-// observe() boils one realization down to a RealizationRecord: plain numbers and vectors, no reference to anything, fit to be written to
-// a checkpoint as they are. Accumulators::add() takes records in the order of their realizations, so that every sum is made in one
-// order whatever thread, rank or interrupted run made the records; finish() turns the sums into means, radial means and fits.
+// observe() boils one realization down to a RealizationRecord: plain numbers and vectors, no reference to anything, fit to be
+// written to a checkpoint as they are. Accumulators::add() takes records in the order of their realizations, so that every sum is
+// made in one order whatever thread, rank or interrupted run made the records; finish() turns the sums into means, radial means
+// and fits.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@
 namespace rsc {
 
 struct ObserveOptions {
-    double tip_x = 0, tip_y = 0;     // centre of the radial means [length]
+    double tip_x = 0, tip_y = 0;  // centre of the radial means [length]
     MapGrid map;
     int radial_bins = 50;
     std::vector<double> pdf_levels;  // separations whose nearest level gives the distributions [length]
@@ -26,9 +27,9 @@ struct ObserveOptions {
 
 // The surface of a realization; NaN is absent (asperities read from a file have no m2, say).
 struct SurfaceStatistics {
-    double sigma = kAbsent;                      // rms height [length]
-    double m2 = kAbsent, m4 = kAbsent;           // profile moments from the modes drawn (synthetic) or the grid (measured)
-    double m2_grid = kAbsent, m4_grid = kAbsent; // from finite differences
+    double sigma = kAbsent;                       // rms height [length]
+    double m2 = kAbsent, m4 = kAbsent;            // profile moments from the modes drawn (synthetic) or the grid (measured)
+    double m2_grid = kAbsent, m4_grid = kAbsent;  // from finite differences
     double mean_kappa_g = kAbsent, mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
     std::int64_t summits = 0, saddles = 0;
 };
@@ -36,7 +37,7 @@ struct SurfaceStatistics {
 // The scalars of one level.
 struct LevelRow {
     double separation = 0, force = 0, area = 0, residual = 0;
-    double stiffness = kAbsent;  // dN/dZ0 with the sign that makes it positive, if it was computed [force/length]
+    double stiffness = kAbsent;  // dN/dZ0, negative, if it was computed [force/length]
     std::int64_t products = 0, overlapping_pairs = 0;
     std::int32_t contacts = 0, candidates = 0, iterations = 0;
     std::int32_t status = 0, method = 0;  // values of LevelStatus and Method
@@ -49,7 +50,7 @@ struct RealizationRecord {
     std::int64_t realization = 1;
     SurfaceStatistics surface;
     std::vector<LevelRow> levels;
-    std::vector<MapLevel> maps;               // one a level
+    std::vector<MapLevel> maps;                // one a level
     std::vector<Distributions> distributions;  // one a pdf level
 };
 
@@ -75,7 +76,8 @@ struct Accumulators {
 
     Accumulators() = default;
     Accumulators(const ObserveOptions& options, std::size_t steps);
-    // Records come in increasing order of their realization; another order throws Error(internal), as does another number of levels.
+    // Records come in increasing order of their realization; another order throws Error(internal), as does another number of
+    // levels.
     void add(const RealizationRecord& record);
     Observations finish() const;
 };
@@ -85,8 +87,8 @@ struct Observations {
     ObserveOptions options;
     std::size_t realizations = 0, steps = 0;
     std::vector<std::int64_t> realization;
-    std::vector<SurfaceStatistics> surface;  // [realization]
-    std::vector<LevelRow> rows;              // [realization][step]
+    std::vector<SurfaceStatistics> surface;                                           // [realization]
+    std::vector<LevelRow> rows;                                                       // [realization][step]
     std::vector<double> separation_mean, force_mean, force_std, area_mean, area_std;  // [step]
     std::vector<double> map_area_fraction, map_pressure;                              // [step][j][i]
     std::vector<double> radii;                                                        // middle of the rings [length]

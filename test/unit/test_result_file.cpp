@@ -1,0 +1,491 @@
+// The result file: everything of the interface is there and described, values come back, failures leave nothing behind.
+// With arguments `--sample ONE MANY` it only writes a result of one and of three realizations, for the tests of the readers.
+#include <netcdf.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "run/netcdf_writer.hpp"
+#include "sample_result.hpp"
+
+using namespace rsc;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A fresh folder, removed with everything in it.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("rsc-test-result-" + std::to_string(::getpid()));
+    Folder() { fs::remove_all(path), fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+    std::string operator/(const std::string& name) const { return (path / name).string(); }
+    std::size_t files() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::recursive_directory_iterator(path), fs::recursive_directory_iterator()));
+    }
+};
+
+// Reading through the C library, failures counted as failed checks.
+class Reader {
+public:
+    explicit Reader(const std::string& path) { CHECK(nc_open(path.c_str(), NC_NOWRITE, &id_) == NC_NOERR); }
+    ~Reader() { nc_close(id_); }
+    int id() const { return id_; }
+    bool has(const std::string& name) const {
+        int v = 0;
+        return nc_inq_varid(id_, name.c_str(), &v) == NC_NOERR;
+    }
+    int var(const std::string& name) const {
+        int v = -1;
+        const bool found = nc_inq_varid(id_, name.c_str(), &v) == NC_NOERR;
+        if (!found) std::printf("missing variable %s\n", name.c_str());
+        CHECK(found);
+        return v;
+    }
+    std::vector<std::string> dimensions(const std::string& name) const {
+        int n = 0;
+        std::array<int, NC_MAX_VAR_DIMS> ids{};
+        nc_inq_var(id_, var(name), nullptr, nullptr, &n, ids.data(), nullptr);
+        std::vector<std::string> names;
+        for (int d = 0; d < n; ++d) {
+            char text[NC_MAX_NAME + 1] = "";
+            nc_inq_dimname(id_, ids[static_cast<std::size_t>(d)], text);
+            names.emplace_back(text);
+        }
+        return names;
+    }
+    std::vector<double> values(const std::string& name) const {
+        std::size_t size = 1;
+        for (const std::string& d : dimensions(name)) {
+            int dim = 0;
+            std::size_t n = 0;
+            nc_inq_dimid(id_, d.c_str(), &dim), nc_inq_dimlen(id_, dim, &n);
+            size *= n;
+        }
+        std::vector<double> out(size);
+        CHECK(nc_get_var_double(id_, var(name), out.data()) == NC_NOERR);
+        return out;
+    }
+    std::string text(const std::string& name, const std::string& attribute) const {
+        const int v = name.empty() ? NC_GLOBAL : var(name);
+        nc_type type = NC_NAT;
+        std::size_t n = 0;
+        if (nc_inq_att(id_, v, attribute.c_str(), &type, &n) != NC_NOERR || type != NC_CHAR) return "";
+        std::string out(n, ' ');
+        nc_get_att_text(id_, v, attribute.c_str(), out.data());
+        return out;
+    }
+    std::vector<double> numbers(const std::string& name, const std::string& attribute) const {
+        const int v = name.empty() ? NC_GLOBAL : var(name);
+        std::size_t n = 0;
+        if (nc_inq_attlen(id_, v, attribute.c_str(), &n) != NC_NOERR) return {};
+        std::vector<double> out(n);
+        nc_get_att_double(id_, v, attribute.c_str(), out.data());
+        return out;
+    }
+
+private:
+    int id_ = -1;
+};
+
+struct Expected {
+    std::string name;
+    std::vector<std::string> dimensions;
+    std::string units;
+};
+
+// The interface, variable by variable, for lengths in mm and forces in N.
+const std::vector<Expected> kAlways = {{"realization", {"realization"}, "1"},
+                                       {"step", {"step"}, "1"},
+                                       {"x", {"x"}, "mm"},
+                                       {"y", {"y"}, "mm"},
+                                       {"radius", {"radius"}, "mm"},
+                                       {"pdf_level", {"pdf_level"}, "1"},
+                                       {"bin", {"bin"}, "1"},
+                                       {"separation", {"step"}, "mm"},
+                                       {"separation_sigma", {"step"}, "1"},
+                                       {"force", {"realization", "step"}, "N"},
+                                       {"contact_area", {"realization", "step"}, "mm2"},
+                                       {"contacts", {"realization", "step"}, "1"},
+                                       {"candidates", {"realization", "step"}, "1"},
+                                       {"iterations", {"realization", "step"}, "1"},
+                                       {"residual", {"realization", "step"}, "1"},
+                                       {"status", {"realization", "step"}, "1"},
+                                       {"method", {"realization", "step"}, "1"},
+                                       {"products", {"realization", "step"}, "1"},
+                                       {"overlapping_pairs", {"realization", "step"}, "1"},
+                                       {"large_contacts", {"realization", "step"}, "1"},
+                                       {"crowded_cells", {"realization", "step"}, "1"},
+                                       {"force_mean", {"step"}, "N"},
+                                       {"force_std", {"step"}, "N"},
+                                       {"contact_area_mean", {"step"}, "mm2"},
+                                       {"contact_area_std", {"step"}, "mm2"},
+                                       {"sigma", {"realization"}, "mm"},
+                                       {"m2", {"realization"}, "1"},
+                                       {"m4", {"realization"}, "mm-2"},
+                                       {"rms_slope", {"realization"}, "1"},
+                                       {"summits", {"realization"}, "1"},
+                                       {"saddles", {"realization"}, "1"},
+                                       {"mean_kappa_g", {"realization"}, "mm-1"},
+                                       {"m0_theory", {}, "mm2"},
+                                       {"m2_theory", {}, "1"},
+                                       {"m4_theory", {}, "mm-2"},
+                                       {"nayak_theory", {}, "1"},
+                                       {"density_theory", {}, "mm-2"},
+                                       {"e_star", {}, "N mm-2"},
+                                       {"transition_force", {}, "N"},
+                                       {"area_I", {"step"}, "mm2"},
+                                       {"area_II", {"step"}, "mm2"},
+                                       {"area_hertz", {"step"}, "mm2"},
+                                       {"map_area_fraction", {"step", "y", "x"}, "1"},
+                                       {"map_pressure", {"step", "y", "x"}, "N mm-2"},
+                                       {"radial_area_fraction", {"step", "radius"}, "1"},
+                                       {"radial_pressure", {"step", "radius"}, "N mm-2"},
+                                       {"hertz_pressure", {"step", "radius"}, "N mm-2"},
+                                       {"pressure_mean_pdf", {"pdf_level", "bin"}, "mm2 N-1"},
+                                       {"pressure_pdf", {"pdf_level", "bin"}, "mm2 N-1"},
+                                       {"spot_area_pdf", {"pdf_level", "bin"}, "mm-2"},
+                                       {"pressure_mean_bin", {"bin"}, "N mm-2"},
+                                       {"pressure_bin", {"bin"}, "N mm-2"},
+                                       {"spot_area_bin", {"bin"}, "mm2"}};
+
+const std::vector<Expected> kOneRealization = {{"asperity_x", {"asperity"}, "mm"},
+                                               {"asperity_y", {"asperity"}, "mm"},
+                                               {"asperity_z", {"asperity"}, "mm"},
+                                               {"asperity_radius", {"asperity"}, "mm"},
+                                               {"asperity_kappa1", {"asperity"}, "mm-1"},
+                                               {"asperity_kappa2", {"asperity"}, "mm-1"},
+                                               {"asperity_angle", {"asperity"}, "radian"},
+                                               {"contact_start", {"step"}, "1"},
+                                               {"contact_count", {"step"}, "1"},
+                                               {"contact_asperity", {"contact"}, "1"},
+                                               {"contact_force", {"contact"}, "N"},
+                                               {"contact_radius", {"contact"}, "mm"},
+                                               {"height", {"height_y", "height_x"}, "mm"},
+                                               {"height_x", {"height_x"}, "mm"},
+                                               {"height_y", {"height_y"}, "mm"}};
+
+void expect(const Reader& file, const std::vector<Expected>& table) {
+    for (const Expected& e : table) {
+        const bool same = file.dimensions(e.name) == e.dimensions && file.text(e.name, "units") == e.units &&
+                          !file.text(e.name, "long_name").empty();
+        if (!same) std::printf("variable %s: units '%s'\n", e.name.c_str(), file.text(e.name, "units").c_str());
+        CHECK(same);
+    }
+}
+
+// Every variable described, every dimension with its coordinate variable, the classic data model only, nothing that is not
+// finite.
+void test_conventions(const Reader& file) {
+    int ndims = 0, nvars = 0, natts = 0, unlimited = 0;
+    CHECK(nc_inq(file.id(), &ndims, &nvars, &natts, &unlimited) == NC_NOERR);
+    for (int v = 0; v < nvars; ++v) {
+        char name[NC_MAX_NAME + 1] = "";
+        nc_type type = NC_NAT;
+        int attributes = 0;
+        nc_inq_var(file.id(), v, name, &type, nullptr, nullptr, &attributes);
+        CHECK(type == NC_DOUBLE || type == NC_INT);
+        CHECK(!file.text(name, "units").empty() && !file.text(name, "long_name").empty());
+        for (int a = 0; a < attributes; ++a) {
+            char attribute[NC_MAX_NAME + 1] = "";
+            nc_type att_type = NC_NAT;
+            nc_inq_attname(file.id(), v, a, attribute);
+            nc_inq_atttype(file.id(), v, attribute, &att_type);
+            CHECK(att_type == NC_CHAR || att_type == NC_DOUBLE || att_type == NC_INT);
+        }
+        for (double x : file.values(name)) CHECK(std::isfinite(x));
+    }
+    for (int d = 0; d < ndims; ++d) {
+        char name[NC_MAX_NAME + 1] = "";
+        nc_inq_dimname(file.id(), d, name);
+        if (std::string(name) != "asperity" && std::string(name) != "contact") CHECK(file.has(name));
+    }
+    for (const char* attribute : {"Conventions", "title", "source", "history", "references", "case"})
+        CHECK(!file.text("", attribute).empty());
+    CHECK(file.text("", "Conventions") == "CF-1.10");
+    CHECK(file.text("", "source").find("rsc 0.") == 0);
+    CHECK(file.numbers("", "seed") == std::vector<double>{1});
+    CHECK(file.numbers("status", "flag_values") == (std::vector<double>{0, 1, 2, 3, 4}));
+    CHECK(file.text("status", "flag_meanings") == "converged out_of_validity overlapping not_unique not_converged");
+    CHECK(file.text("method", "flag_meanings") == "dgesv direct mesh");
+}
+
+void test_one_realization(const Folder& folder, Format format, int compression) {
+    const Result r = sample::result(1);
+    const std::string path = folder / "one.nc";
+    write_result(r, path, {format, compression, ""});
+    CHECK(folder.files() == 1);  // nothing but the file
+    const Reader file(path);
+    expect(file, kAlways);
+    expect(file, kOneRealization);
+    test_conventions(file);
+    int kind = 0;
+    nc_inq_format(file.id(), &kind);
+    CHECK(kind == (format == Format::netcdf4 ? NC_FORMAT_NETCDF4_CLASSIC
+                   : format == Format::cdf5  ? NC_FORMAT_CDF5
+                                             : NC_FORMAT_CLASSIC));
+
+    const auto force = file.values("force"), area = file.values("contact_area");
+    CHECK(file.values("map_pressure") == r.observations.map_pressure);
+    CHECK(file.values("radial_pressure") == r.observations.radial_pressure);
+    CHECK(file.text("", "case") == r.case_text);
+    CHECK_RELATIVE(file.values("separation_sigma")[0], 4.0, 1e-15);
+    CHECK(file.values("status")[sample::kSteps - 1] == 2);
+    // Absent values are fill values, and say so.
+    CHECK(file.values("force_std")[0] == NC_FILL_DOUBLE &&
+          file.numbers("force_std", "_FillValue") == std::vector<double>{NC_FILL_DOUBLE});
+    CHECK(file.values("mean_kappa_g")[0] == NC_FILL_DOUBLE);
+    CHECK(!file.has("stiffness") && !file.has("asperity_biharmonic"));
+    // Contacts of every level, found through start and count, carry its force and area.
+    const auto start = file.values("contact_start"), count = file.values("contact_count"), contacts = file.values("contacts");
+    const auto f = file.values("contact_force"), a = file.values("contact_radius"), index = file.values("contact_asperity");
+    CHECK(file.numbers("contact_asperity", "start_index") == std::vector<double>{1});
+    CHECK(file.numbers("contact_start", "start_index") == std::vector<double>{1});
+    CHECK(start[0] == 1);
+    for (std::size_t s = 0; s < sample::kSteps; ++s) {
+        CHECK(count[s] == contacts[s]);
+        double sum = 0, spots = 0;
+        for (auto k = static_cast<std::size_t>(start[s] - 1); k < static_cast<std::size_t>(start[s] - 1 + count[s]); ++k) {
+            sum += f[k], spots += std::numbers::pi * a[k] * a[k];
+            CHECK(index[k] >= 1 && index[k] <= sample::kAsperities);
+        }
+        CHECK_RELATIVE(sum, force[s], 1e-14);
+        CHECK_RELATIVE(spots, area[s], 1e-14);
+    }
+    // The padding of the rows is not in the file.
+    const auto height = file.values("height");
+    CHECK(height.size() == static_cast<std::size_t>(sample::kPoints * (sample::kPoints - 4)));
+    CHECK(height[3 * sample::kPoints + 7] == sample::height(7, 3));
+    CHECK(file.values("height_x")[1] == 1.0 / sample::kPoints);
+    // Closed forms at the force of the last level.
+    const double N = force[sample::kSteps - 1];
+    CHECK_RELATIVE(file.values("area_hertz")[sample::kSteps - 1],
+                   std::numbers::pi * std::pow(3 * N * sample::kSphere / 4000, 2.0 / 3), 1e-13);
+    CHECK_RELATIVE(file.values("area_II")[sample::kSteps - 1], 0.2 * std::sqrt(2 * std::numbers::pi) * N / (0.2 * 1000), 1e-13);
+    CHECK_RELATIVE(file.values("rms_slope")[0], std::sqrt(2 * 0.021), 1e-14);
+}
+
+void test_many_realizations(const Folder& folder) {
+    const Result r = sample::result(3);
+    const std::string path = folder / "deep/er/many.nc";  // missing folders are made
+    write_result(r, path, {});
+    const Reader file(path);
+    expect(file, kAlways);
+    test_conventions(file);
+    CHECK(!file.has("asperity_x") && !file.has("contact_start") && !file.has("height"));
+    CHECK(file.values("realization") == (std::vector<double>{1, 2, 3}));
+    CHECK(file.values("force_std") == r.observations.force_std);
+    // Counts of the distributions are the contacts of all realizations at that level.
+    const auto contacts = file.values("contacts"), step = file.values("pdf_step"), counts = file.values("pressure_mean_count");
+    const auto overflow = file.numbers("pressure_mean_count", "overflow");
+    const std::size_t bins = counts.size() / 2;
+    for (std::size_t d = 0; d < 2; ++d) {
+        double total = overflow[d], expected = 0;
+        for (std::size_t b = 0; b < bins; ++b) total += counts[d * bins + b];
+        for (std::size_t k = 0; k < 3; ++k) expected += contacts[k * sample::kSteps + static_cast<std::size_t>(step[d]) - 1];
+        CHECK(total == expected && expected > 0);
+    }
+    CHECK(file.numbers("pressure_pdf", "alpha").size() == 2 && file.numbers("pressure_mean_pdf", "rayleigh_scale").size() == 2);
+}
+
+// What ncdump -h prints is what ncgen reads: the header is well formed to the last character.
+void test_ncdump(const Folder& folder) {
+    const std::string path = folder / "dump.nc", cdl = folder / "dump.cdl", again = folder / "again.nc";
+    write_result(sample::result(1), path, {});
+    if (std::system("command -v ncdump >/dev/null && command -v ncgen >/dev/null") != 0)
+        return;  // netcdf-bin is not needed to build
+    CHECK(std::system(("ncdump -h '" + path + "' > '" + cdl + "'").c_str()) == 0);
+    std::stringstream text;
+    text << std::ifstream(cdl).rdbuf();
+    CHECK(text.str().find("double map_pressure(step, y, x)") != std::string::npos);
+    CHECK(text.str().find("map_pressure:units = \"N mm-2\"") != std::string::npos);
+    CHECK(text.str().find("string ") == std::string::npos);  // NC_CHAR, not NC_STRING
+    CHECK(std::system(("ncgen -o '" + again + "' '" + cdl + "'").c_str()) == 0);
+}
+
+std::string bytes(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void test_same_case_same_file(const Folder& folder) {
+    ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
+    for (Format format : {Format::netcdf4, Format::cdf5, Format::classic}) {
+        write_result(sample::result(1), folder / "a.nc", {format, 4, ""});
+        write_result(sample::result(1), folder / "b.nc", {format, 4, ""});
+        CHECK(bytes(folder / "a.nc") == bytes(folder / "b.nc") && bytes(folder / "a.nc").size() > 1000);
+    }
+    CHECK(Reader(folder / "a.nc").text("", "history").find("1970-01-02T00:00:00Z") == 0);
+    ::unsetenv("SOURCE_DATE_EPOCH");
+}
+
+template <typename Call>
+std::string message(Failure kind, Call call) {
+    try {
+        call();
+    } catch (const Error& e) {
+        return e.kind() == kind ? e.what() : std::string("another kind of failure: ") + e.what();
+    }
+    return "no failure";
+}
+
+bool says(const std::string& text, const std::string& words) {
+    const bool found = text.find(words) != std::string::npos;
+    if (!found) std::printf("message: %s\n", text.c_str());
+    return found;
+}
+
+void test_failures(const Folder& folder) {
+    const Result r = sample::result(1);
+    const auto writing = [&](const std::string& path, Format format = Format::netcdf4) {
+        return message(Failure::file_system, [&] { write_result(r, path, {format, 4, ""}); });
+    };
+    const auto checking = [&](const std::string& path) { return message(Failure::bad_input, [&] { check_output(path); }); };
+    std::ofstream(folder / "plain") << "x";
+    fs::create_directory(folder / "dir");
+    // A folder that is a file, a file that is a folder.
+    CHECK(says(writing(folder / "plain/rsc.nc"), "cannot be made"));
+    CHECK(says(writing(folder / "dir"), "it is a folder"));
+    CHECK(says(checking(folder / "plain/rsc.nc"), "is not a folder"));
+    CHECK(says(checking(folder / "dir"), "this is a folder"));
+    CHECK(says(checking(folder / "missing/rsc.nc"), "does not exist"));
+    CHECK(says(checking(""), "expected"));
+    CHECK(says(checking("dir/"), "expected"));
+    CHECK(says(checking("/dev/null"), "not a plain file"));
+    CHECK(::access("/proc", W_OK) == 0 || says(checking("/proc/rsc.nc"), "cannot be written to"));
+    CHECK(checking("made/later/rsc.nc") == "no failure" && !fs::exists("made"));
+    CHECK(checking(folder / "rsc.nc") == "no failure" && checking("rsc.nc") == "no failure");
+    if (::geteuid() != 0) {
+        fs::permissions(folder / "dir", fs::perms::owner_read | fs::perms::owner_exec);
+        CHECK(says(checking(folder / "dir/rsc.nc"), "cannot be written to"));
+        CHECK(says(writing(folder / "dir/rsc.nc"), "Permission denied"));
+        fs::permissions(folder / "dir", fs::perms::owner_all);
+    }
+    // The system stops the write half way, as a full disk does: nothing under the final name, no work in progress, and an older
+    // file stays.
+    const std::string old = folder / "old.nc";
+    std::ofstream(old) << "older result";
+    const std::size_t before = folder.files();
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{}, tight{};
+    getrlimit(RLIMIT_FSIZE, &limit);
+    for (const rlim_t size : {0u, 5000u, 30000u})
+        for (Format format : {Format::netcdf4, Format::cdf5, Format::classic}) {
+            tight = limit;
+            tight.rlim_cur = size;
+            setrlimit(RLIMIT_FSIZE, &tight);
+            const std::string text = writing(old, format), fresh = writing(folder / "fresh.nc", format);
+            setrlimit(RLIMIT_FSIZE, &limit);
+            CHECK(says(text, "cannot write '" + old + "'") && says(fresh, "cannot write"));
+            CHECK(folder.files() == before && bytes(old) == "older result");
+        }
+    // A full disk: the work in progress lands on the device that is always full.
+    if (fs::exists("/dev/full")) {
+        fs::create_symlink("/dev/full", old + ".part-" + std::to_string(::getpid()));
+        CHECK(says(writing(old), "is full; make room"));
+        CHECK(folder.files() == before && bytes(old) == "older result");
+    }
+    // After the failures it still writes.
+    write_result(r, folder / "fresh.nc", {});
+    CHECK(Reader(folder / "fresh.nc").values("force").size() == sample::kSteps);
+}
+
+void test_not_finite(const Folder& folder) {
+    const std::string path = folder / "never.nc";
+    Result r = sample::result(1);
+    r.contacts.force[5] = std::nan("");
+    CHECK(says(message(Failure::internal, [&] { write_result(r, path, {}); }), "contact_force"));
+    r = sample::result(1);
+    r.observations.map_pressure[0] = 1.0 / 0.0;
+    CHECK(says(message(Failure::internal, [&] { write_result(r, path, {}); }), "map_pressure"));
+    r = sample::result(1);
+    r.heights->row(2)[3] = std::nan("");
+    CHECK(says(message(Failure::internal, [&] { write_result(r, path, {}); }), "height"));
+    CHECK(!fs::exists(path));
+}
+
+void test_edges(const Folder& folder) {
+    // No contact anywhere, no distributions, a flat punch beside the map: the file is still one.
+    Case c = sample::make_case(1);
+    c.output.pdf_levels = {};
+    c.indentation.control = Control::force;
+    c.run.length_unit = "1e-6 m";
+    c.run.seed = 1234567890123;
+    Indenter flat;
+    flat.E_star = 1, flat.R = Case::kInfinity, flat.x0 = 3;
+    const ObserveOptions options = observe_options(c, {0, 0, 1, 0.5}, flat, 0, 0);
+    Accumulators sums(options, 2);
+    sums.add(observe(options, 1, {}, {}, {Level{}, Level{}}));
+    Result r = make_result(c, "", flat, 0, std::nullopt, sums.finish());
+    keep_contacts(r, {Level{}, Level{}}, Contacts::all);
+    write_result(r, folder / "empty.nc", {});
+    const Reader file(folder / "empty.nc");
+    CHECK(file.values("contact_count") == (std::vector<double>{0, 0}) && !file.has("contact_force") && !file.has("radius") &&
+          !file.has("pdf_level"));
+    CHECK(file.values("area_hertz")[0] == NC_FILL_DOUBLE && file.values("m2_theory")[0] == NC_FILL_DOUBLE &&
+          file.values("area_I")[0] == NC_FILL_DOUBLE);
+    CHECK(file.dimensions("separation") == (std::vector<std::string>{"realization", "step"}));  // force control
+    CHECK(file.values("y").size() == 10 && file.values("x").size() == 20);
+    CHECK(file.text("contact_area", "units") == "(1e-6 m)2");
+    CHECK(file.text("", "seed") == "1234567890123");
+}
+
+void test_units_and_contacts() {
+    CHECK(unit_of("mm", 1) == "mm" && unit_of("mm", -2, "N", 1) == "N mm-2" && unit_of("um", 2, "mN", -1) == "um2 mN-1");
+    CHECK(unit_of("mm", 0, "N", 0) == "1" && unit_of("1", 2) == "1" && unit_of("", 2, "N", 1) == "N" &&
+          unit_of("m2 s-1", -1) == "(m2 s-1)-1");
+    Case c = sample::make_case(1);
+    CHECK(contacts_kept(c) == Contacts::all);
+    c.output.contacts = Contacts::last;
+    CHECK(contacts_kept(c) == Contacts::last);
+    c.run.realizations = 2;
+    CHECK_THROWS(contacts_kept(c), Error);
+    c.output.contacts = Contacts::automatic;
+    CHECK(contacts_kept(c) == Contacts::none);
+    c.output.heights = true;
+    CHECK_THROWS(contacts_kept(c), Error);
+    Result r;
+    const std::vector<Level> levels = sample::levels(sample::asperities(1));
+    keep_contacts(r, levels, Contacts::last);
+    CHECK(r.contacts.count[0] == 0 && r.contacts.count.back() == static_cast<int>(levels.back().asperity.size()));
+    CHECK(r.contacts.start.back() == 0 && r.contacts.asperity == levels.back().asperity);
+    keep_contacts(r, levels, Contacts::none);
+    CHECK(r.contacts.start.empty());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc == 4 && std::strcmp(argv[1], "--sample") == 0) {
+        write_result(sample::result(1), argv[2], {});
+        write_result(sample::result(3), argv[3], {Format::cdf5, 0, ""});
+        return 0;
+    }
+    for (const auto& [format, compression] :
+         {std::pair{Format::netcdf4, 4}, {Format::netcdf4, 0}, {Format::cdf5, 4}, {Format::classic, 4}})
+        test_one_realization(Folder(), format, compression);
+    test_many_realizations(Folder());
+    test_ncdump(Folder());
+    test_same_case_same_file(Folder());
+    test_failures(Folder());
+    test_not_finite(Folder());
+    test_edges(Folder());
+    test_units_and_contacts();
+    return check::summary();
+}
