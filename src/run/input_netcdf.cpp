@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,12 @@ namespace {
 // Values that stand for "missing" in the variable as stored.
 bool has_default_fill(nc_type type) {
     return type == NC_FLOAT || type == NC_DOUBLE || type == NC_INT || type == NC_SHORT || type == NC_INT64;
+}
+
+std::string shown(double v) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.9g", v);
+    return buffer;
 }
 
 std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
@@ -163,8 +170,7 @@ void NetcdfInput::read(const Variable& v, double* out) const {
     for (std::size_t i = 0; i < count; ++i) {
         const double stored = out[i];
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + std::to_string(stored) +
-                   "); every value must be known");
+            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) + "); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) refuse(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

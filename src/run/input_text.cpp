@@ -29,7 +29,9 @@ std::string shown(std::string_view word) {
 
 double number(std::string_view word, const std::string& path, long line, std::size_t column) {
     const std::string place = shown(word) + " in column " + std::to_string(column);
-    std::string text(word.front() == '+' ? word.substr(1) : word);
+    // std::from_chars knows no plus sign before a number.
+    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    std::string text(plus ? word.substr(1) : word);
     std::replace_if(text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,0 +1,327 @@
+// Heights and asperities from files: what is read, and what is refused with which words.
+#include "run/inputs.hpp"
+
+#include <netcdf.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+
+using namespace rsc;
+
+namespace {
+
+const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_inputs_" + std::to_string(getpid()));
+
+std::string in_folder(const std::string& name) { return (folder / name).string(); }
+
+std::string write(const std::string& name, const std::string& content) {
+    std::ofstream(in_folder(name), std::ios::binary) << content;
+    return in_folder(name);
+}
+
+void refused(const std::function<void()>& what, const char* words, int line) {
+    try {
+        what();
+        std::printf("line %d: accepted, though '%s' was expected\n", line, words);
+        CHECK(!"refused");
+    } catch (const Error& e) {
+        CHECK(e.kind() == Failure::bad_input);
+        if (!std::strstr(e.what(), words)) std::printf("line %d: '%s' is not in: %s\n", line, words, e.what());
+        CHECK(std::strstr(e.what(), words));
+    }
+}
+#define REFUSED(expression, words) refused([&] { (void)(expression); }, words, __LINE__)
+
+void ok(int status) {
+    if (status != NC_NOERR) std::printf("NetCDF: %s\n", nc_strerror(status));
+    CHECK(status == NC_NOERR);
+}
+
+struct NcFile {
+    int id = -1;
+    std::string path;
+    explicit NcFile(const std::string& name, int format = NC_NETCDF4) : path(in_folder(name)) { ok(nc_create(path.c_str(), NC_CLOBBER | format, &id)); }
+    ~NcFile() { close(); }
+    void close() {
+        if (id >= 0) ok(nc_close(id));
+        id = -1;
+    }
+    int dimension(const char* name, std::size_t length) {
+        int d = -1;
+        ok(nc_def_dim(id, name, length, &d));
+        return d;
+    }
+    int variable(const char* name, nc_type type, std::vector<int> dimensions) {
+        int v = -1;
+        ok(nc_def_var(id, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &v));
+        return v;
+    }
+};
+
+std::vector<double> ramp(std::size_t n, double first, double step) {
+    std::vector<double> c(n);
+    for (std::size_t i = 0; i < n; ++i) c[i] = first + static_cast<double>(i) * step;
+    return c;
+}
+
+// height(y = 3, x = 5) = 10 y index + x index, with coordinates as given (empty: none), changed by `tamper` before the data go in.
+std::string heights_file(const std::string& name, int format, std::vector<double> x, std::vector<double> y, const char* variable = "height",
+                         nc_type type = NC_DOUBLE, const std::function<void(int, int)>& tamper = {}, std::vector<double> z = {}) {
+    NcFile f(name, format);
+    const int dy = f.dimension("y", 3), dx = f.dimension("x", 5);
+    const int v = f.variable(variable, type, {dy, dx});
+    const int vx = x.empty() ? -1 : f.variable("x", NC_DOUBLE, {dx}), vy = y.empty() ? -1 : f.variable("y", NC_DOUBLE, {dy});
+    if (tamper) tamper(f.id, v);
+    ok(nc_enddef(f.id));
+    if (z.empty())
+        for (int i = 0; i < 15; ++i) z.push_back(10 * (i / 5) + i % 5);
+    ok(nc_put_var_double(f.id, v, z.data()));
+    if (vx >= 0) ok(nc_put_var_double(f.id, vx, x.data()));
+    if (vy >= 0) ok(nc_put_var_double(f.id, vy, y.data()));
+    return f.path;
+}
+
+void heights_from_netcdf() {
+    for (const int format : {0, int{NC_64BIT_OFFSET}, int{NC_64BIT_DATA}, int{NC_NETCDF4}}) {
+        const HeightMap m = read_heights(heights_file("h", format, ramp(5, 0.05, 0.1), ramp(3, -1, 0.25)), std::nullopt);
+        CHECK(m.nx == 5 && m.ny == 3 && !m.periodic);
+        CHECK_CLOSE(m.dx, 0.1, 1e-15);
+        CHECK_CLOSE(m.dy, 0.25, 1e-15);
+        CHECK(m.x0 == 0.05 && m.y0 == -1);
+        CHECK(m(3, 2) == 23 && m(0, 0) == 0);
+        CHECK_CLOSE(m.Lx(), 0.5, 1e-15);
+    }
+    // Another name, no coordinates: L is the extent in x.
+    const std::string bare = heights_file("bare", NC_NETCDF4, {}, {}, "Topography");
+    const HeightMap m = read_heights(bare, 2.0);
+    CHECK(m.dx == 0.4 && m.dy == 0.4 && m.x0 == 0 && m.y0 == 0 && m(4, 1) == 14);
+    REFUSED(read_heights(bare, std::nullopt), "L, its extent in x, must be given");
+    REFUSED(read_heights(bare, -1.0), "L must be positive");
+    // L beside coordinates: the same or refused.
+    const std::string both = heights_file("both", NC_NETCDF4, ramp(5, 0, 0.1), ramp(3, 0, 0.1));
+    CHECK_CLOSE(read_heights(both, 0.5).dx, 0.1, 1e-15);
+    REFUSED(read_heights(both, 0.4), "5 steps of 0.1 = 0.5, but L = 0.4");
+    // Falling coordinates are turned round.
+    const HeightMap turned = read_heights(heights_file("turned", NC_NETCDF4, ramp(5, 0.4, -0.1), ramp(3, 2, -1)), std::nullopt);
+    CHECK(turned(0, 0) == 24 && turned(4, 2) == 0 && turned(4, 0) == 20);
+    CHECK_CLOSE(turned.x0, 0, 1e-15);
+    CHECK(turned.y0 == 0 && turned.dy == 1);
+    // Packed.
+    const auto pack = [](int id, int v) {
+        const double scale = 0.5, offset = -3;
+        ok(nc_put_att_double(id, v, "scale_factor", NC_DOUBLE, 1, &scale));
+        ok(nc_put_att_double(id, v, "add_offset", NC_DOUBLE, 1, &offset));
+    };
+    const HeightMap packed = read_heights(heights_file("packed", NC_NETCDF4, ramp(5, 0, 1), ramp(3, 0, 1), "height", NC_SHORT, pack), std::nullopt);
+    CHECK(packed(3, 2) == 23 * 0.5 - 3);
+}
+
+void bad_heights_from_netcdf() {
+    const std::vector<double> x = ramp(5, 0, 0.1), y = ramp(3, 0, 0.1);
+    std::vector<double> uneven = x;
+    uneven[2] += 1e-6;
+    REFUSED(read_heights(heights_file("uneven", NC_NETCDF4, uneven, y), std::nullopt), "coordinate x is not uniform to 1e-6 of its step 0.1: x(2)");
+    uneven[2] = x[2] + 0.9e-7;  // within the tolerance
+    CHECK(read_heights(heights_file("even", NC_NETCDF4, uneven, y), std::nullopt).nx == 5);
+    REFUSED(read_heights(heights_file("flat", NC_NETCDF4, ramp(5, 1, 0), y), std::nullopt), "does not vary");
+    REFUSED(read_heights(heights_file("one", NC_NETCDF4, x, {}), std::nullopt), "one dimension alone");
+    std::vector<double> nan_x = x;
+    nan_x[4] = std::nan("");
+    REFUSED(read_heights(heights_file("nanx", NC_NETCDF4, nan_x, y), std::nullopt), "x(x = 4), counted from 0, is not finite");
+
+    std::vector<double> z = ramp(15, 0, 1);
+    z[7] = std::nan("");
+    REFUSED(read_heights(heights_file("nan", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "height(y = 1, x = 2), counted from 0, is not finite");
+    z[7] = HUGE_VAL;
+    REFUSED(read_heights(heights_file("inf", 0, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "height(y = 1, x = 2)");
+    z[7] = -99;
+    const auto fill = [](int id, int v) {
+        const double value = -99;
+        ok(nc_put_att_double(id, v, "_FillValue", NC_DOUBLE, 1, &value));
+    };
+    const auto missing = [](int id, int v) {
+        const double values[] = {-98, -99};
+        ok(nc_put_att_double(id, v, "missing_value", NC_DOUBLE, 2, values));
+    };
+    REFUSED(read_heights(heights_file("fill", NC_NETCDF4, x, y, "height", NC_DOUBLE, fill, z), std::nullopt), "height(y = 1, x = 2), counted from 0, is missing");
+    REFUSED(read_heights(heights_file("missing", NC_NETCDF4, x, y, "height", NC_DOUBLE, missing, z), std::nullopt), "is missing");
+    z[7] = NC_FILL_DOUBLE;
+    REFUSED(read_heights(heights_file("unwritten", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "is missing");
+    const auto units = [](int id, int v) {
+        ok(nc_put_att_text(id, v, "units", 2, "nm"));
+        ok(nc_put_att_text(id, v + 1, "units", 2, "um"));
+    };
+    REFUSED(read_heights(heights_file("units", NC_NETCDF4, x, y, "height", NC_DOUBLE, units), std::nullopt), "height is in 'nm' but x in 'um'");
+
+    {
+        NcFile f("two");
+        const int d = f.dimension("a", 4), e = f.dimension("b", 4);
+        f.variable("first", NC_DOUBLE, {d, e});
+        f.variable("second", NC_FLOAT, {d, e});
+        f.close();
+        REFUSED(read_heights(f.path, 1.0), "first(a = 4, b = 4), second(a = 4, b = 4)");
+    }
+    {
+        NcFile f("cube");
+        f.variable("height", NC_DOUBLE, {f.dimension("t", 2), f.dimension("y", 4), f.dimension("x", 4)});
+        f.close();
+        REFUSED(read_heights(f.path, 1.0), "not height(t = 2, y = 4, x = 4)");
+    }
+    {
+        NcFile f("none");
+        f.variable("t", NC_DOUBLE, {f.dimension("t", 2)});
+        f.close();
+        REFUSED(read_heights(f.path, 1.0), "no variable height(y, x)");
+        REFUSED(read_asperities(f.path), "no variable asperity_x");
+    }
+    {
+        NcFile f("absurd");  // an empty file may announce anything
+        const int d = f.dimension("y", 2000000000), e = f.dimension("x", 2000000000);
+        const int v = f.variable("height", NC_DOUBLE, {d, e});
+        const std::size_t chunks[] = {100, 100};
+        ok(nc_def_var_chunking(f.id, v, NC_CHUNKED, chunks));
+        f.close();
+        REFUSED(read_heights(f.path, 1.0), "2000000000 x 2000000000 points");
+    }
+    {
+        NcFile f("small");
+        f.variable("height", NC_DOUBLE, {f.dimension("y", 2), f.dimension("x", 9)});
+        f.close();
+        REFUSED(read_heights(f.path, 1.0), "at least 3 x 3");
+    }
+}
+
+void cut_files() {
+    // However much is missing, it is said; a classic file would otherwise go on with zeros.
+    for (const int format : {0, int{NC_64BIT_OFFSET}, int{NC_64BIT_DATA}, int{NC_NETCDF4}}) {
+        const std::string whole = heights_file("whole", format, ramp(5, 0, 1), ramp(3, 0, 1));
+        std::ifstream stream(whole, std::ios::binary);
+        const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+        int said = 0, cuts = 0;
+        for (std::size_t keep = 9; keep < bytes.size(); keep += 1 + bytes.size() / 100) {
+            const std::string cut = write("cut", bytes.substr(0, keep));
+            ++cuts;
+            try {
+                read_heights(cut, std::nullopt);
+            } catch (const Error& e) {
+                const bool clear = std::strstr(e.what(), "whole") || std::strstr(e.what(), "cut off");
+                said += clear && e.kind() == Failure::bad_input ? 1 : 0;
+            }
+        }
+        CHECK(said == cuts && cuts > 50);
+        REFUSED(read_heights(write("cut", bytes.substr(0, bytes.size() - 1)), std::nullopt), "whole");
+    }
+    // With a record dimension too.
+    NcFile f("records", 0);
+    const int y = f.dimension("y", NC_UNLIMITED), x = f.dimension("x", 3);
+    const int v = f.variable("height", NC_DOUBLE, {y, x}), other = f.variable("other", NC_SHORT, {y});
+    ok(nc_enddef(f.id));
+    for (std::size_t j = 0; j < 4; ++j) {
+        const std::size_t start[] = {j, 0}, count[] = {1, 3};
+        const double row[] = {1, 2, static_cast<double>(j)};
+        const short one = 1;
+        ok(nc_put_vara_double(f.id, v, start, count, row));
+        ok(nc_put_var1_short(f.id, other, start, &one));
+    }
+    f.close();
+    CHECK(read_heights(f.path, 3.0)(2, 3) == 3);
+    std::filesystem::resize_file(f.path, std::filesystem::file_size(f.path) - 8);
+    REFUSED(read_heights(f.path, 3.0), "not whole");
+}
+
+void heights_from_text() {
+    const HeightMap m = read_heights(RSC_TEST_DATA "/heights.txt", 8.0);
+    CHECK(m.nx == 4 && m.ny == 3 && m.dx == 2 && m.dy == 2 && m.x0 == 0 && !m.periodic);
+    CHECK(m(1, 0) == 1.5e-3 && m(3, 0) == 3 && m(2, 1) == 6.25 && m(3, 2) == -11);
+    REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt), "L, its extent in x, must be given");
+    // Windows' line ends, a byte order mark, no line end at the end, a number below the range of double.
+    CHECK(read_heights(write("dos", "\xef\xbb\xbf" "1 2 3\r\n4 5 6\r\n\r\n7 8 1e-400"), 3.0)(1, 2) == 8);
+    REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0), "t:2: 2 values where 3 as in line 1");
+    REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0), "t:3: 4 values where 3 as in line 2");
+    REFUSED(read_heights(write("t", "1 2 3\n4 abc 6\n"), 1.0), "t:2: 'abc' in column 2 is not a number");
+    REFUSED(read_heights(write("t", "1 2 3\n4 5.0.0 6\n"), 1.0), "'5.0.0' in column 2");
+    REFUSED(read_heights(write("t", "1 2 3\n4 +-5 6\n"), 1.0), "'+-5' in column 2");
+    REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite");
+    REFUSED(read_heights(write("t", "1 2 3\n-inf 5 3\n"), 1.0), "'-inf' in column 1 is not finite");
+    REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
+    REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
+    REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n"), 1.0), "at least 3 x 3");
+    REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "holds no numbers");
+    REFUSED(read_heights(write("t", ""), 1.0), "is empty");
+    REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0), "neither text nor a NetCDF file");
+    REFUSED(read_heights(in_folder("absent"), 1.0), "absent: No such file");
+    REFUSED(read_heights(folder.string(), 1.0), "is a directory");
+    REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0), "t.nc:2: 'x'");  // by content, not by name
+}
+
+std::string asperities_file(const std::string& name, std::vector<double> x, std::vector<double> r, bool curvatures, std::size_t lengths = 3) {
+    NcFile f(name);
+    const int d = f.dimension("asperity", 3), e = lengths == 3 ? d : f.dimension("other", lengths);
+    const std::vector<double> y = {0, 0, 1}, z = {0.1, 0.2, 0.3}, k1 = {3, 2, 1}, k2 = {1, 2, 0.5}, angle = {0, 0.5, 1};
+    std::vector<std::pair<int, std::vector<double>>> all = {{f.variable("asperity_x", NC_DOUBLE, {d}), x},
+                                                            {f.variable("asperity_y", NC_DOUBLE, {d}), y},
+                                                            {f.variable("asperity_z", NC_DOUBLE, {d}), z},
+                                                            {f.variable("asperity_radius", NC_DOUBLE, {e}), r}};
+    if (curvatures) {
+        all.push_back({f.variable("asperity_kappa1", NC_DOUBLE, {d}), k1});
+        all.push_back({f.variable("asperity_kappa2", NC_DOUBLE, {d}), k2});
+        all.push_back({f.variable("asperity_angle", NC_DOUBLE, {d}), angle});
+        all.push_back({f.variable("asperity_biharmonic", NC_DOUBLE, {d}), z});
+    }
+    ok(nc_enddef(f.id));
+    for (const auto& [v, values] : all) ok(nc_put_var_double(f.id, v, values.data()));
+    return f.path;
+}
+
+void asperities() {
+    const Asperities text = read_asperities(RSC_TEST_DATA "/asperities.txt");
+    CHECK(text.size() == 3 && text.x[2] == 0.4 && text.y[2] == 0.9 && text.z[1] == -0.001 && text.radius[1] == 0.15);
+    CHECK(text.kappa1.empty() && text.biharmonic.empty());
+    const Extent e = extent(text);
+    CHECK(e.x_min == 0.1 && e.x_max == 0.4 && e.y_min == 0.2 && e.y_max == 0.9);
+
+    const Asperities full = read_asperities(asperities_file("full", {0, 1, 1}, {1, 2, 3}, true));
+    CHECK(full.size() == 3 && full.x[1] == 1 && full.radius[2] == 3 && full.kappa1[0] == 3 && full.kappa2[2] == 0.5 && full.angle[1] == 0.5 &&
+          full.biharmonic[2] == 0.3);
+    CHECK(read_asperities(asperities_file("plain", {0, 1, 1}, {1, 2, 3}, false)).kappa1.empty());
+
+    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)), "asperity 1, counted from 0: lies at the same point as");
+    REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 0}, false)), "asperity 2, counted from 0: the radius must be positive");
+    REFUSED(read_asperities(asperities_file("bad", {0, std::nan(""), 1}, {1, 2, 3}, false)), "asperity_x(asperity = 1), counted from 0, is not finite");
+    REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 3, 4}, false, 4)), "asperity_radius(other = 4): 3 values");
+    {
+        NcFile f("empty");
+        const int d = f.dimension("asperity", NC_UNLIMITED);
+        for (const char* name : {"asperity_x", "asperity_y", "asperity_z", "asperity_radius"}) f.variable(name, NC_DOUBLE, {d});
+        f.close();
+        REFUSED(read_asperities(f.path), "no asperity in it");
+    }
+    REFUSED(read_asperities(write("t", "1 2 3 4\n# remark\n1 2 3\n")), "t:3: 3 values where 4 were expected");
+    REFUSED(read_asperities(write("t", "1 2 3 4\n2 2 3 -4\n")), "t:2: the radius must be positive, not -4");
+    REFUSED(read_asperities(write("t", "1 2 3 4\n2 2 3 4\n\n1 2 9 9\n")), "t:4: lies at the same point as ");
+    REFUSED(read_asperities(write("t", "1 2 nan 4\n")), "t:1: 'nan' in column 3 is not finite");
+    REFUSED(read_asperities(in_folder("absent")), "No such file");
+}
+
+}  // namespace
+
+int main() {
+    std::filesystem::create_directories(folder);
+    heights_from_netcdf();
+    bad_heights_from_netcdf();
+    cut_files();
+    heights_from_text();
+    asperities();
+    std::filesystem::remove_all(folder);
+    return check::summary();
+}
