@@ -1,0 +1,10 @@
+#!/bin/sh
+# The first run: installs what is missing, builds, runs input/first.nml and draws its result.
+set -eu
+top=$(cd "$(dirname "$0")/.." && pwd)
+cd "$top"
+sh input/setup.sh -DRSC_TESTS=OFF
+cp build/rsc ./rsc
+./rsc < input/first.nml
+if python3 -c 'import numpy, matplotlib, netCDF4' 2> /dev/null; then python=python3; else python=/usr/bin/python3; fi
+"$python" output/plot/plot.py output/first.nc

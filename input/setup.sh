@@ -1,0 +1,59 @@
+#!/bin/sh
+# Installs what is missing (Debian and its kin; elsewhere it names what is needed and stops) and builds rsc in build/.
+# Usage: sh input/setup.sh            from anywhere; extra arguments go to cmake, e.g. -DRSC_MPI=ON
+set -eu
+top=$(cd "$(dirname "$0")/.." && pwd)
+
+missing=
+need() {  # need PACKAGE COMMAND...: PACKAGE (Debian's name) is missing unless COMMAND succeeds
+    package=$1
+    shift
+    "$@" > /dev/null 2>&1 || missing="$missing $package"
+}
+header() { printf '#include <%s>\n' "$1" | g++ -E -x c++ - ; }
+links() { echo 'int main() {}' | g++ -x c++ - -o /dev/null "$@"; }
+plots() { python3 -c 'import numpy, matplotlib, netCDF4' || /usr/bin/python3 -c 'import numpy, matplotlib, netCDF4'; }
+look() {
+    missing=
+    need g++ command -v g++
+    need gfortran command -v gfortran
+    need cmake command -v cmake
+    need make command -v make
+    need pkg-config command -v pkg-config
+    need libopenblas-dev links -llapack -lblas
+    need libfftw3-dev pkg-config --exists fftw3
+    need libnetcdf-dev pkg-config --exists netcdf
+    need libnetcdff-dev pkg-config --exists netcdf-fortran
+    need librandom123-dev header Random123/philox.h
+    need netcdf-bin command -v ncdump
+    need python3 command -v python3
+    need python3-matplotlib plots
+    need python3-netcdf4 plots
+}
+
+look
+if [ -n "$missing" ]; then
+    echo "rsc: missing:$missing"
+    if ! command -v apt-get > /dev/null 2>&1; then
+        echo "rsc: please install these (the names are Debian's) and run the command again." >&2
+        exit 1
+    elif [ "$(id -u)" = 0 ]; then
+        as_root=
+    elif command -v sudo > /dev/null 2>&1 && sudo -n true 2> /dev/null; then
+        as_root=sudo
+    else
+        echo "rsc: please install them first, for instance: sudo apt-get install$missing" >&2
+        exit 1
+    fi
+    $as_root apt-get update
+    # shellcheck disable=SC2086
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+    look
+    if [ -n "$missing" ]; then
+        echo "rsc: still missing after the installation:$missing" >&2
+        exit 1
+    fi
+fi
+
+cmake -S "$top" -B "$top/build" "$@"
+cmake --build "$top/build" --parallel "$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)"
