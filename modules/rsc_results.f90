@@ -1,0 +1,378 @@
+!> Reads the result files of rsc into Fortran arrays, with netcdf-fortran.
+!>
+!> A result file lists its dimensions slowest first, as ncdump prints them; Fortran sees them reversed: map_pressure(step,y,x) of the
+!> file is map_pressure(x,y,step) here. Indices count from 1 in the file already, so they are used as they are:
+!>
+!>     use rsc_results
+!>     type(rsc_result) :: r
+!>     call rsc_read_result('output/rsc.nc', r)
+!>     print *, r%separation(:,1), r%force(:,1)
+!>     associate (first => r%contact_start(s), last => r%contact_start(s) + r%contact_count(s) - 1)
+!>       print *, r%asperity_x(r%contact_asperity(first:last)), r%contact_force(first:last)
+!>     end associate
+!>
+!> What a file does not hold (contacts of a campaign, heights not asked for) is an array of size zero here. A value that is absent
+!> (the deviation over a single realization) is rsc_absent; ask rsc_is_absent(value).
+module rsc_results
+  use, intrinsic :: iso_fortran_env, only: real64, int32, int64, error_unit
+  use netcdf
+  implicit none
+  private
+  public :: rsc_result, rsc_read_result, rsc_absent, rsc_is_absent
+
+  !> The fill value of the file.
+  real(real64), parameter :: rsc_absent = nf90_fill_double
+
+  !> One result file; names, units and meanings are those of its variables. R realizations, S levels.
+  type :: rsc_result
+    character(:), allocatable :: title, source, history, references, case
+    integer(int64) :: seed = 0
+
+    ! The levels: (step), and (step, realization).
+    integer(int32), allocatable :: realization(:)
+    real(real64), allocatable :: separation(:,:), separation_sigma(:,:)  !< (S,1), or (S,R) under force control
+    real(real64), allocatable :: force(:,:), contact_area(:,:), residual(:,:)
+    real(real64), allocatable :: stiffness(:,:)                          !< size zero if it was not computed
+    integer(int32), allocatable :: contacts(:,:), candidates(:,:), iterations(:,:), status(:,:), method(:,:)
+    integer(int32), allocatable :: products(:,:), overlapping_pairs(:,:), large_contacts(:,:), crowded_cells(:,:)
+    real(real64), allocatable :: force_mean(:), force_std(:), contact_area_mean(:), contact_area_std(:)
+    real(real64), allocatable :: area_I(:), area_II(:), area_hertz(:)
+
+    ! The surfaces: (realization); closed forms: scalars.
+    real(real64), allocatable :: sigma(:), m2(:), m4(:), rms_slope(:), mean_kappa_g(:)
+    integer(int32), allocatable :: summits(:), saddles(:)
+    real(real64) :: m0_theory = rsc_absent, m2_theory = rsc_absent, m4_theory = rsc_absent
+    real(real64) :: nayak_theory = rsc_absent, density_theory = rsc_absent
+    real(real64) :: e_star = rsc_absent, r_star = rsc_absent, transition_force = rsc_absent
+    real(real64) :: tip_x = rsc_absent, tip_y = rsc_absent
+
+    ! Maps (x, y, step) and radial means (radius, step).
+    real(real64), allocatable :: x(:), y(:), map_area_fraction(:,:,:), map_pressure(:,:,:)
+    real(real64), allocatable :: radius(:), radial_area_fraction(:,:), radial_pressure(:,:), hertz_pressure(:,:)
+
+    ! Distributions (bin, pdf_level), and the middles of their bins.
+    real(real64), allocatable :: pdf_level(:), pdf_separation_sigma(:)
+    real(real64), allocatable :: pressure_mean_bin(:), pressure_bin(:), spot_area_bin(:)
+    real(real64), allocatable :: pressure_mean_pdf(:,:), pressure_pdf(:,:), spot_area_pdf(:,:)
+
+    ! Asperities, contacts and heights of one realization.
+    real(real64), allocatable :: asperity_x(:), asperity_y(:), asperity_z(:), asperity_radius(:)
+    real(real64), allocatable :: asperity_kappa1(:), asperity_kappa2(:), asperity_angle(:), asperity_biharmonic(:)
+    integer(int32), allocatable :: contact_start(:), contact_count(:), contact_asperity(:)
+    real(real64), allocatable :: contact_force(:), contact_radius(:)
+    real(real64), allocatable :: height(:,:), height_x(:), height_y(:)   !< height(x, y)
+  contains
+    procedure :: realizations => number_of_realizations
+    procedure :: steps => number_of_steps
+  end type rsc_result
+
+  !> Reads one variable whole, whatever its shape; of size zero if the file does not have it.
+  interface get
+    module procedure get_real0, get_real1, get_real2, get_real3, get_int1, get_int2
+  end interface get
+
+  !> The file being read, and the first failure: everything after it does nothing.
+  type :: reader
+    integer :: id = -1
+    integer :: status = nf90_noerr
+    character(:), allocatable :: what
+  end type reader
+
+contains
+
+  !> Reads the result file `file` into `result`. With `stat` a failure is reported in it (0: read; otherwise not zero, and `result` is
+  !> not to be used) and, as text, in `errmsg`; without `stat` a failure stops the program with its message.
+  subroutine rsc_read_result(file, result, stat, errmsg)
+    character(*), intent(in) :: file
+    type(rsc_result), intent(out) :: result
+    integer, intent(out), optional :: stat
+    character(:), allocatable, intent(out), optional :: errmsg
+    type(reader) :: r
+    character(:), allocatable :: message
+
+    r%what = ''
+    r%status = nf90_open(file, nf90_nowrite, r%id)
+    if (r%status == nf90_noerr) then
+      call check_kind(r)
+      call get_attributes(r, result)
+      call get_levels(r, result)
+      call get_surfaces(r, result)
+      call get_observations(r, result)
+      call get_contacts(r, result)
+      call close_file(r)
+    end if
+
+    if (present(stat)) stat = r%status
+    if (r%status == nf90_noerr) then
+      if (present(errmsg)) errmsg = ''
+      return
+    end if
+    message = "cannot read the result file '" // trim(file) // "'"
+    if (len(r%what) > 0) message = message // ', ' // r%what
+    if (len(r%what) == 0 .or. index(r%what, 'variable') == 1) message = message // ': ' // trim(nf90_strerror(r%status))
+    if (present(errmsg)) errmsg = message
+    if (.not. present(stat)) then
+      write (error_unit, '(a)') message
+      error stop 1
+    end if
+  end subroutine rsc_read_result
+
+  !> Is it the fill value? No result comes near it.
+  elemental logical function rsc_is_absent(value)
+    real(real64), intent(in) :: value
+    rsc_is_absent = value > 0.99_real64 * rsc_absent
+  end function rsc_is_absent
+
+  pure integer function number_of_realizations(self) result(n)
+    class(rsc_result), intent(in) :: self
+    n = 0
+    if (allocated(self%force)) n = size(self%force, 2)
+  end function number_of_realizations
+
+  pure integer function number_of_steps(self) result(n)
+    class(rsc_result), intent(in) :: self
+    n = 0
+    if (allocated(self%force)) n = size(self%force, 1)
+  end function number_of_steps
+
+  !> Another NetCDF file is refused by name rather than read as an empty result.
+  subroutine check_kind(r)
+    type(reader), intent(inout) :: r
+    integer :: varid
+    if (nf90_inq_varid(r%id, 'force', varid) /= nf90_noerr .or. nf90_inq_varid(r%id, 'map_pressure', varid) /= nf90_noerr) then
+      r%status = nf90_enotvar
+      r%what = "which is no result of rsc: it lacks the variables 'force' and 'map_pressure'"
+    end if
+  end subroutine check_kind
+
+  subroutine close_file(r)
+    type(reader), intent(inout) :: r
+    integer :: status
+    status = nf90_close(r%id)
+    if (r%status == nf90_noerr) r%status = status
+  end subroutine close_file
+
+  subroutine get_attributes(r, a)
+    type(reader), intent(inout) :: r
+    type(rsc_result), intent(inout) :: a
+    character(:), allocatable :: text
+    integer(int32) :: seed
+    integer :: kind, length
+    call get_text(r, 'title', a%title)
+    call get_text(r, 'source', a%source)
+    call get_text(r, 'history', a%history)
+    call get_text(r, 'references', a%references)
+    call get_text(r, 'case', a%case)
+    if (r%status /= nf90_noerr) return
+    if (nf90_inquire_attribute(r%id, nf90_global, 'seed', xtype=kind, len=length) /= nf90_noerr) return
+    if (kind == nf90_char) then  ! a seed beyond 32 bits
+      call get_text(r, 'seed', text)
+      read (text, *, iostat=length) a%seed
+    else if (nf90_get_att(r%id, nf90_global, 'seed', seed) == nf90_noerr) then
+      a%seed = seed
+    end if
+  end subroutine get_attributes
+
+  subroutine get_levels(r, a)
+    type(reader), intent(inout) :: r
+    type(rsc_result), intent(inout) :: a
+    call get(r, 'realization', a%realization)
+    call get(r, 'separation', a%separation)
+    call get(r, 'separation_sigma', a%separation_sigma)
+    call get(r, 'force', a%force)
+    call get(r, 'contact_area', a%contact_area)
+    call get(r, 'residual', a%residual)
+    call get(r, 'stiffness', a%stiffness)
+    call get(r, 'contacts', a%contacts)
+    call get(r, 'candidates', a%candidates)
+    call get(r, 'iterations', a%iterations)
+    call get(r, 'status', a%status)
+    call get(r, 'method', a%method)
+    call get(r, 'products', a%products)
+    call get(r, 'overlapping_pairs', a%overlapping_pairs)
+    call get(r, 'large_contacts', a%large_contacts)
+    call get(r, 'crowded_cells', a%crowded_cells)
+    call get(r, 'force_mean', a%force_mean)
+    call get(r, 'force_std', a%force_std)
+    call get(r, 'contact_area_mean', a%contact_area_mean)
+    call get(r, 'contact_area_std', a%contact_area_std)
+    call get(r, 'area_I', a%area_I)
+    call get(r, 'area_II', a%area_II)
+    call get(r, 'area_hertz', a%area_hertz)
+  end subroutine get_levels
+
+  subroutine get_surfaces(r, a)
+    type(reader), intent(inout) :: r
+    type(rsc_result), intent(inout) :: a
+    call get(r, 'sigma', a%sigma)
+    call get(r, 'm2', a%m2)
+    call get(r, 'm4', a%m4)
+    call get(r, 'rms_slope', a%rms_slope)
+    call get(r, 'mean_kappa_g', a%mean_kappa_g)
+    call get(r, 'summits', a%summits)
+    call get(r, 'saddles', a%saddles)
+    call get(r, 'm0_theory', a%m0_theory)
+    call get(r, 'm2_theory', a%m2_theory)
+    call get(r, 'm4_theory', a%m4_theory)
+    call get(r, 'nayak_theory', a%nayak_theory)
+    call get(r, 'density_theory', a%density_theory)
+    call get(r, 'e_star', a%e_star)
+    call get(r, 'r_star', a%r_star)
+    call get(r, 'transition_force', a%transition_force)
+    call get(r, 'tip_x', a%tip_x)
+    call get(r, 'tip_y', a%tip_y)
+  end subroutine get_surfaces
+
+  subroutine get_observations(r, a)
+    type(reader), intent(inout) :: r
+    type(rsc_result), intent(inout) :: a
+    call get(r, 'x', a%x)
+    call get(r, 'y', a%y)
+    call get(r, 'map_area_fraction', a%map_area_fraction)
+    call get(r, 'map_pressure', a%map_pressure)
+    call get(r, 'radius', a%radius)
+    call get(r, 'radial_area_fraction', a%radial_area_fraction)
+    call get(r, 'radial_pressure', a%radial_pressure)
+    call get(r, 'hertz_pressure', a%hertz_pressure)
+    call get(r, 'pdf_level', a%pdf_level)
+    call get(r, 'pdf_separation_sigma', a%pdf_separation_sigma)
+    call get(r, 'pressure_mean_bin', a%pressure_mean_bin)
+    call get(r, 'pressure_bin', a%pressure_bin)
+    call get(r, 'spot_area_bin', a%spot_area_bin)
+    call get(r, 'pressure_mean_pdf', a%pressure_mean_pdf)
+    call get(r, 'pressure_pdf', a%pressure_pdf)
+    call get(r, 'spot_area_pdf', a%spot_area_pdf)
+  end subroutine get_observations
+
+  subroutine get_contacts(r, a)
+    type(reader), intent(inout) :: r
+    type(rsc_result), intent(inout) :: a
+    call get(r, 'asperity_x', a%asperity_x)
+    call get(r, 'asperity_y', a%asperity_y)
+    call get(r, 'asperity_z', a%asperity_z)
+    call get(r, 'asperity_radius', a%asperity_radius)
+    call get(r, 'asperity_kappa1', a%asperity_kappa1)
+    call get(r, 'asperity_kappa2', a%asperity_kappa2)
+    call get(r, 'asperity_angle', a%asperity_angle)
+    call get(r, 'asperity_biharmonic', a%asperity_biharmonic)
+    call get(r, 'contact_start', a%contact_start)
+    call get(r, 'contact_count', a%contact_count)
+    call get(r, 'contact_asperity', a%contact_asperity)
+    call get(r, 'contact_force', a%contact_force)
+    call get(r, 'contact_radius', a%contact_radius)
+    call get(r, 'height', a%height)
+    call get(r, 'height_x', a%height_x)
+    call get(r, 'height_y', a%height_y)
+  end subroutine get_contacts
+
+  !> The shape of a variable as Fortran sees it, padded with ones to `rank`; zeros if the file does not have it.
+  subroutine inquire_variable(r, name, rank, varid, shape)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    integer, intent(in) :: rank
+    integer, intent(out) :: varid, shape(rank)
+    integer :: dims(nf90_max_var_dims), ndims, d
+    shape = 0
+    varid = -1
+    if (r%status /= nf90_noerr) return
+    if (nf90_inq_varid(r%id, name, varid) /= nf90_noerr) then
+      varid = -1
+      return
+    end if
+    r%status = nf90_inquire_variable(r%id, varid, ndims=ndims, dimids=dims)
+    if (r%status == nf90_noerr .and. ndims > rank) r%status = nf90_einvalcoords
+    if (r%status == nf90_noerr) then
+      shape = 1
+      do d = 1, ndims
+        r%status = nf90_inquire_dimension(r%id, dims(d), len=shape(d))
+        if (r%status /= nf90_noerr) exit
+      end do
+    end if
+    call note(r, name)
+  end subroutine inquire_variable
+
+  !> Remembers at which variable the first failure happened.
+  subroutine note(r, name)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    if (r%status /= nf90_noerr .and. len(r%what) == 0) r%what = "variable '" // name // "'"
+  end subroutine note
+
+  subroutine get_text(r, name, text)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    character(:), allocatable, intent(out) :: text
+    integer :: length
+    if (r%status /= nf90_noerr) return
+    if (nf90_inquire_attribute(r%id, nf90_global, name, len=length) /= nf90_noerr) length = 0
+    allocate (character(length) :: text)
+    if (length > 0) r%status = nf90_get_att(r%id, nf90_global, name, text)
+    call note(r, name)
+  end subroutine get_text
+
+  subroutine get_real0(r, name, values)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    real(real64), intent(inout) :: values
+    integer :: varid, shape(1)
+    call inquire_variable(r, name, 1, varid, shape)
+    if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
+    call note(r, name)
+  end subroutine get_real0
+
+  subroutine get_real1(r, name, values)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    real(real64), allocatable, intent(out) :: values(:)
+    integer :: varid, shape(1)
+    call inquire_variable(r, name, 1, varid, shape)
+    allocate (values(shape(1)))
+    if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
+    call note(r, name)
+  end subroutine get_real1
+
+  subroutine get_real2(r, name, values)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    real(real64), allocatable, intent(out) :: values(:,:)
+    integer :: varid, shape(2)
+    call inquire_variable(r, name, 2, varid, shape)
+    allocate (values(shape(1), shape(2)))
+    if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values, count=shape)
+    call note(r, name)
+  end subroutine get_real2
+
+  subroutine get_real3(r, name, values)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    real(real64), allocatable, intent(out) :: values(:,:,:)
+    integer :: varid, shape(3)
+    call inquire_variable(r, name, 3, varid, shape)
+    allocate (values(shape(1), shape(2), shape(3)))
+    if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
+    call note(r, name)
+  end subroutine get_real3
+
+  subroutine get_int1(r, name, values)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    integer(int32), allocatable, intent(out) :: values(:)
+    integer :: varid, shape(1)
+    call inquire_variable(r, name, 1, varid, shape)
+    allocate (values(shape(1)))
+    if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
+    call note(r, name)
+  end subroutine get_int1
+
+  subroutine get_int2(r, name, values)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: name
+    integer(int32), allocatable, intent(out) :: values(:,:)
+    integer :: varid, shape(2)
+    call inquire_variable(r, name, 2, varid, shape)
+    allocate (values(shape(1), shape(2)))
+    if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
+    call note(r, name)
+  end subroutine get_int2
+
+end module rsc_results
