@@ -19,9 +19,9 @@ namespace {
 constexpr std::size_t kDirect = 256;  // so few points are summed directly
 
 // Seconds on one core, measured; they only decide how the work is shared between mesh and near field.
-constexpr double kSecondsPerNearPair = 1.3e-9;
-constexpr double kSecondsPerMeshPoint = 10e-9;
-double seconds_per_point(const MeshDesign& design) { return 25e-9 + 1.0e-9 * design.width * design.width; }
+constexpr double kSecondsPerNearPair = 1.7e-9;
+constexpr double kSecondsPerMeshPoint = 11e-9;
+double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
 
 // The doubled mesh takes 16 bytes of memory per point at most; beyond this the near field does the rest.
 constexpr double kMeshPointsAtMost = 5e7;
@@ -78,7 +78,8 @@ Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, 
         const double mesh = FarField::points_needed(design, length_x / spacing, length_y / spacing);
         if (mesh > kMeshPointsAtMost && best.spacing > 0) break;
         const double near = pairs(design.cutoff * spacing);
-        const double cost = kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
+        const double cost =
+            kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
         if (cost < best.cost) best = {spacing, near, cost};
     }
     return best;
@@ -90,7 +91,7 @@ struct MeshPotential::Parts {
     std::size_t n = 0;
     PairSet direct;  // for few points or points all at one place, instead of everything else
 
-    MeshDesign design{};
+    const MeshDesign* design = nullptr;
     Choice choice;
     double scale = 1;  // near-field coordinate units per length, a power of two
     NearKernel kernel;
@@ -121,7 +122,8 @@ struct MeshPotential::Parts {
 MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error)
     : parts_(std::make_unique<Parts>()) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
-        throw Error(Failure::bad_input, "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
+        throw Error(Failure::bad_input,
+                    "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())
         throw Error(Failure::bad_input, "mesh product: " + std::to_string(n) + " points are more than 2^32");
     Parts& p = *parts_;
@@ -143,13 +145,13 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
     if (y_max - y_min > x_max - x_min) std::swap(x, y), std::swap(x_min, y_min), std::swap(x_max, y_max);
     const double length_x = x_max - x_min, length_y = y_max - y_min;
     if (!std::isfinite(length_x)) throw Error(Failure::bad_input, "mesh product: the extent of the points overflows");
-    p.design = mesh_design(relative_error);
-    p.choice = choose_spacing(p.design, n, length_x, length_y, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
+    p.design = &mesh_design(relative_error);
+    p.choice = choose_spacing(*p.design, n, length_x, length_y, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
     p.scale = std::ldexp(1.0, -std::ilogb(length_x) - 1);
-    const double cutoff = p.design.cutoff * p.choice.spacing;
-    p.kernel = near_kernel(p.design, cutoff * p.scale);
-    p.window = mesh_window(p.design);
-    p.far = std::make_unique<FarField>(p.design, length_x / p.choice.spacing, length_y / p.choice.spacing);
+    const double cutoff = p.design->cutoff * p.choice.spacing;
+    p.kernel = near_kernel(*p.design, cutoff * p.scale);
+    p.window = mesh_window(*p.design);
+    p.far = std::make_unique<FarField>(*p.design, length_x / p.choice.spacing, length_y / p.choice.spacing);
     p.make_strips(x, y, x_min, y_min, length_y);
 }
 
@@ -176,7 +178,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
     for (std::size_t i = 0; i < n; ++i) point[next[strip[i]]++] = static_cast<std::uint32_t>(i);
 
     for (auto* array : {&x, &y, &u, &v}) array->resize(point.size());
-    const double offset = 0.5 * design.width;
+    const double offset = 0.5 * design->width;
 #pragma omp parallel for schedule(dynamic, 16)
     for (std::size_t s = 0; s < strips; ++s) {
         const auto begin = point.begin() + static_cast<std::ptrdiff_t>(strip_begin[s]);
@@ -188,9 +190,10 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
             u[k] = (px[i] - x0) / choice.spacing + offset, v[k] = (py[i] - y0) / choice.spacing + offset;
         }
         // Pads: out of everyone's reach, the box being at most 1 wide.
-        for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k) x[k] = x0 * scale + 4, y[k] = y0 * scale;
+        for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k)
+            x[k] = x0 * scale + 4, y[k] = y0 * scale;
     }
-    spread_band = static_cast<std::size_t>((design.width + 1) * choice.spacing / height) + 1;
+    spread_band = static_cast<std::size_t>((design->width + 1) * choice.spacing / height) + 1;
 }
 
 std::unique_ptr<MeshPotential::Parts::Scratch> MeshPotential::Parts::take_scratch() const {
@@ -213,8 +216,8 @@ void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
     free_scratch.push_back(std::move(scratch));
 }
 
-// Bands of strips, the even ones at once and then the odd ones: no two at work touch the same rows, and every row gets its parts in
-// the same order whatever the threads.
+// Bands of strips, the even ones at once and then the odd ones: no two at work touch the same rows, and every row gets its parts
+// in the same order whatever the threads.
 void MeshPotential::Parts::spread(const double* f, double* mesh) const {
     const std::size_t strips = strip_size.size(), bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
     const auto table = pair_kernels().spread;
@@ -247,8 +250,8 @@ void MeshPotential::Parts::near_field(const double* f, double* phi) const {
                 table.near_own(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
                 for (std::size_t t = s + 1; t < std::min(strips, s + 3); ++t) {
                     const std::size_t c = strip_begin[t];
-                    table.near_strips(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b, strip_size[t], x.data() + c,
-                                      y.data() + c, f + c, phi + c);
+                    table.near_strips(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b, strip_size[t],
+                                      x.data() + c, y.data() + c, f + c, phi + c);
                 }
             }
     }
@@ -275,7 +278,8 @@ void MeshPotential::apply(const double* f, double* phi) const {
 #pragma omp parallel for schedule(static)
     for (std::size_t s = 0; s < strips; ++s) {
         const std::size_t b = p.strip_begin[s];
-        pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(), p.far->stride());
+        pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(),
+                                   p.far->stride());
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * p.scale + far[k] * far_unit;
     }
     p.give_back(std::move(scratch));
@@ -288,7 +292,7 @@ std::size_t MeshPotential::bytes() const {
 }
 
 std::size_t MeshPotential::mesh_points() const { return parts_->far ? parts_->far->points() : 0; }
-double MeshPotential::cutoff() const { return parts_->design.cutoff * parts_->choice.spacing; }
+double MeshPotential::cutoff() const { return parts_->far ? parts_->design->cutoff * parts_->choice.spacing : 0; }
 double MeshPotential::near_pairs() const { return parts_->choice.pairs; }
 double MeshPotential::cost() const { return parts_->choice.cost; }
 

@@ -1,8 +1,9 @@
 // The product with the interaction matrix (paper, section 4) for very many points in O(N log N).
 //
-// 1/d = [1/d - F(d)] + F(d), with F smooth and equal to 1/d from a cutoff on. The first part is a sum over near pairs. The second is band
-// limited: forces are spread onto a mesh, convolved with F by Fourier transforms on a mesh of twice the size (free boundary: nothing is
-// periodic), and read off again. The error is one of the band limit and of the spreading window, the same at every density of points.
+// 1/d = [1/d - F(d)] + F(d), with F smooth and equal to 1/d from a cutoff on. The first part is a sum over near pairs. The second
+// is band limited: forces are spread onto a mesh, convolved with F by Fourier transforms on a mesh of twice the size (free
+// boundary: nothing is periodic), and read off again. The error is one of the band limit and of the spreading window, the same at
+// every density of points.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +13,18 @@ namespace rsc {
 
 class MeshPotential {
 public:
-    // n points with finite coordinates [length]. relative_error, 1e-10 to 1e-2: wanted bound on |phi - exact| / |phi| in the 2-norm, for
-    // forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place included; clusters cost more.
-    // Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
+    // n points with finite coordinates [length]. relative_error, 1e-10 to 1e-2: wanted bound on |phi - exact| / |phi| in the
+    // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
+    // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
     MeshPotential(std::size_t n, const double* x, const double* y, double relative_error);
     ~MeshPotential();
     MeshPotential(MeshPotential&&) noexcept;
     MeshPotential& operator=(MeshPotential&&) noexcept;
 
     std::size_t size() const;
-    // phi[i] = sum_{j, d_ij > 0} f[j] / d_ij [force/length], in the order the points were given. A const object may be used by several
-    // threads at once. Uses OpenMP threads when called outside of a parallel region; the bits do not depend on their number.
+    // phi[i] = sum_{j, d_ij > 0} f[j] / d_ij [force/length], in the order the points were given. A const object may be used by
+    // several threads at once. Uses OpenMP threads when called outside of a parallel region; the bits do not depend on their
+    // number.
     void apply(const double* f, double* phi) const;
 
     // For reports and for choosing between methods.

@@ -24,8 +24,8 @@ public:
     // Points within length_x times length_y mesh spacings.
     FarField(const MeshDesign& design, double length_x, double length_y);
 
-    // The mesh that carries points: `rows` rows of `stride` doubles, room for windows included. A point at distance (x, y) from the
-    // corner of the points' box is at (u, v) = (x + width/2, y + width/2).
+    // The mesh that carries points: `rows` rows of `stride` doubles, room for windows included. A point at distance (x, y) from
+    // the corner of the points' box is at (u, v) = (x + width/2, y + width/2).
     std::size_t rows() const { return rows_; }
     std::size_t stride() const { return 2 * columns_; }
     std::size_t points() const { return period_x_ * period_y_; }

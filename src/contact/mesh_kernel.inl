@@ -1,5 +1,5 @@
-// Spreading onto a mesh and interpolation off it, included by the same files as the pair loops and in the same way. Plain loops of a
-// fixed length: the compiler turns them into packs.
+// Spreading onto a mesh and interpolation off it, included by the same files as the pair loops and in the same way. Plain loops
+// of a fixed length: the compiler turns them into packs.
 
 template <int kWidth>  // window.width rounded up to a multiple of 4: the weights beyond it are zero
 struct Weights {
@@ -56,8 +56,8 @@ static void spread(const MeshWindow& window, std::size_t n, const double* u, con
     spread_width<16>(window, n, u, v, f, mesh, stride);
 }
 
-static void interpolate(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi, const double* mesh,
-                        std::size_t stride) {
+static void interpolate(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi,
+                        const double* mesh, std::size_t stride) {
     if (window.width <= 4) return interpolate_width<4>(window, n, u, v, phi, mesh, stride);
     if (window.width <= 8) return interpolate_width<8>(window, n, u, v, phi, mesh, stride);
     if (window.width <= 12) return interpolate_width<12>(window, n, u, v, phi, mesh, stride);

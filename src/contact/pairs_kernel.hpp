@@ -22,8 +22,8 @@ struct NearKernel {
 constexpr int kWindowWidth = 16;   // the largest number of mesh points a side that a point is spread over
 constexpr int kWindowDegree = 23;  // the largest degree of its polynomials
 
-// Spreading window, a product of two one-dimensional ones of `width` mesh points. Mesh point m of the width, counted from the first one
-// above u - width/2, has the weight sum_k c[k][m] t^k, t in [-1, 1] across a mesh cell.
+// Spreading window, a product of two one-dimensional ones of `width` mesh points. Mesh point m of the width, counted from the
+// first one above u - width/2, has the weight sum_k c[k][m] t^k, t in [-1, 1] across a mesh cell.
 struct MeshWindow {
     int width = 0, degree = 0;
     double c[kWindowDegree + 1][kWindowWidth] = {};
@@ -47,17 +47,17 @@ struct PairKernels {
     const char* name;
     PairLoops<double, double> exact;
     PairLoops<float, std::int32_t> single;
-    // The same with a short-range kernel instead of 1/d, for strips of points by increasing x: n counts points without pads; a strip has
-    // room for kPairPadding more after it, where points without force lie farther off than the reach.
+    // The same with a short-range kernel instead of 1/d, for strips of points by increasing x: n counts points without pads; a
+    // strip has room for kPairPadding more after it, where points without force lie farther off than the reach.
     void (*near_own)(const NearKernel& kernel, std::size_t n, const double* x, const double* y, const double* f, double* phi);
     void (*near_strips)(const NearKernel& kernel, std::size_t ni, const double* xi, const double* yi, const double* fi,
                         double* phi_i, std::size_t nj, const double* xj, const double* yj, const double* fj, double* phi_j);
-    // Adds forces to the mesh, and reads potentials off it. u and v are in mesh spacings; the mesh is row by row (v), `stride` apart,
-    // and is touched from floor(u - width/2) + 1 on, kWindowWidth columns and width rows.
+    // Adds forces to the mesh, and reads potentials off it. u and v are in mesh spacings; the mesh is row by row (v), `stride`
+    // apart, and is touched from floor(u - width/2) + 1 on, kWindowWidth columns and width rows.
     void (*spread)(const MeshWindow& window, std::size_t n, const double* u, const double* v, const double* f, double* mesh,
                    std::size_t stride);
-    void (*interpolate)(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi, const double* mesh,
-                        std::size_t stride);
+    void (*interpolate)(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi,
+                        const double* mesh, std::size_t stride);
 };
 
 // The table for "generic", "sse2", "avx2" or "avx512"; nullptr if this build or this processor has not got it.

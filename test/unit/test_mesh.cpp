@@ -1,0 +1,234 @@
+// The mesh product against sums in long double, on every kind of point set.
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "check.hpp"
+#include "contact/mesh.hpp"
+#include "error.hpp"
+
+using namespace rsc;
+
+namespace {
+
+using Vector = std::vector<double>;
+
+struct Points {
+    Vector x, y;
+    std::size_t size() const { return x.size(); }
+};
+
+Points uniform_points(std::size_t n, unsigned seed, double length_x = 1, double length_y = 1) {
+    std::mt19937_64 engine(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    Points p{Vector(n), Vector(n)};
+    for (std::size_t i = 0; i < n; ++i) p.x[i] = length_x * uniform(engine), p.y[i] = length_y * uniform(engine);
+    return p;
+}
+
+// Nine clusters of a hundredth of the size, and a tenth of the points anywhere.
+Points clustered_points(std::size_t n, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal;
+    Points p = uniform_points(n, seed);
+    for (std::size_t i = 0; i < n - n / 10; ++i) {
+        const double cluster = static_cast<double>(i % 9);
+        p.x[i] = std::cos(cluster) + 0.01 * normal(engine), p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
+    }
+    return p;
+}
+
+Vector random_forces(std::size_t n, unsigned seed, bool signs) {
+    std::mt19937_64 engine(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    Vector f(n);
+    for (double& value : f) value = signs ? 2 * uniform(engine) - 1 : uniform(engine);
+    return f;
+}
+
+Vector product(const MeshPotential& potential, const Vector& f) {
+    Vector phi(f.size(), std::nan(""));
+    potential.apply(f.data(), phi.data());
+    return phi;
+}
+
+// |phi - exact| / |exact| over some 100 of the points.
+double error_of(const Points& p, const Vector& f, const Vector& phi) {
+    const std::size_t step = p.size() / 100 + 1;
+    long double difference = 0, norm = 0;
+    for (std::size_t i = 0; i < p.size(); i += step) {
+        long double sum = 0;
+        for (std::size_t j = 0; j < p.size(); ++j) {
+            const long double dx = static_cast<long double>(p.x[i]) - p.x[j], dy = static_cast<long double>(p.y[i]) - p.y[j];
+            const long double d = std::sqrt(dx * dx + dy * dy);
+            if (d > 0) sum += f[j] / d;
+        }
+        difference += (phi[i] - sum) * (phi[i] - sum);
+        norm += sum * sum;
+    }
+    return norm > 0 ? static_cast<double>(std::sqrt(difference / norm)) : static_cast<double>(std::sqrt(difference));
+}
+
+void check_errors(const Points& p, const char* name, bool on_mesh = true) {
+    const int before = check::failures;
+    for (double wanted : {1e-3, 1e-6, 1e-9}) {
+        const MeshPotential potential(p.size(), p.x.data(), p.y.data(), wanted);
+        CHECK(potential.size() == p.size());
+        CHECK((potential.mesh_points() > 0) == on_mesh);
+        double largest = 0;
+        for (bool signs : {false, true}) {
+            const Vector f = random_forces(p.size(), 7, signs);
+            const double error = error_of(p, f, product(potential, f));
+            CHECK_CLOSE(error, 0, wanted);
+            largest = std::max(largest, error);
+        }
+        std::printf("%-12s n %6zu wanted %.0e error %.1e, mesh %zu\n", name, p.size(), wanted, largest, potential.mesh_points());
+    }
+    if (check::failures > before) std::printf("  (in %s)\n", name);
+}
+
+void shapes() {
+    check_errors(uniform_points(4000, 1), "uniform");
+    check_errors(uniform_points(20000, 2), "uniform");
+    check_errors(uniform_points(300, 3), "few");
+    check_errors(uniform_points(4000, 4, 1, 0.01), "long");
+    check_errors(uniform_points(4000, 5, 0.02, 1), "tall");
+    check_errors(uniform_points(4000, 6, 1, 0), "collinear");
+    check_errors(uniform_points(4000, 7, 0, 1e-5), "collinear y");
+    check_errors(clustered_points(4000, 8), "clustered");
+
+    // A hundred places with ten points each, and a point far from the others.
+    Points twice = uniform_points(4000, 9);
+    for (std::size_t i = 100; i < 1000; ++i) twice.x[i] = twice.x[i % 100], twice.y[i] = twice.y[i % 100];
+    check_errors(twice, "coincident");
+    Points far = uniform_points(2000, 10);
+    far.x[77] = 30, far.y[77] = -20;
+    check_errors(far, "far point");
+}
+
+void tiny() {
+    for (std::size_t n : {0, 1, 2, 3, 100}) check_errors(uniform_points(n, 11), "tiny", false);
+    const Points place{Vector(1000, 0.3), Vector(1000, -2.0)};
+    const MeshPotential potential(1000, place.x.data(), place.y.data(), 1e-6);
+    const Vector phi = product(potential, random_forces(1000, 12, true));
+    CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return value == 0; }));
+}
+
+// B is symmetric, and so is its approximation up to rounding: conjugate gradients rely on it.
+void symmetry() {
+    const Points p = uniform_points(5000, 13);
+    const Vector f = random_forces(p.size(), 14, true), g = random_forces(p.size(), 15, true);
+    for (double wanted : {1e-3, 1e-8}) {
+        const MeshPotential potential(p.size(), p.x.data(), p.y.data(), wanted);
+        const Vector bf = product(potential, f), bg = product(potential, g);
+        double fbg = 0, gbf = 0, size = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) fbg += f[i] * bg[i], gbf += g[i] * bf[i], size += std::abs(f[i] * bg[i]);
+        CHECK_CLOSE(fbg, gbf, 1e-14 * size);
+    }
+}
+
+// Shifting the points leaves the product, other units of length and force change it by their factors.
+void invariance() {
+    const Points p = uniform_points(3000, 16);
+    const Vector f = random_forces(p.size(), 17, true);
+    constexpr double wanted = 1e-9;
+    const Vector phi = product(MeshPotential(p.size(), p.x.data(), p.y.data(), wanted), f);
+    Points shifted = p, scaled = p;
+    Vector forces = f;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        shifted.x[i] += 100, shifted.y[i] -= 50;
+        scaled.x[i] *= 3e-7, scaled.y[i] *= 3e-7;
+        forces[i] *= 5e8;
+    }
+    CHECK_CLOSE(error_of(shifted, f, product(MeshPotential(p.size(), shifted.x.data(), shifted.y.data(), wanted), f)), 0, wanted);
+    const Vector other = product(MeshPotential(p.size(), scaled.x.data(), scaled.y.data(), wanted), forces);
+    double difference = 0, norm = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        difference += std::pow(other[i] * 3e-7 / 5e8 - phi[i], 2);
+        norm += phi[i] * phi[i];
+    }
+    CHECK_CLOSE(std::sqrt(difference / norm), 0, wanted);
+}
+
+// Numbering the points otherwise numbers the potentials otherwise, nothing else.
+void numbering() {
+    const Points p = uniform_points(3000, 18);
+    const Vector f = random_forces(p.size(), 19, true);
+    Points turned = p;
+    Vector turned_f = f;
+    std::reverse(turned.x.begin(), turned.x.end());
+    std::reverse(turned.y.begin(), turned.y.end());
+    std::reverse(turned_f.begin(), turned_f.end());
+    const Vector phi = product(MeshPotential(p.size(), p.x.data(), p.y.data(), 1e-6), f);
+    Vector back = product(MeshPotential(p.size(), turned.x.data(), turned.y.data(), 1e-6), turned_f);
+    std::reverse(back.begin(), back.end());
+    CHECK(back == phi);
+}
+
+void same_bits_for_any_threads() {
+    for (const Points& p : {uniform_points(6000, 20), clustered_points(3000, 21)}) {
+        const Vector f = random_forces(p.size(), 22, true);
+        Vector first;
+        for (int threads : {1, 2, 3}) {
+            omp_set_num_threads(threads);
+            const MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
+            const Vector phi = product(potential, f), again = product(potential, f);
+            if (first.empty()) first = phi;
+            CHECK(phi == first);
+            CHECK(again == first);
+        }
+        // Products at once on one object.
+        omp_set_num_threads(2);
+        const MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
+        std::vector<Vector> phi(3, Vector(p.size()));
+        std::vector<std::thread> threads;
+        for (Vector& to : phi) threads.emplace_back([&] { potential.apply(f.data(), to.data()); });
+        for (auto& thread : threads) thread.join();
+        for (const Vector& to : phi) CHECK(to == first);
+    }
+}
+
+void bad_input() {
+    Points p = uniform_points(500, 23);
+    for (double wanted : {0.0, 1e-12, 0.5, -1.0, std::nan("")})
+        CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), wanted), Error);
+    p.x[400] = std::nan("");
+    CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), 1e-6), Error);
+    // A force that is not a number is seen in the potentials.
+    p.x[400] = 0.5;
+    Vector f = random_forces(500, 24, true);
+    f[3] = std::nan("");
+    const Vector phi = product(MeshPotential(500, p.x.data(), p.y.data(), 1e-6), f);
+    CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return std::isnan(value); }));
+}
+
+// What decides between methods must at least grow as the work does.
+void costs() {
+    CHECK(MeshPotential::estimated_cost(100000, 1e-6) > MeshPotential::estimated_cost(10000, 1e-6));
+    CHECK(MeshPotential::estimated_cost(100000, 1e-6) < 20 * MeshPotential::estimated_cost(10000, 1e-6));
+    CHECK(MeshPotential::estimated_cost(10000, 1e-9) > MeshPotential::estimated_cost(10000, 1e-3));
+    const Points p = uniform_points(20000, 25);
+    const MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
+    CHECK_RELATIVE(potential.cost(), MeshPotential::estimated_cost(p.size(), 1e-6), 0.2);
+    CHECK(potential.bytes() < 10'000'000);
+    // The estimate of near pairs, for evenly spread points n^2 pi c^2 but for the edges.
+    CHECK_RELATIVE(potential.near_pairs(), 4e8 * 3.14159 * std::pow(potential.cutoff(), 2), 0.15);
+}
+
+}  // namespace
+
+int main() {
+    shapes();
+    tiny();
+    symmetry();
+    invariance();
+    numbering();
+    same_bits_for_any_threads();
+    bad_input();
+    costs();
+    return check::summary();
+}
