@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "contact/dgesv.hpp"
+#include "contact/mesh.hpp"
 #include "contact/pairs.hpp"
 #include "contact/uniqueness.hpp"
 #include "error.hpp"
@@ -51,7 +52,9 @@ struct Contact::Impl {
     std::vector<std::size_t> rank;  // of each candidate
     Vector v, force, slope;
 
-    std::unique_ptr<Products> products;
+    std::unique_ptr<Products> direct, mesh;  // mesh: made when first wanted
+    Products* products = nullptr;            // the one in use
+    Method method = Method::direct;          // the level's
     Newton newton;
     WorkingSet working;
     Vector working_v;
@@ -64,26 +67,35 @@ struct Contact::Impl {
     std::deque<Past> past;
     bool past_unique = true;
 
+    // The last level before the tip moved: B F by asperity (NaN: not known), the start of the first level after the move.
+    struct Carried {
+        double separation = 0;
+        Vector phi;  // empty: none
+    } carried;
+
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_)
         : asperities(asperities_),
           indenter(indenter_),
           options(options_),
           law(make_law(options_.law, asperities_, indenter_.E_star)),
-          products(make_direct_products(options_.interaction == Interaction::none ? kInfinity : indenter_.E_star)),
-          newton(*law, *products) {
+          direct(make_direct_products(options_.interaction == Interaction::none ? kInfinity : indenter_.E_star)),
+          newton(*law) {
+        use(Method::direct);
         if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) {
             throw Error(Failure::bad_input, "E* must be positive and finite");
         }
         if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
         ranked.reserve(asperities.size());
-        for (std::size_t i = 0; i < asperities.size(); ++i) {
-            const double h = height_under_sphere(indenter, asperities.x[i], asperities.y[i], asperities.z[i]);
-            if (h > -kInfinity) ranked.push_back({h, static_cast<int>(i)});
-        }
+        rank_heights();
     }
 
-    double E_star() const { return products->modulus(); }
+    double E_star() const { return direct->modulus(); }
+    long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
+    void use(Method how);
+    Method choose() const;
 
+    void rank_heights();
+    void carry();
     void select(double Z0);
     NewtonOutcome solve_from(const Vector& start);
     bool predict(double Z0, Vector& start) const;
@@ -92,6 +104,28 @@ struct Contact::Impl {
     void remember(double Z0, bool unique);
     Level report(double Z0) const;
 };
+
+void Contact::Impl::rank_heights() {
+    ranked.clear();
+    sorted = 0;
+    for (std::size_t i = 0; i < asperities.size(); ++i) {
+        const double h = height_under_sphere(indenter, asperities.x[i], asperities.y[i], asperities.z[i]);
+        if (h > -kInfinity) ranked.push_back({h, static_cast<int>(i)});
+    }
+}
+
+// Ranks lose their meaning when the tip moves: the last level is kept by asperity.
+void Contact::Impl::carry() {
+    if (past.empty()) return;  // moved twice in a row: what was carried stays
+    carried.phi.clear();
+    if (past_unique && v.size() == at(candidates.size())) {
+        carried.separation = past.front().separation;
+        carried.phi.assign(asperities.size(), std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t k = 0; k < v.size(); ++k) carried.phi[at(candidates.asperity[k])] = candidates.g0[k] - v[k];
+    }
+    past.clear();
+    past_unique = true;
+}
 
 // Candidates: g0 > 0; B F >= 0 only lowers the surface, so nothing else can touch. The paper's selection drops also those outside
 // r0 = 1.5 sqrt(2 (4 sigma - Z0) R).
@@ -119,6 +153,27 @@ void Contact::Impl::select(double Z0) {
         candidates.y.push_back(asperities.y[i]);
         candidates.g0.push_back(r->height - Z0);
     }
+}
+
+void Contact::Impl::use(Method how) {
+    method = how;
+    if (how == Method::mesh && !mesh) {
+        // Full products judge the residual and must be finer than the tolerance; inner ones only make steps.
+        mesh = make_mesh_products(E_star(), std::min(1e-4, 0.1 * options.tolerance), 1e-3);
+    }
+    products = how == Method::mesh ? mesh.get() : direct.get();
+    newton.use(*products);
+}
+
+// `auto`: the cheaper of a direct and a mesh product, from the rates test/bench measures. The dense method never is the cheapest.
+Method Contact::Impl::choose() const {
+    if (std::isinf(E_star())) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
+    if (options.method != Method::automatic) return options.method;
+    const auto n = static_cast<double>(candidates.size());
+    constexpr double contacts_per_candidate = 0.4, pairs_per_second = 6e9;
+    const double contacts = contacts_per_candidate * n;
+    return contacts * contacts / pairs_per_second > MeshPotential::estimated_cost(at(candidates.size()), 1e-3) ? Method::mesh
+                                                                                                                : Method::direct;
 }
 
 // The no-interaction forces F = f(<g0 - s>) of a sphere held higher by s, where s is the mean of B F over those forces: the mean field
@@ -159,7 +214,7 @@ NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
     const std::size_t n = at(candidates.size());
     const double highest = *std::max_element(start.begin(), start.end());
     std::vector<char> in(n);
-    for (std::size_t k = 0; k < n; ++k) in[k] = start[k] > -0.1 * highest;
+    for (std::size_t k = 0; k < n; ++k) in[k] = method == Method::mesh || start[k] > -0.1 * highest;
     v = start;
     NewtonOutcome total;
     std::vector<std::size_t> inside, outside;
@@ -219,6 +274,16 @@ NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
 
 // B F extrapolated through earlier levels, rank by rank; candidates without a past are taken not to touch (they are checked).
 bool Contact::Impl::predict(double Z0, Vector& start) const {
+    if (past.empty() && !carried.phi.empty()) {
+        start.resize(rank.size());
+        bool any = false;
+        for (std::size_t k = 0; k < rank.size(); ++k) {
+            const double phi = carried.phi[at(candidates.asperity[k])];
+            start[k] = std::isfinite(phi) ? candidates.g0[k] - phi : -kInfinity;
+            any = any || start[k] > 0;
+        }
+        return any;
+    }
     if (past.empty() || !past_unique) return false;
     std::size_t used = 1;
     while (used < past.size() && used < 4) {
@@ -305,11 +370,13 @@ Level Contact::at_separation(double Z0) {
         my.remember(Z0, true);
         return my.report(Z0);
     }
-    const long products_before = my.products->count();
+    const long products_before = my.products_taken();
     NewtonOutcome outcome;
     int iterations = 0;
     bool unique = false;
-    const bool dense = my.options.method == Method::dgesv;
+    const Method method = my.choose();
+    const bool dense = method == Method::dgesv;
+    my.use(dense ? Method::direct : method);
     if (dense) {
         const PaperMethod method{my.options.delta0 * my.options.sigma, my.options.delta_cut, my.options.tolerance,
                                  my.options.max_iterations};
@@ -321,6 +388,8 @@ Level Contact::at_separation(double Z0) {
         Vector target(my.v.size()), work(my.v.size());
         my.law->respond(my.candidates.size(), my.candidates.asperity.data(), my.v.data(), target.data(), my.slope.data(), work.data());
         unique = paper.converged && my.one_solution();
+        my.products->set_points(my.candidates.size(), my.candidates.x.data(), my.candidates.y.data());
+        my.newton.take(my.candidates, my.v);
     } else {
         Vector start;
         if (my.predict(Z0, start)) {
@@ -337,9 +406,9 @@ Level Contact::at_separation(double Z0) {
     my.remember(Z0, unique);
     Level level = my.report(Z0);
     level.iterations = iterations;
-    level.products = my.products->count() - products_before;
+    level.products = my.products_taken() - products_before;
     level.residual = outcome.residual;
-    level.method = dense ? Method::dgesv : Method::direct;
+    level.method = method;
     if (!unique) level.status = LevelStatus::not_unique;
     if (!outcome.converged) level.status = LevelStatus::not_converged;
     return level;
@@ -357,7 +426,11 @@ Level Contact::at_force(double N) {
     const auto highest = std::min_element(my.ranked.begin(), my.ranked.end())->asperity;
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (my.law->force(highest, depth) < N) depth *= 2;
-    double Z0 = my.past.empty() || my.force.empty() ? above - 0.25 * depth : my.past.front().separation;
+    double Z0 = above - 0.25 * depth;
+    if (!my.force.empty()) {
+        if (!my.past.empty()) Z0 = my.past.front().separation;
+        else if (!my.carried.phi.empty() && my.carried.separation < above) Z0 = my.carried.separation;
+    }
     Level level;
     int iterations = 0;
     long products = 0;
@@ -389,6 +462,24 @@ Level Contact::at_force(double N) {
     return level;
 }
 
-double Contact::stiffness() { return impl_->newton.stiffness(1e-10); }
+double Contact::stiffness() { return impl_->v.empty() ? 0.0 : impl_->newton.stiffness(1e-10); }
+
+double Contact::energy() const { return impl_->v.empty() ? 0.0 : 0.0 - impl_->newton.energy(); }
+
+void Contact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+    impl_->carry();
+    impl_->indenter.x0 = x0;
+    impl_->indenter.y0 = y0;
+    impl_->rank_heights();
+}
+
+double Contact::first_touch() const {
+    double highest = -kInfinity;
+    for (const auto& r : impl_->ranked) highest = std::max(highest, r.height);
+    return highest;
+}
+
+const Indenter& Contact::indenter() const { return impl_->indenter; }
 
 }  // namespace rsc

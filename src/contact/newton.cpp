@@ -31,10 +31,10 @@ void Newton::evaluate(const WorkingSet& set, State& state) {
     for (int k = 0; k < n; ++k) {
         if (state.force[at(k)] > 0) state.active.push_back(k);
     }
-    products_.set_active(state.active);
+    products_->set_active(state.active);
     active_force_.clear();
     for (int k : state.active) active_force_.push_back(state.force[at(k)]);
-    products_.full(active_force_.data(), state.phi.data());
+    products_->full(active_force_.data(), state.phi.data());
 
     state.energy = state.scale = 0;
     double error2 = 0, force2 = 0;
@@ -60,7 +60,7 @@ void Newton::scale_active(const State& state) {
 
 void Newton::multiply(const Vector& w, Vector& out) {
     for (std::size_t k = 0; k < root_.size(); ++k) force_[k] = root_[k] * w[k];
-    products_.inner(force_.data(), phi_.data());
+    products_->inner(force_.data(), phi_.data());
     for (std::size_t k = 0; k < root_.size(); ++k) out[k] = w[k] + root_[k] * phi_[k];
 }
 
@@ -125,9 +125,9 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
         out.dv[at(state.active[k])] = w[k] / root_[k];
         df_[k] = root_[k] * w[k];
     }
-    const auto& passive = products_.passive();
+    const auto& passive = products_->passive();
     passive_.resize(passive.size());
-    products_.inner_passive(df_.data(), passive_.data());
+    products_->inner_passive(df_.data(), passive_.data());
     for (std::size_t k = 0; k < passive.size(); ++k) {
         const std::size_t i = at(passive[k]);
         const double change = -state.res[i] - passive_[k];
@@ -162,13 +162,13 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
         radius = std::min(radius, 2 * std::sqrt(size2));
         bool accepted = false;
         for (int attempt = 0; attempt < 40 && !accepted; ++attempt) {
-            products_.set_active(now_.active);
+            products_->set_active(now_.active);
             step(set, now_, forcing, radius, entering, step_now);
             trial_.v.resize(now_.v.size());
             for (std::size_t k = 0; k < now_.v.size(); ++k) trial_.v[k] = now_.v[k] + step_now.dv[k];
             evaluate(set, trial_);
             const double decrease = now_.energy - trial_.energy;
-            const double noise = std::max(1e-11, products_.full_error()) * (now_.scale + trial_.scale);
+            const double noise = std::max(1e-11, products_->full_error()) * (now_.scale + trial_.scale);
             accepted = decrease >= 1e-4 * step_now.predicted ||
                        (decrease >= -noise && trial_.residual < now_.residual && !step_now.negative_curvature);
             if (!accepted || decrease < 0.1 * step_now.predicted) {
@@ -188,6 +188,11 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
     return outcome;
 }
 
+void Newton::take(const WorkingSet& set, const Vector& v) {
+    now_.v = v;
+    evaluate(set, now_);
+}
+
 bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector& w) {
     std::vector<double> x, y, reach;
     for (int k : state.active) {
@@ -195,11 +200,11 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
         y.push_back(set.y[at(k)]);
         reach.push_back(state.slope[at(k)]);
     }
-    const double E_star = products_.modulus();
+    const double E_star = products_->modulus();
     if (std::isinf(E_star)) return true;
     for (double& s : reach) s /= 2 * E_star;
     if (positive_definite_by_shells(x, y, reach)) return true;
-    products_.set_active(state.active);
+    products_->set_active(state.active);
     scale_active(state);
     Vector image(root_.size());
     const double lowest = lanczos_lowest(root_.size(), [&](const Vector& in, Vector& out) { multiply(in, out); }, w);
@@ -231,21 +236,21 @@ void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
 }
 
 void Newton::potential_at(std::size_t n, const double* x, const double* y, double* phi) {
-    products_.set_active(now_.active);
+    products_->set_active(now_.active);
     active_force_.clear();
     for (int k : now_.active) active_force_.push_back(now_.force[at(k)]);
-    products_.elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
+    products_->elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
 }
 
 double Newton::stiffness(double tolerance) {
-    products_.set_active(now_.active);
+    products_->set_active(now_.active);
     scale_active(now_);
-    products_.set_precise(true);
+    products_->set_precise(true);
     Vector b(root_.size()), w;
     for (std::size_t k = 0; k < b.size(); ++k) b[k] = -root_[k];
     Step ignored;
     steihaug(b, tolerance, std::numeric_limits<double>::infinity(), w, ignored);
-    products_.set_precise(false);
+    products_->set_precise(false);
     return -dot(b, w);
 }
 

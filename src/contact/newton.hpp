@@ -33,11 +33,18 @@ struct NewtonOutcome {
 
 class Newton {
 public:
-    Newton(const Law& law, Products& products) : law_(law), products_(products) {}
+    explicit Newton(const Law& law) : law_(law) {}
+
+    // How products with B are taken from now on; they must outlive their use here.
+    void use(Products& products) { products_ = &products; }
 
     // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points.
     NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v);
 
+    // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
+    void take(const WorkingSet& set, const std::vector<double>& v);
+
+    double energy() const { return now_.energy; }  // E(F): second order in the error of F
     const std::vector<double>& force() const { return now_.force; }    // F over the working set
     const std::vector<double>& slope() const { return now_.slope; }    // D over the working set
     const std::vector<double>& phi() const { return now_.phi; }        // B F over the working set
@@ -73,7 +80,7 @@ private:
     void scale_active(const State& state);
 
     const Law& law_;
-    Products& products_;
+    Products* products_ = nullptr;
     State now_, trial_;
     std::vector<double> root_;  // S over the active set
     std::vector<double> force_, phi_, r_, p_, mp_, df_, active_force_, product_, passive_;
