@@ -201,7 +201,11 @@ private:
                 next();
                 continue;
             }
-            if (is_separator(c)) continue;
+            if (c == '/') break;
+            if (is_separator(c)) {
+                if (c == '!') back(c);
+                continue;
+            }
             back(c);
             const std::size_t assigned = group.assignments.size();
             assignment(group, start, lost);
@@ -432,7 +436,7 @@ private:
         for (;; ++i) {
             if (look(i) == '!')
                 while (look(i) != '\n' && look(i) != kEnd) ++i;
-            if (!is_blank(look(i)) && !is_line_end(look(i))) return look(i) == '=';
+            if (!is_blank(look(i)) && !is_line_end(look(i))) return look(i) == '=' && look(i + 1) != '?';
         }
     }
 
