@@ -273,6 +273,7 @@ def plot_distributions(result):
         axis.set(xlabel=label + result.unit(bins), ylabel="probability density" + result.unit(name), title=f"points: rsc; lines: {law}")
         if end > 0:
             axis.set_xlim(0, end * 1.05)
+        axis.ticklabel_format(axis="both", scilimits=(-2, 4), useMathText=True)
         if logarithmic:
             smallest = density[density > 0]
             axis.set_yscale("log")
