@@ -103,9 +103,14 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
         const char* name;
         const std::vector<double>& values;
         bool required;
-    } fields[] = {{"x", a.x, true},           {"y", a.y, true},           {"z", a.z, true},
-                  {"radius", a.radius, true}, {"kappa1", a.kappa1, false}, {"kappa2", a.kappa2, false},
-                  {"angle", a.angle, false},  {"biharmonic", a.biharmonic, false}};
+    } fields[] = {{"x", a.x, true},
+                  {"y", a.y, true},
+                  {"z", a.z, true},
+                  {"radius", a.radius, true},
+                  {"kappa1", a.kappa1, false},
+                  {"kappa2", a.kappa2, false},
+                  {"angle", a.angle, false},
+                  {"biharmonic", a.biharmonic, false}};
     for (const auto& field : fields) {
         if (field.values.empty() && !field.required) continue;
         if (field.values.size() != n)

@@ -17,22 +17,22 @@ enum class Curvature { geometric, algebraic };
 struct Asperities {
     std::vector<double> x, y, z, radius;
     std::vector<double> kappa1, kappa2;  // principal curvatures, kappa1 >= kappa2 > 0 [1/length]
-    std::vector<double> angle;           // direction of the kappa2 axis (the long axis of the contact ellipse) from x, in (-pi/2, pi/2]
-    std::vector<double> biharmonic;      // nabla^4 z at the summit [1/length^3]; empty unless a law needs it
+    std::vector<double> angle;  // direction of the kappa2 axis (the long axis of the contact ellipse) from x, in (-pi/2, pi/2]
+    std::vector<double> biharmonic;  // nabla^4 z at the summit [1/length^3]; empty unless a law needs it
     std::size_t size() const { return x.size(); }
 };
 
 // Asperities that come from outside: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
-// one length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at the
-// same (x, y). `name(i)` says in the message which one is meant.
+// one length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at
+// the same (x, y). `name(i)` says in the message which one is meant.
 void validate(const Asperities& asperities, const std::function<std::string(std::size_t)>& name);
 
 // What was counted on the way.
 struct SummitCount {
-    long summits = 0;          // asperities kept
-    long saddles = 0;          // grid maxima whose curvatures make them saddles: counted, not kept
-    double mean_kappa_g = 0;   // mean of the geometric mean curvature [1/length]
-    double mean_kappa_a = 0;   // mean of the algebraic mean curvature [1/length]
+    long summits = 0;         // asperities kept
+    long saddles = 0;         // grid maxima whose curvatures make them saddles: counted, not kept
+    double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
+    double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
 };
 
 // Summits: grid points strictly above their 8 neighbours. Curvatures from second differences. Periodic maps wrap around,

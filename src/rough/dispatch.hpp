@@ -5,15 +5,15 @@
 #define RSC_ALWAYS_INLINE [[gnu::always_inline]] inline
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define RSC_DISPATCH(name, body, parameters, arguments)                 \
+#define RSC_DISPATCH(name, body, parameters, arguments)                     \
     [[gnu::target("avx2")]] void name##_avx2 parameters { body arguments; } \
-    void name##_baseline parameters { body arguments; }                 \
-    void name parameters {                                              \
-        static const bool avx2 = __builtin_cpu_supports("avx2");        \
-        if (avx2)                                                       \
-            name##_avx2 arguments;                                      \
-        else                                                            \
-            name##_baseline arguments;                                  \
+    void name##_baseline parameters { body arguments; }                     \
+    void name parameters {                                                  \
+        static const bool avx2 = __builtin_cpu_supports("avx2");            \
+        if (avx2)                                                           \
+            name##_avx2 arguments;                                          \
+        else                                                                \
+            name##_baseline arguments;                                      \
     }
 #else
 #define RSC_DISPATCH(name, body, parameters, arguments) \

@@ -1,5 +1,5 @@
-// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds this lock.
-// Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
+// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds this
+// lock. Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
 #pragma once
 
 #include <fftw3.h>

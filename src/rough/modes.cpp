@@ -28,7 +28,8 @@ struct Lanes {
 };
 
 // Adds up the energies of a batch of coefficients and their moments in ky, lane by lane.
-RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* re, const double* im, int ky_first, Lanes& total) {
+RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* re, const double* im, int ky_first,
+                                         Lanes& total) {
     Lanes sums = total;
     for (int i = 0; i < kBatch; i += kLanes)
         for (int l = 0; l < kLanes; ++l) {
@@ -45,7 +46,8 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
     total = sums;
 }
 
-RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude), (s, kx, ky_first, amplitude))
+RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude),
+             (s, kx, ky_first, amplitude))
 RSC_DISPATCH(add_energies, add_energies_body,
              (const double* amplitude, const double* re, const double* im, int ky_first, Lanes& total),
              (amplitude, re, im, ky_first, total))

@@ -40,9 +40,9 @@ double relative_psd(const Spectrum& spectrum, double q2);
 
 // The band in integer wavevectors, the tolerance at its ends included.
 struct Band {
-    double lowest_q2 = 0;      // smallest q2 of the power law
-    double highest_q2 = 0;     // largest q2 of all
-    int highest_kx = 0;        // floor(sqrt(highest_q2))
+    double lowest_q2 = 0;          // smallest q2 of the power law
+    double highest_q2 = 0;         // largest q2 of all
+    int highest_kx = 0;            // floor(sqrt(highest_q2))
     int highest_ky(int kx) const;  // largest ky with kx^2 + ky^2 <= highest_q2
 };
 Band band(const Spectrum& spectrum);

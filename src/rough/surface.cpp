@@ -38,7 +38,8 @@ void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
         throw Error(Failure::bad_input, "height map: " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points with " +
                                             std::to_string(stride_) + " a row");
     if (stride_ > (std::ptrdiff_t{1} << 44) / ny_)
-        throw Error(Failure::no_memory, "no memory for a height map of " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points");
+        throw Error(Failure::no_memory,
+                    "no memory for a height map of " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points");
     data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_), "a height map"));
     nx = nx_;
     ny = ny_;
@@ -69,12 +70,13 @@ Moments grid_moments(const HeightMap& map) {
     Moments m;
     if (map.nx < 1 || map.ny < 1) return m;
     const double level = mean(map);
-    m.m0 = sum_rows(0, map.ny, [&](int j) {
-               const double* const z = map.row(j);
-               double s = 0;
-               for (int i = 0; i < map.nx; ++i) s += (z[i] - level) * (z[i] - level);
-               return s;
-           }) /
+    m.m0 = sum_rows(0, map.ny,
+                    [&](int j) {
+                        const double* const z = map.row(j);
+                        double s = 0;
+                        for (int i = 0; i < map.nx; ++i) s += (z[i] - level) * (z[i] - level);
+                        return s;
+                    }) /
            (static_cast<double>(map.nx) * map.ny);
     if (map.nx < 3 || map.ny < 3) return m;
 

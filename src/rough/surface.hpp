@@ -17,7 +17,9 @@ struct HeightMap {
     double dx = 0, dy = 0;
     double x0 = 0, y0 = 0;  // coordinates of point (0, 0)
     bool periodic = false;  // synthetic surfaces wrap around, measured ones do not
-    struct Free { void operator()(double* p) const noexcept; };
+    struct Free {
+        void operator()(double* p) const noexcept;
+    };
     std::unique_ptr<double[], Free> data;
 
     // Allocates (uninitialised, SIMD aligned); throws Error(no_memory) with the size asked for.

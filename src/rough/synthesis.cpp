@@ -48,8 +48,7 @@ double* allocate_doubles(std::size_t n, const char* purpose) {
 RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                      int threads) {
     validate(spectrum);
-    if (n < 2 || n % 2 != 0)
-        throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
+    if (n < 2 || n % 2 != 0) throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
     columns_ = band(spectrum).highest_kx + 1;
     if (columns_ - 1 > n / 2)
         throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot carry L_lambda_s = " +

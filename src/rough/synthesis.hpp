@@ -46,11 +46,11 @@ private:
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads);
 
     int n_ = 0;
-    int columns_ = 0;                 // kx = 0 ... columns_ - 1 hold modes
+    int columns_ = 0;                   // kx = 0 ... columns_ - 1 hold modes
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers
     std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles
     std::unique_ptr<double[], HeightMap::Free> columns_data_;
-    double factor_ = 1;               // from relative amplitudes to lengths
+    double factor_ = 1;  // from relative amplitudes to lengths
     Moments sampled_;
     FftwPlan row_plan_;
 };

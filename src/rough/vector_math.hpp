@@ -71,23 +71,21 @@ inline void cos_sin_turns(double u, double& cosine, double& sine) {
     const double t = 4.0 * u;
     const double shifted = t + kShift;
     const std::uint64_t quarter = std::bit_cast<std::uint64_t>(shifted);  // low bits: the nearest quarter turn
-    const double y = (t - (shifted - kShift)) * 1.57079632679489661923;    // |y| <= pi/4
+    const double y = (t - (shifted - kShift)) * 1.57079632679489661923;   // |y| <= pi/4
     const double z = y * y;
     const double s =
-        y + y * z *
-                (-1.66666666666666324348e-01 +
-                 z * (8.33333333332248946124e-03 +
-                      z * (-1.98412698298579493134e-04 +
-                           z * (2.75573137070700676789e-06 +
-                                z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-    const double c =
-        1.0 -
-        (0.5 * z - z * z *
-                       (4.16666666666666019037e-02 +
-                        z * (-1.38888888888741095749e-03 +
-                             z * (2.48015872894767294178e-05 +
-                                  z * (-2.75573143513906633035e-07 +
-                                       z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))))));
+        y +
+        y * z *
+            (-1.66666666666666324348e-01 +
+             z * (8.33333333332248946124e-03 +
+                  z * (-1.98412698298579493134e-04 +
+                       z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
+    const double c = 1.0 - (0.5 * z - z * z *
+                                          (4.16666666666666019037e-02 +
+                                           z * (-1.38888888888741095749e-03 +
+                                                z * (2.48015872894767294178e-05 +
+                                                     z * (-2.75573143513906633035e-07 +
+                                                          z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))))));
     const std::uint64_t sb = std::bit_cast<std::uint64_t>(s), cb = std::bit_cast<std::uint64_t>(c);
     const std::uint64_t swap = 0 - (quarter & 1);  // all ones in the odd quarters, where sine and cosine change places
     const std::uint64_t re = (cb & ~swap) | (sb & swap);

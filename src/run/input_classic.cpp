@@ -73,8 +73,8 @@ public:
 
 private:
     [[noreturn]] void damaged() const {
-        throw Error(Failure::bad_input, path_ + ": looks like NetCDF, but its header is cut off or damaged at byte " +
-                                            std::to_string(position_));
+        throw Error(Failure::bad_input,
+                    path_ + ": looks like NetCDF, but its header is cut off or damaged at byte " + std::to_string(position_));
     }
 
     std::uint64_t number(int bytes) {
@@ -119,11 +119,23 @@ private:
     }
     std::uint64_t size_of(std::uint64_t type) const {
         switch (type) {
-            case NC_BYTE: case NC_CHAR: case NC_UBYTE: return 1;
-            case NC_SHORT: case NC_USHORT: return 2;
-            case NC_INT: case NC_UINT: case NC_FLOAT: return 4;
-            case NC_DOUBLE: case NC_INT64: case NC_UINT64: return 8;
-            default: damaged();
+            case NC_BYTE:
+            case NC_CHAR:
+            case NC_UBYTE:
+                return 1;
+            case NC_SHORT:
+            case NC_USHORT:
+                return 2;
+            case NC_INT:
+            case NC_UINT:
+            case NC_FLOAT:
+                return 4;
+            case NC_DOUBLE:
+            case NC_INT64:
+            case NC_UINT64:
+                return 8;
+            default:
+                damaged();
         }
     }
 

@@ -64,8 +64,7 @@ bool is_netcdf(const std::string& path) {
 NetcdfInput::NetcdfInput(const std::string& path) : path_(path) {
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
-    if (status != NC_NOERR)
-        refuse(path + ": looks like NetCDF but cannot be opened; is it whole? (" + nc_strerror(status) + ")");
+    if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it whole? (" + nc_strerror(status) + ")");
 }
 
 NetcdfInput::~NetcdfInput() { nc_close(id_); }
@@ -116,7 +115,8 @@ std::optional<std::vector<double>> NetcdfInput::numbers_attribute(const Variable
     const int status = nc_inq_att(id_, v.id, name, &type, &length);
     if (status == NC_ENOTATT) return std::nullopt;
     must(status, v.name + ":" + name);
-    if (type == NC_CHAR || type == NC_STRING) refuse(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
+    if (type == NC_CHAR || type == NC_STRING)
+        refuse(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
     std::vector<double> values(length);
     if (length > 0) must(nc_get_att_double(id_, v.id, name, values.data()), v.name + ":" + name);
     return values;
@@ -170,7 +170,8 @@ void NetcdfInput::read(const Variable& v, double* out) const {
     for (std::size_t i = 0; i < count; ++i) {
         const double stored = out[i];
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) + "); every value must be known");
+            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) +
+                   "); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) refuse(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

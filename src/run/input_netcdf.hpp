@@ -21,10 +21,10 @@ public:
         int id = -1;
         std::string name;
         nc_type type = NC_NAT;
-        std::vector<int> dimensions;          // ids
-        std::vector<std::size_t> lengths;     // of the dimensions
-        std::vector<std::string> axes;        // their names
-        std::string shape() const;            // "name(y = 3, x = 4)"
+        std::vector<int> dimensions;       // ids
+        std::vector<std::size_t> lengths;  // of the dimensions
+        std::vector<std::string> axes;     // their names
+        std::string shape() const;         // "name(y = 3, x = 4)"
         bool numeric() const { return type != NC_CHAR && type != NC_STRING && type <= NC_MAX_ATOMIC_TYPE; }
     };
     std::vector<Variable> variables() const;

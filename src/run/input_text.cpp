@@ -32,7 +32,8 @@ double number(std::string_view word, const std::string& path, long line, std::si
     // std::from_chars knows no plus sign before a number.
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     std::string text(plus ? word.substr(1) : word);
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = end == text.data() + text.size() && !text.empty();
@@ -52,7 +53,8 @@ std::size_t parse(std::string_view text, const std::string& path, long line, std
         while (i < text.size() && blank(text[i])) ++i;
         if (i == text.size()) break;
         if (separator(text[i])) {
-            if (expecting || count == 0) refuse(path, line, "nothing between the separators at column " + std::to_string(count + 1));
+            if (expecting || count == 0)
+                refuse(path, line, "nothing between the separators at column " + std::to_string(count + 1));
             expecting = true;
             ++i;
             continue;
@@ -85,8 +87,9 @@ TextTable read_table(const std::string& path, std::size_t columns) {
         if (count == 0) continue;
         if (table.columns == 0) table.columns = count;
         if (count != table.columns) {
-            const std::string wanted =
-                columns > 0 ? std::to_string(columns) : std::to_string(table.columns) + " as in line " + std::to_string(table.line[0]);
+            const std::string wanted = columns > 0
+                                           ? std::to_string(columns)
+                                           : std::to_string(table.columns) + " as in line " + std::to_string(table.line[0]);
             refuse(path, line, std::to_string(count) + " values where " + wanted + " were expected");
         }
         table.line.push_back(line);

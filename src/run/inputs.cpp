@@ -26,16 +26,21 @@ std::string text(double v) {
     return buffer;
 }
 
-// A file may announce any size; more than the machine holds is refused before memory is asked for.
-void check_size(const std::string& path, std::size_t nx, std::size_t ny) {
-    if (nx < 3 || ny < 3)
-        refuse(path + ": a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points; at least 3 x 3 are needed");
+// A file may announce any size; more than the machine holds is refused before memory is asked for. `what` has `count` doubles.
+void check_memory(const std::string& path, const std::string& what, double count) {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const double machine = pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : 1e15;
-    const double bytes = static_cast<double>(nx) * static_cast<double>(ny) * sizeof(double);
-    if (std::max(nx, ny) > std::numeric_limits<int>::max() || bytes > machine)
-        refuse(path + ": a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points needs " +
-               text(bytes / 1e9) + " GB; this machine has " + text(machine / 1e9) + " GB");
+    const double bytes = count * sizeof(double);
+    if (bytes > machine)
+        refuse(path + ": " + what + " needs " + text(bytes / 1e9) + " GB; this machine has " + text(machine / 1e9) + " GB");
+}
+
+void check_size(const std::string& path, std::size_t nx, std::size_t ny) {
+    const std::string what = "a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points";
+    if (nx < 3 || ny < 3) refuse(path + ": " + what + "; at least 3 x 3 are needed");
+    if (std::max(nx, ny) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        refuse(path + ": " + what + "; at most 2147483647 a side are possible");
+    check_memory(path, what, static_cast<double>(nx) * static_cast<double>(ny));
 }
 
 void check_L(const std::string& path, double L) {
@@ -78,16 +83,17 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     if (axis.reversed) std::reverse(c.begin(), c.end());
     axis.first = c.front();
     axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
-    if (!(axis.step > 0)) refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text(c.front()));
+    if (!(axis.step > 0))
+        refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text(c.front()));
     // Coordinates stored in single precision are as uniform as that allows.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (std::size_t i = 0; i < n; ++i) {
         const double uniform = axis.first + static_cast<double>(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
-            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text(axis.step) + ": " + name + "(" +
-                   std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text(c[i]) + " where " + text(uniform) +
-                   " was expected");
+            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text(axis.step) + ": " + name +
+                   "(" + std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text(c[i]) + " where " +
+                   text(uniform) + " was expected");
     }
     return axis;
 }
@@ -106,7 +112,8 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file) {
             maps.push_back(v);
         }
     if (maps.empty()) refuse(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
-    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and it cannot be told which is meant: " + names);
+    if (maps.size() > 1)
+        refuse(file.path() + ": there is no variable height(y, x), and it cannot be told which is meant: " + names);
     return maps[0];
 }
 
@@ -134,9 +141,9 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L) 
     check_size(path, variable.lengths[1], variable.lengths[0]);
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
-        refuse(path + ": " + variable.shape() + " has a coordinate variable for one dimension alone; for both or neither was expected");
-    if (!x && !L)
-        refuse(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
+        refuse(path + ": " + variable.shape() +
+               " has a coordinate variable for one dimension alone; for both or neither was expected");
+    if (!x && !L) refuse(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
     HeightMap map = allocate(variable.lengths[1], variable.lengths[0]);
     if (L) {
         check_L(path, *L);
@@ -147,8 +154,8 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L) 
         check_units(file, variable, variable.axes[0]);
         const double extent = map.nx * x->step;
         if (L && !(std::abs(extent - *L) <= kSameL * *L))
-            refuse(path + ": its coordinate " + variable.axes[1] + " spans " + std::to_string(map.nx) + " steps of " + text(x->step) +
-                   " = " + text(extent) + ", but L = " + text(*L) + " was given");
+            refuse(path + ": its coordinate " + variable.axes[1] + " spans " + std::to_string(map.nx) + " steps of " +
+                   text(x->step) + " = " + text(extent) + ", but L = " + text(*L) + " was given");
         map.x0 = x->first;
         map.y0 = y->first;
         map.dx = x->step;
@@ -167,12 +174,16 @@ Asperities read_netcdf_asperities(const std::string& path) {
     const auto take = [&](const char* name, std::vector<double>& values, bool required) {
         const auto v = file.find(name);
         if (!v && !required) return;
-        if (!v) refuse(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
-        if (v->lengths.size() != 1 || !v->numeric()) refuse(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
+        if (!v)
+            refuse(path + ": there is no variable " + name +
+                   "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
+        if (v->lengths.size() != 1 || !v->numeric())
+            refuse(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
         if (size && *size != v->lengths[0])
             refuse(path + ": " + v->shape() + ": " + std::to_string(*size) + " values as of asperity_x were expected");
         if (v->lengths[0] > static_cast<std::size_t>(std::numeric_limits<int>::max()))
             refuse(path + ": " + v->shape() + ": more asperities than rsc can number");
+        check_memory(path, v->shape(), 8.0 * static_cast<double>(v->lengths[0]));
         size = v->lengths[0];
         values.resize(*size);
         file.read(*v, values.data());

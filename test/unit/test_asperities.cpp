@@ -29,8 +29,8 @@ void against_brute_force() {
     for (const bool periodic : {true, false})
         for (const auto [nx, ny] : {std::array{41, 29}, {8, 8}, {9, 5}, {3, 3}, {2, 7}, {300, 6}}) {
             HeightMap map = make_map(nx, ny, periodic, nx + 3);
-            // Few different heights: neighbours are often equal, and an equal neighbour makes no summit. The right half has rounded
-            // ridges along the diagonals, whose grid maxima are saddles.
+            // Few different heights: neighbours are often equal, and an equal neighbour makes no summit. The right half has
+            // rounded ridges along the diagonals, whose grid maxima are saddles.
             const double ridge[] = {0, -1, -8, -9, -8, -1};
             for (int j = 0; j < ny; ++j)
                 for (int i = 0; i < nx; ++i) {
@@ -49,7 +49,8 @@ void against_brute_force() {
                         for (int a = -1; a <= 1; ++a) top = top && ((a == 0 && b == 0) || z(i, j) > z(i + a, j + b));
                     if (!top) continue;
                     // Eigenvalues of the Hessian by trace and determinant.
-                    const double xx = (z(i - 1, j) - 2 * z(i, j) + z(i + 1, j)) / 0.25, yy = (z(i, j - 1) - 2 * z(i, j) + z(i, j + 1)) / 0.0625;
+                    const double xx = (z(i - 1, j) - 2 * z(i, j) + z(i + 1, j)) / 0.25,
+                                 yy = (z(i, j - 1) - 2 * z(i, j) + z(i, j + 1)) / 0.0625;
                     const double xy = (z(i + 1, j + 1) - z(i - 1, j + 1) - z(i + 1, j - 1) + z(i - 1, j - 1)) / (4 * 0.5 * 0.25);
                     const double trace = xx + yy, determinant = xx * yy - xy * xy;
                     if (determinant <= 0) {
@@ -69,8 +70,9 @@ void against_brute_force() {
             double worst = 0, sum_g = 0, sum_a = 0;
             for (std::size_t s = 0; s < std::min(found.size(), summits.size()); ++s) {
                 const auto [i, j] = summits[s];
-                worst = std::max({worst, std::abs(found.x[s] - (-1 + i * 0.5)), std::abs(found.y[s] - (2 + j * 0.25)), std::abs(found.z[s] - z(i, j)),
-                                  std::abs(found.kappa1[s] / k1[s] - 1), std::abs(found.kappa2[s] - k2[s]) / k1[s], std::abs(found.radius[s] * kg[s] - 1)});
+                worst = std::max({worst, std::abs(found.x[s] - (-1 + i * 0.5)), std::abs(found.y[s] - (2 + j * 0.25)),
+                                  std::abs(found.z[s] - z(i, j)), std::abs(found.kappa1[s] / k1[s] - 1),
+                                  std::abs(found.kappa2[s] - k2[s]) / k1[s], std::abs(found.radius[s] * kg[s] - 1)});
                 sum_g += kg[s], sum_a += (k1[s] + k2[s]) / 2;
             }
             CHECK_CLOSE(worst, 0, 1e-12);
@@ -79,7 +81,8 @@ void against_brute_force() {
                 CHECK_RELATIVE(count.mean_kappa_a, sum_a / static_cast<double>(summits.size()), 1e-12);
             }
             const Asperities algebraic = find_asperities(map, Curvature::algebraic, &count);
-            for (std::size_t s = 0; s < std::min(algebraic.size(), k1.size()); ++s) CHECK_RELATIVE(1 / algebraic.radius[s], (k1[s] + k2[s]) / 2, 1e-12);
+            for (std::size_t s = 0; s < std::min(algebraic.size(), k1.size()); ++s)
+                CHECK_RELATIVE(1 / algebraic.radius[s], (k1[s] + k2[s]) / 2, 1e-12);
         }
 }
 
@@ -124,7 +127,8 @@ void hidden_saddle() {
 }
 
 bool same(const Asperities& a, const Asperities& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z && a.radius == b.radius && a.kappa1 == b.kappa1 && a.kappa2 == b.kappa2 && a.angle == b.angle;
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.radius == b.radius && a.kappa1 == b.kappa1 && a.kappa2 == b.kappa2 &&
+           a.angle == b.angle;
 }
 
 void made_and_found_are_the_same() {
@@ -138,7 +142,8 @@ void made_and_found_are_the_same() {
         for (const int threads : {1, 2, 3, 200}) {
             CHECK(same(found, find_asperities(map, Curvature::algebraic, &made_count, threads)));
             CHECK(made_count.mean_kappa_g == found_count.mean_kappa_g && made_count.saddles == found_count.saddles);
-            CHECK(same(found, make_asperities(s, n, Normalise::sample, 3, 4, Curvature::algebraic, &made_count, &made_moments, threads)));
+            CHECK(same(found, make_asperities(s, n, Normalise::sample, 3, 4, Curvature::algebraic, &made_count, &made_moments,
+                                              threads)));
             CHECK(made_count.mean_kappa_g == found_count.mean_kappa_g && made_count.saddles == found_count.saddles);
             CHECK(std::memcmp(&made_moments, &found_moments, sizeof made_moments) == 0);
         }
@@ -150,7 +155,8 @@ void made_and_found_are_the_same() {
     turned.dx = turned.dy = map.dx, turned.periodic = true;
     for (int j = 0; j < 128; ++j)
         for (int i = 0; i < 128; ++i) turned.row(j)[i] = map((i + 37) % 128, (j + 101) % 128);
-    std::vector<double> a = find_asperities(map, Curvature::geometric).radius, b = find_asperities(turned, Curvature::geometric).radius;
+    std::vector<double> a = find_asperities(map, Curvature::geometric).radius,
+                        b = find_asperities(turned, Curvature::geometric).radius;
     std::sort(a.begin(), a.end()), std::sort(b.begin(), b.end());
     CHECK(a == b);
 }
@@ -181,8 +187,8 @@ Point mode(const std::vector<Point>& points, double h) {
 }
 
 // Curvatures of eight surfaces with 16 points in the shortest wavelength. Second differences are then low by at most
-// (2 pi/16)^2/12 = 1.3 % (the shortest waves), and a summit's grid point is off its top by half a step: a bias below 1.5 % in all,
-// which falls fourfold on a grid twice as fine. The statistical error is taken from the scatter between the surfaces.
+// (2 pi/16)^2/12 = 1.3 % (the shortest waves), and a summit's grid point is off its top by half a step: a bias below 1.5 % in
+// all, which falls fourfold on a grid twice as fine. The statistical error is taken from the scatter between the surfaces.
 void against_theory() {
     const Spectrum s{.L_lambda_l = 12, .L_lambda_s = 96};
     const double bias = 0.015;
@@ -205,7 +211,8 @@ void against_theory() {
     const auto compare = [&](const std::vector<double>& values, double truth, const char* what) {
         double sum = 0, square = 0;
         for (const double v : values) sum += v, square += v * v;
-        const double n = static_cast<double>(values.size()), mean = sum / n, error = std::sqrt((square / n - mean * mean) / (n - 1));
+        const double n = static_cast<double>(values.size()), mean = sum / n,
+                     error = std::sqrt((square / n - mean * mean) / (n - 1));
         std::printf("%s: %.4f +- %.4f, theory %.4f\n", what, mean, error, truth);
         CHECK_CLOSE(mean, truth, 4 * error + bias * truth);
         CHECK(error < 0.01 * truth);
@@ -219,10 +226,11 @@ void against_theory() {
     std::vector<Point> theory;
     for (double k1 = 0.01; k1 < 5; k1 += 0.02)
         for (double k2 = 0.01; k2 < k1; k2 += 0.02) theory.push_back({k1, k2, joint_density(k1, k2)});
-    const Point sharp = *std::max_element(theory.begin(), theory.end(), [](const Point& p, const Point& q) { return p.weight < q.weight; });
+    const Point sharp =
+        *std::max_element(theory.begin(), theory.end(), [](const Point& p, const Point& q) { return p.weight < q.weight; });
     const Point smooth = mode(theory, 0.25), sample = mode(points, 0.25);
-    std::printf("%zu summits: mode ratio %.3f, theory smoothed alike %.3f, sharp %.3f\n", points.size(), sample.k1 / sample.k2, smooth.k1 / smooth.k2,
-                sharp.k1 / sharp.k2);
+    std::printf("%zu summits: mode ratio %.3f, theory smoothed alike %.3f, sharp %.3f\n", points.size(), sample.k1 / sample.k2,
+                smooth.k1 / smooth.k2, sharp.k1 / sharp.k2);
     CHECK_CLOSE(sharp.k1 / sharp.k2, 2.21, 0.04);  // half a step of the grid in either
     CHECK_RELATIVE(sample.k1 / sample.k2, smooth.k1 / smooth.k2, 0.1);
     CHECK_RELATIVE(sample.k1, smooth.k1, 0.05);
@@ -247,7 +255,14 @@ void against_theory() {
 
 void from_outside() {
     const auto name = [](std::size_t i) { return "row " + std::to_string(i); };
-    const Asperities good{.x = {0, 1, 0}, .y = {0, 0, 1}, .z = {0, 1, 2}, .radius = {1, 2, 3}, .kappa1 = {}, .kappa2 = {}, .angle = {}, .biharmonic = {}};
+    const Asperities good{.x = {0, 1, 0},
+                          .y = {0, 0, 1},
+                          .z = {0, 1, 2},
+                          .radius = {1, 2, 3},
+                          .kappa1 = {},
+                          .kappa2 = {},
+                          .angle = {},
+                          .biharmonic = {}};
     validate(good, name);
     const auto refused = [&](auto change, const char* words) {
         Asperities bad = good;

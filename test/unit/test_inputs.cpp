@@ -50,7 +50,9 @@ void ok(int status) {
 struct NcFile {
     int id = -1;
     std::string path;
-    explicit NcFile(const std::string& name, int format = NC_NETCDF4) : path(in_folder(name)) { ok(nc_create(path.c_str(), NC_CLOBBER | format, &id)); }
+    explicit NcFile(const std::string& name, int format = NC_NETCDF4) : path(in_folder(name)) {
+        ok(nc_create(path.c_str(), NC_CLOBBER | format, &id));
+    }
     ~NcFile() { close(); }
     void close() {
         if (id >= 0) ok(nc_close(id));
@@ -74,9 +76,11 @@ std::vector<double> ramp(std::size_t n, double first, double step) {
     return c;
 }
 
-// height(y = 3, x = 5) = 10 y index + x index, with coordinates as given (empty: none), changed by `tamper` before the data go in.
-std::string heights_file(const std::string& name, int format, std::vector<double> x, std::vector<double> y, const char* variable = "height",
-                         nc_type type = NC_DOUBLE, const std::function<void(int, int)>& tamper = {}, std::vector<double> z = {}) {
+// height(y = 3, x = 5) = 10 y index + x index, with coordinates as given (empty: none), changed by `tamper` before the data go
+// in.
+std::string heights_file(const std::string& name, int format, std::vector<double> x, std::vector<double> y,
+                         const char* variable = "height", nc_type type = NC_DOUBLE,
+                         const std::function<void(int, int)>& tamper = {}, std::vector<double> z = {}) {
     NcFile f(name, format);
     const int dy = f.dimension("y", 3), dx = f.dimension("x", 5);
     const int v = f.variable(variable, type, {dy, dx});
@@ -122,7 +126,8 @@ void heights_from_netcdf() {
         ok(nc_put_att_double(id, v, "scale_factor", NC_DOUBLE, 1, &scale));
         ok(nc_put_att_double(id, v, "add_offset", NC_DOUBLE, 1, &offset));
     };
-    const HeightMap packed = read_heights(heights_file("packed", NC_NETCDF4, ramp(5, 0, 1), ramp(3, 0, 1), "height", NC_SHORT, pack), std::nullopt);
+    const HeightMap packed =
+        read_heights(heights_file("packed", NC_NETCDF4, ramp(5, 0, 1), ramp(3, 0, 1), "height", NC_SHORT, pack), std::nullopt);
     CHECK(packed(3, 2) == 23 * 0.5 - 3);
 }
 
@@ -130,7 +135,8 @@ void bad_heights_from_netcdf() {
     const std::vector<double> x = ramp(5, 0, 0.1), y = ramp(3, 0, 0.1);
     std::vector<double> uneven = x;
     uneven[2] += 1e-6;
-    REFUSED(read_heights(heights_file("uneven", NC_NETCDF4, uneven, y), std::nullopt), "coordinate x is not uniform to 1e-6 of its step 0.1: x(2)");
+    REFUSED(read_heights(heights_file("uneven", NC_NETCDF4, uneven, y), std::nullopt),
+            "coordinate x is not uniform to 1e-6 of its step 0.1: x(2)");
     uneven[2] = x[2] + 0.9e-7;  // within the tolerance
     CHECK(read_heights(heights_file("even", NC_NETCDF4, uneven, y), std::nullopt).nx == 5);
     REFUSED(read_heights(heights_file("flat", NC_NETCDF4, ramp(5, 1, 0), y), std::nullopt), "does not vary");
@@ -141,7 +147,8 @@ void bad_heights_from_netcdf() {
 
     std::vector<double> z = ramp(15, 0, 1);
     z[7] = std::nan("");
-    REFUSED(read_heights(heights_file("nan", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "height(y = 1, x = 2), counted from 0, is not finite");
+    REFUSED(read_heights(heights_file("nan", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt),
+            "height(y = 1, x = 2), counted from 0, is not finite");
     z[7] = HUGE_VAL;
     REFUSED(read_heights(heights_file("inf", 0, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "height(y = 1, x = 2)");
     z[7] = -99;
@@ -153,7 +160,8 @@ void bad_heights_from_netcdf() {
         const double values[] = {-98, -99};
         ok(nc_put_att_double(id, v, "missing_value", NC_DOUBLE, 2, values));
     };
-    REFUSED(read_heights(heights_file("fill", NC_NETCDF4, x, y, "height", NC_DOUBLE, fill, z), std::nullopt), "height(y = 1, x = 2), counted from 0, is missing");
+    REFUSED(read_heights(heights_file("fill", NC_NETCDF4, x, y, "height", NC_DOUBLE, fill, z), std::nullopt),
+            "height(y = 1, x = 2), counted from 0, is missing");
     REFUSED(read_heights(heights_file("missing", NC_NETCDF4, x, y, "height", NC_DOUBLE, missing, z), std::nullopt), "is missing");
     z[7] = NC_FILL_DOUBLE;
     REFUSED(read_heights(heights_file("unwritten", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "is missing");
@@ -161,7 +169,8 @@ void bad_heights_from_netcdf() {
         ok(nc_put_att_text(id, v, "units", 2, "nm"));
         ok(nc_put_att_text(id, v + 1, "units", 2, "um"));
     };
-    REFUSED(read_heights(heights_file("units", NC_NETCDF4, x, y, "height", NC_DOUBLE, units), std::nullopt), "height is in 'nm' but x in 'um'");
+    REFUSED(read_heights(heights_file("units", NC_NETCDF4, x, y, "height", NC_DOUBLE, units), std::nullopt),
+            "height is in 'nm' but x in 'um'");
 
     {
         NcFile f("two");
@@ -245,7 +254,10 @@ void heights_from_text() {
     CHECK(m(1, 0) == 1.5e-3 && m(3, 0) == 3 && m(2, 1) == 6.25 && m(3, 2) == -11);
     REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt), "L, its extent in x, must be given");
     // Windows' line ends, a byte order mark, no line end at the end, a number below the range of double.
-    CHECK(read_heights(write("dos", "\xef\xbb\xbf" "1 2 3\r\n4 5 6\r\n\r\n7 8 1e-400"), 3.0)(1, 2) == 8);
+    CHECK(read_heights(write("dos",
+                             "\xef\xbb\xbf"
+                             "1 2 3\r\n4 5 6\r\n\r\n7 8 1e-400"),
+                       3.0)(1, 2) == 8);
     REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0), "t:2: 2 values where 3 as in line 1");
     REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0), "t:3: 4 values where 3 as in line 2");
     REFUSED(read_heights(write("t", "1 2 3\n4 abc 6\n"), 1.0), "t:2: 'abc' in column 2 is not a number");
@@ -264,7 +276,8 @@ void heights_from_text() {
     REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0), "t.nc:2: 'x'");  // by content, not by name
 }
 
-std::string asperities_file(const std::string& name, std::vector<double> x, std::vector<double> r, bool curvatures, std::size_t lengths = 3) {
+std::string asperities_file(const std::string& name, std::vector<double> x, std::vector<double> r, bool curvatures,
+                            std::size_t lengths = 3) {
     NcFile f(name);
     const int d = f.dimension("asperity", 3), e = lengths == 3 ? d : f.dimension("other", lengths);
     const std::vector<double> y = {0, 0, 1}, z = {0.1, 0.2, 0.3}, k1 = {3, 2, 1}, k2 = {1, 2, 0.5}, angle = {0, 0.5, 1};
@@ -291,13 +304,16 @@ void asperities() {
     CHECK(e.x_min == 0.1 && e.x_max == 0.4 && e.y_min == 0.2 && e.y_max == 0.9);
 
     const Asperities full = read_asperities(asperities_file("full", {0, 1, 1}, {1, 2, 3}, true));
-    CHECK(full.size() == 3 && full.x[1] == 1 && full.radius[2] == 3 && full.kappa1[0] == 3 && full.kappa2[2] == 0.5 && full.angle[1] == 0.5 &&
-          full.biharmonic[2] == 0.3);
+    CHECK(full.size() == 3 && full.x[1] == 1 && full.radius[2] == 3 && full.kappa1[0] == 3 && full.kappa2[2] == 0.5 &&
+          full.angle[1] == 0.5 && full.biharmonic[2] == 0.3);
     CHECK(read_asperities(asperities_file("plain", {0, 1, 1}, {1, 2, 3}, false)).kappa1.empty());
 
-    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)), "asperity 1, counted from 0: lies at the same point as");
-    REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 0}, false)), "asperity 2, counted from 0: the radius must be positive");
-    REFUSED(read_asperities(asperities_file("bad", {0, std::nan(""), 1}, {1, 2, 3}, false)), "asperity_x(asperity = 1), counted from 0, is not finite");
+    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)),
+            "asperity 1, counted from 0: lies at the same point as");
+    REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 0}, false)),
+            "asperity 2, counted from 0: the radius must be positive");
+    REFUSED(read_asperities(asperities_file("bad", {0, std::nan(""), 1}, {1, 2, 3}, false)),
+            "asperity_x(asperity = 1), counted from 0, is not finite");
     REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 3, 4}, false, 4)), "asperity_radius(other = 4): 3 values");
     {
         NcFile f("empty");
@@ -305,6 +321,14 @@ void asperities() {
         for (const char* name : {"asperity_x", "asperity_y", "asperity_z", "asperity_radius"}) f.variable(name, NC_DOUBLE, {d});
         f.close();
         REFUSED(read_asperities(f.path), "no asperity in it");
+    }
+    {
+        NcFile f("absurd");
+        const int d = f.dimension("asperity", std::size_t{1} << 60);
+        const std::size_t chunk = 100;
+        ok(nc_def_var_chunking(f.id, f.variable("asperity_x", NC_DOUBLE, {d}), NC_CHUNKED, &chunk));
+        f.close();
+        REFUSED(read_asperities(f.path), "more asperities than rsc can number");
     }
     REFUSED(read_asperities(write("t", "1 2 3 4\n# remark\n1 2 3\n")), "t:3: 3 values where 4 were expected");
     REFUSED(read_asperities(write("t", "1 2 3 4\n2 2 3 -4\n")), "t:2: the radius must be positive, not -4");

@@ -19,7 +19,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Spectrum spectrum(double hurst, double l, double s, bool plateau) { return {.L = 1.7, .hurst = hurst, .L_lambda_l = l, .L_lambda_s = s, .plateau = plateau, .sigma = 0.03}; }
+Spectrum spectrum(double hurst, double l, double s, bool plateau) {
+    return {.L = 1.7, .hurst = hurst, .L_lambda_l = l, .L_lambda_s = s, .plateau = plateau, .sigma = 0.03};
+}
 
 // Integral of Phi over the plane with weight cos^p K^p, by Simpson's rule in ln K on either side of kl and over the angle, with a
 // PSD written out here. Returns the three moments scaled to m0 = sigma^2.
@@ -137,7 +139,8 @@ void elementary_functions() {
         double c, s;
         vector_math::cos_sin_turns(u, c, s);
         const long double turn = 2 * std::numbers::pi_v<long double> * u;
-        worst_trig = std::max({worst_trig, std::abs(c - static_cast<double>(std::cos(turn))), std::abs(s - static_cast<double>(std::sin(turn)))});
+        worst_trig = std::max(
+            {worst_trig, std::abs(c - static_cast<double>(std::cos(turn))), std::abs(s - static_cast<double>(std::sin(turn)))});
     }
     const double ulp = 2.3e-16;
     CHECK(worst_log < 2 * ulp);  // our error and the library's
