@@ -1,20 +1,16 @@
-// The result file: everything of the interface is there and described, values come back, failures leave nothing behind.
+// The result file: everything of the interface is there and described, values come back.
 // With arguments `--sample ONE MANY` it only writes a result of one and of three realizations, for the tests of the readers.
 #include <netcdf.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <numbers>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,23 +19,12 @@
 #include "error.hpp"
 #include "run/netcdf_writer.hpp"
 #include "sample_result.hpp"
+#include "temporary_folder.hpp"
 
 using namespace rsc;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A fresh folder, removed with everything in it.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("rsc-test-result-" + std::to_string(::getpid()));
-    Folder() { fs::remove_all(path), fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
-    std::string operator/(const std::string& name) const { return (path / name).string(); }
-    std::size_t files() const {
-        return static_cast<std::size_t>(
-            std::distance(fs::recursive_directory_iterator(path), fs::recursive_directory_iterator()));
-    }
-};
 
 // Reading through the C library, failures counted as failed checks.
 class Reader {
@@ -319,11 +304,6 @@ void test_ncdump(const Folder& folder) {
     CHECK(std::system(("ncgen -o '" + again + "' '" + cdl + "'").c_str()) == 0);
 }
 
-std::string bytes(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 void test_same_case_same_file(const Folder& folder) {
     ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
     for (Format format : {Format::netcdf4, Format::cdf5, Format::classic}) {
@@ -333,91 +313,6 @@ void test_same_case_same_file(const Folder& folder) {
     }
     CHECK(Reader(folder / "a.nc").text("", "history").find("1970-01-02T00:00:00Z") == 0);
     ::unsetenv("SOURCE_DATE_EPOCH");
-}
-
-template <typename Call>
-std::string message(Failure kind, Call call) {
-    try {
-        call();
-    } catch (const Error& e) {
-        return e.kind() == kind ? e.what() : std::string("another kind of failure: ") + e.what();
-    }
-    return "no failure";
-}
-
-bool says(const std::string& text, const std::string& words) {
-    const bool found = text.find(words) != std::string::npos;
-    if (!found) std::printf("message: %s\n", text.c_str());
-    return found;
-}
-
-void test_failures(const Folder& folder) {
-    const Result r = sample::result(1);
-    const auto writing = [&](const std::string& path, Format format = Format::netcdf4) {
-        return message(Failure::file_system, [&] { write_result(r, path, {format, 4, ""}); });
-    };
-    const auto checking = [&](const std::string& path) { return message(Failure::bad_input, [&] { check_output(path); }); };
-    std::ofstream(folder / "plain") << "x";
-    fs::create_directory(folder / "dir");
-    // A folder that is a file, a file that is a folder.
-    CHECK(says(writing(folder / "plain/rsc.nc"), "cannot be made"));
-    CHECK(says(writing(folder / "dir"), "it is a folder"));
-    CHECK(says(checking(folder / "plain/rsc.nc"), "is not a folder"));
-    CHECK(says(checking(folder / "dir"), "this is a folder"));
-    CHECK(says(checking(folder / "missing/rsc.nc"), "does not exist"));
-    CHECK(says(checking(""), "expected"));
-    CHECK(says(checking("dir/"), "expected"));
-    CHECK(says(checking("/dev/null"), "not a plain file"));
-    CHECK(::access("/proc", W_OK) == 0 || says(checking("/proc/rsc.nc"), "cannot be written to"));
-    CHECK(checking("made/later/rsc.nc") == "no failure" && !fs::exists("made"));
-    CHECK(checking(folder / "rsc.nc") == "no failure" && checking("rsc.nc") == "no failure");
-    if (::geteuid() != 0) {
-        fs::permissions(folder / "dir", fs::perms::owner_read | fs::perms::owner_exec);
-        CHECK(says(checking(folder / "dir/rsc.nc"), "cannot be written to"));
-        CHECK(says(writing(folder / "dir/rsc.nc"), "Permission denied"));
-        fs::permissions(folder / "dir", fs::perms::owner_all);
-    }
-    // The system stops the write half way, as a full disk does: nothing under the final name, no work in progress, and an older
-    // file stays.
-    const std::string old = folder / "old.nc";
-    std::ofstream(old) << "older result";
-    const std::size_t before = folder.files();
-    std::signal(SIGXFSZ, SIG_IGN);
-    rlimit limit{}, tight{};
-    getrlimit(RLIMIT_FSIZE, &limit);
-    for (const rlim_t size : {0u, 5000u, 30000u})
-        for (Format format : {Format::netcdf4, Format::cdf5, Format::classic}) {
-            tight = limit;
-            tight.rlim_cur = size;
-            setrlimit(RLIMIT_FSIZE, &tight);
-            const std::string text = writing(old, format), fresh = writing(folder / "fresh.nc", format);
-            setrlimit(RLIMIT_FSIZE, &limit);
-            CHECK(says(text, "cannot write '" + old + "'") && says(fresh, "cannot write"));
-            CHECK(folder.files() == before && bytes(old) == "older result");
-        }
-    // A full disk: the work in progress lands on the device that is always full.
-    if (fs::exists("/dev/full")) {
-        fs::create_symlink("/dev/full", old + ".part-" + std::to_string(::getpid()));
-        CHECK(says(writing(old), "is full; make room"));
-        CHECK(folder.files() == before && bytes(old) == "older result");
-    }
-    // After the failures it still writes.
-    write_result(r, folder / "fresh.nc", {});
-    CHECK(Reader(folder / "fresh.nc").values("force").size() == sample::kSteps);
-}
-
-void test_not_finite(const Folder& folder) {
-    const std::string path = folder / "never.nc";
-    Result r = sample::result(1);
-    r.contacts.force[5] = std::nan("");
-    CHECK(says(message(Failure::internal, [&] { write_result(r, path, {}); }), "contact_force"));
-    r = sample::result(1);
-    r.observations.map_pressure[0] = 1.0 / 0.0;
-    CHECK(says(message(Failure::internal, [&] { write_result(r, path, {}); }), "map_pressure"));
-    r = sample::result(1);
-    r.heights->row(2)[3] = std::nan("");
-    CHECK(says(message(Failure::internal, [&] { write_result(r, path, {}); }), "height"));
-    CHECK(!fs::exists(path));
 }
 
 void test_edges(const Folder& folder) {
@@ -483,8 +378,6 @@ int main(int argc, char** argv) {
     test_many_realizations(Folder());
     test_ncdump(Folder());
     test_same_case_same_file(Folder());
-    test_failures(Folder());
-    test_not_finite(Folder());
     test_edges(Folder());
     test_units_and_contacts();
     return check::summary();

@@ -1,0 +1,26 @@
+// A fresh folder, removed with everything in it.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+struct Folder {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / ("rsc-test-" + std::to_string(::getpid()));
+    Folder() { std::filesystem::remove_all(path), std::filesystem::create_directories(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string operator/(const std::string& name) const { return (path / name).string(); }
+    std::size_t files() const {
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::recursive_directory_iterator(path), std::filesystem::recursive_directory_iterator()));
+    }
+};
+
+// The content of a file.
+inline std::string bytes(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
