@@ -1,0 +1,38 @@
+# Runs the program once in an empty folder and asserts, each on its own: the exit status, what stderr says, what stdout says, and
+# which files are there afterwards.
+#   RSC      the program             FOLDER   a folder for this test alone
+#   INPUT    file for stdin, or ""   ARGS     the command line
+#   STATUS   the exit status         ERROR, OUTPUT   regular expressions; "" asserts silence on stderr, nothing on stdout
+#   FILES    the files it leaves ("" for none)
+file(REMOVE_RECURSE "${FOLDER}")
+file(MAKE_DIRECTORY "${FOLDER}")
+if(INPUT STREQUAL "")
+  set(INPUT /dev/null)
+endif()
+separate_arguments(args UNIX_COMMAND "${ARGS}")
+execute_process(COMMAND "${RSC}" ${args} WORKING_DIRECTORY "${FOLDER}" INPUT_FILE "${INPUT}" TIMEOUT 60
+                RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE error)
+set(failed FALSE)
+if(NOT status STREQUAL STATUS)
+  message("exit status ${status}, expected ${STATUS}")
+  set(failed TRUE)
+endif()
+if(ERROR STREQUAL "" AND NOT error STREQUAL "")
+  message("stderr should be empty")
+  set(failed TRUE)
+elseif(NOT error MATCHES "${ERROR}")
+  message("stderr does not match: ${ERROR}")
+  set(failed TRUE)
+endif()
+if(NOT output MATCHES "${OUTPUT}")
+  message("stdout does not match: ${OUTPUT}")
+  set(failed TRUE)
+endif()
+file(GLOB_RECURSE files RELATIVE "${FOLDER}" LIST_DIRECTORIES true "${FOLDER}/*")
+if(NOT files STREQUAL FILES)
+  message("files left: '${files}', expected '${FILES}'")
+  set(failed TRUE)
+endif()
+if(failed)
+  message(FATAL_ERROR "stdout:\n${output}\nstderr:\n${error}")
+endif()
