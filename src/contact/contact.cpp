@@ -165,15 +165,15 @@ void Contact::Impl::use(Method how) {
     newton.use(*products);
 }
 
-// `auto`: the cheaper of a direct and a mesh product, from the rates test/bench measures. The dense method never is the cheapest.
+// `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures. The dense method is never the cheapest.
 Method Contact::Impl::choose() const {
     if (std::isinf(E_star())) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
     if (options.method != Method::automatic) return options.method;
-    const auto n = static_cast<double>(candidates.size());
-    constexpr double contacts_per_candidate = 0.4, pairs_per_second = 6e9;
-    const double contacts = contacts_per_candidate * n;
-    return contacts * contacts / pairs_per_second > MeshPotential::estimated_cost(at(candidates.size()), 1e-3) ? Method::mesh
-                                                                                                                : Method::direct;
+    // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
+    constexpr double contacts_per_candidate = 0.4, pairs_per_second = 6e9, mesh_overhead = 4;
+    const double contacts = contacts_per_candidate * static_cast<double>(candidates.size());
+    const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates.size()), 1e-3);
+    return contacts * contacts / pairs_per_second > mesh_cost ? Method::mesh : Method::direct;
 }
 
 // The no-interaction forces F = f(<g0 - s>) of a sphere held higher by s, where s is the mean of B F over those forces: the mean field

@@ -1,0 +1,237 @@
+// What rsc costs, as ratios of times measured in one run. `rsc_bench` runs everything (a few minutes); `rsc_bench NAME...` only the
+// parts named: solve, realization, rough, pairs, many, largest.
+#include <fftw3.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "contact/pairs.hpp"
+#include "rough/asperities.hpp"
+
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+using namespace rsc;
+
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// The shortest of several runs: what the code costs when nothing else disturbs it.
+double shortest(int runs, const std::function<void()>& work) {
+    double best = 1e300;
+    for (int i = 0; i < runs; ++i) {
+        const double start = now();
+        work();
+        best = std::min(best, now() - start);
+    }
+    return best;
+}
+
+double peak_memory_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+const Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
+
+Asperities surface(double sigma, std::int64_t realization) {
+    Spectrum spectrum;
+    spectrum.sigma = sigma;
+    return make_asperities(spectrum, 2048, Normalise::sample, 1, realization, Curvature::geometric);
+}
+
+std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps) {
+    SolverOptions options;
+    options.method = method;
+    options.sigma = sigma;
+    Contact contact(asperities, kGold, options);
+    std::vector<Level> levels;
+    for (int k = 0; k < steps; ++k) levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));
+    return levels;
+}
+
+long sum(const std::vector<Level>& levels, long Level::*field) {
+    long total = 0;
+    for (const Level& level : levels) total += level.*field;
+    return total;
+}
+
+void bench_solve() {
+    std::printf("\nsolve: 100 levels from 4 to 1 sigma, default surface, solving only, one core (paper's method / direct)\n");
+    double all_direct = 0, all_dgesv = 0;
+    for (int realization = 1; realization <= 4; ++realization) {
+        const Asperities a = surface(0.01, realization);
+        std::vector<Level> direct, dgesv;
+        const double t_direct = shortest(5, [&] { direct = indent(a, 0.01, Method::direct, 100); });
+        const double t_dgesv = shortest(1, [&] { dgesv = indent(a, 0.01, Method::dgesv, 100); });
+        double differ = 0;
+        long steps = 0, solves = 0, not_unique = 0;
+        for (std::size_t k = 0; k < direct.size(); ++k) {
+            if (direct[k].force > 0) differ = std::max(differ, std::abs(dgesv[k].force / direct[k].force - 1));
+            steps += direct[k].iterations;
+            solves += dgesv[k].iterations;
+            not_unique += direct[k].status == LevelStatus::not_unique;
+        }
+        std::printf("  realization %d: dgesv %.3f s (%ld solves), direct %.4f s (%ld Newton steps, %ld products), ratio %.0f; "
+                    "loads differ %.1e; %ld levels not unique\n",
+                    realization, t_dgesv, solves, t_direct, steps, sum(direct, &Level::products), t_dgesv / t_direct, differ, not_unique);
+        all_direct += t_direct;
+        all_dgesv += t_dgesv;
+    }
+    std::printf("  mean ratio %.0f (wanted: 200)\n", all_dgesv / all_direct);
+}
+
+double bare_transform(int n) {
+    const auto size = static_cast<std::size_t>(n);
+    double* data = fftw_alloc_real(size * 2 * (size / 2 + 1));
+    const fftw_plan plan = fftw_plan_dft_c2r_2d(n, n, reinterpret_cast<fftw_complex*>(data), data, FFTW_ESTIMATE);
+    std::fill(data, data + size * 2 * (size / 2 + 1), 1e-3);
+    const double time = shortest(5, [&] { fftw_execute(plan); std::fill(data, data + 64, 1e-3); });
+    fftw_destroy_plan(plan);
+    fftw_free(data);
+    return time;
+}
+
+void bench_realization() {
+    std::printf("\nrealization: 2048^2 surface, detection and 100 levels, one core (all in / bare in-place c2r transform of the grid)\n");
+    const double bare = bare_transform(2048);
+    double make = 1e300, solve = 1e300, whole = 1e300;
+    for (int i = 0; i < 5; ++i) {
+        const double start = now();
+        const Asperities a = surface(0.01, 5);
+        const double made = now();
+        indent(a, 0.01, Method::automatic, 100);
+        const double done = now();
+        make = std::min(make, made - start);
+        solve = std::min(solve, done - made);
+        whole = std::min(whole, done - start);
+    }
+    std::printf("  bare %.1f ms, surface and detection %.1f ms, levels %.1f ms, all in %.1f ms, ratio %.2f (wanted: 2.5)\n", 1e3 * bare,
+                1e3 * make, 1e3 * solve, 1e3 * whole, whole / bare);
+}
+
+void bench_rough() {
+    std::printf("\nrough: sigma = 0.1, 100 levels, all in, one core\n");
+    std::vector<Level> levels;
+    const double time = shortest(2, [&] { levels = indent(surface(0.1, 1), 0.1, Method::automatic, 100); });
+    std::printf("  %d candidates, %zu contacts at the last level, %ld products: %.2f s (wanted: 5 s)\n", levels.back().candidates,
+                levels.back().f.size(), sum(levels, &Level::products), time);
+}
+
+void bench_pairs() {
+    std::printf("\npairs: sums over pairs f/d, directed pairs a second on one core, %s\n", pair_instruction_set());
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (std::size_t n : {200, 500, 2000, 10000}) {
+        std::vector<double> x(n), y(n), f(n), phi(n);
+        for (std::size_t k = 0; k < n; ++k) {
+            x[k] = uniform(random);
+            y[k] = uniform(random);
+            f[k] = uniform(random);
+        }
+        const std::vector<float> f_single(f.begin(), f.end());
+        std::vector<float> phi_single(n);
+        PairSet set;
+        set.assign(n, x.data(), y.data());
+        const double pairs = static_cast<double>(n) * static_cast<double>(n);
+        const int repeat = static_cast<int>(1 + 2e8 / pairs);
+        const double t_double = shortest(5, [&] { for (int i = 0; i < repeat; ++i) set.apply(f.data(), phi.data()); });
+        const double t_single = shortest(5, [&] { for (int i = 0; i < repeat; ++i) set.apply_single(f_single.data(), phi_single.data()); });
+        const double t_apart = shortest(5, [&] {
+            for (int i = 0; i < repeat; ++i) pair_potential(n, x.data(), y.data(), n, x.data(), y.data(), f.data(), phi.data());
+        });
+        std::printf("  n = %5zu: float %.2f G/s, double %.2f G/s, double with targets apart %.2f G/s (wanted: 5 and 2)\n", n,
+                    1e-9 * pairs * repeat / t_single, 1e-9 * pairs * repeat / t_double, 1e-9 * pairs * repeat / t_apart);
+    }
+}
+
+// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii, under a nearly flat sphere.
+Asperities lattice(int n) {
+    const int side = static_cast<int>(std::lround(std::sqrt(n)));
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> jitter(-0.4, 0.4);
+    std::normal_distribution<double> normal;
+    const double h = 1.0 / side;
+    Asperities a;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            a.x.push_back((i + 0.5 + jitter(random)) * h);
+            a.y.push_back((j + 0.5 + jitter(random)) * h);
+            a.z.push_back(0.05 * h * normal(random));
+            a.radius.push_back(0.1 * h * std::exp(0.3 * normal(random)));
+        }
+    }
+    return a;
+}
+
+void bench_many() {
+    std::printf("\nmany: one level cold on a jittered lattice, a third in contact, to a residual of 1e-6\n");
+    std::vector<double> log_n, log_t;
+    for (int n : {10000, 30000, 100000, 300000, 600000}) {
+        const Asperities a = lattice(n);
+        const double sigma = 0.05 / std::sqrt(n);
+        SolverOptions options;
+        options.sigma = sigma;
+        options.method = Method::mesh;
+        Level level;
+        // The same fraction touches at every n when the mean pressure is the same: the depth grows like the interaction, as sqrt(n).
+        const double depth = -1.5 * sigma - 2.6 * sigma * (std::sqrt(n / 1e4) - 1);
+        const double time = shortest(1, [&] { level = Contact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(depth); });
+        std::printf("  N = %6d: %6zu contacts (%.0f %%), area %.2f %%, %d Newton steps, %ld products, residual %.1e, %s, %.2f s\n", n,
+                    level.f.size(), 100.0 * static_cast<double>(level.f.size()) / n, 100 * level.area, level.iterations, level.products,
+                    level.residual, level.status == LevelStatus::not_converged ? "NOT CONVERGED" : "converged", time);
+        log_n.push_back(std::log(n));
+        log_t.push_back(std::log(time));
+    }
+    double mn = 0, mt = 0, cov = 0, var = 0;
+    for (std::size_t k = 0; k < log_n.size(); ++k) mn += log_n[k] / 5, mt += log_t[k] / 5;
+    for (std::size_t k = 0; k < log_n.size(); ++k) cov += (log_n[k] - mn) * (log_t[k] - mt), var += (log_n[k] - mn) * (log_n[k] - mn);
+    std::printf("  time ~ N^%.2f (wanted: 1.2); peak memory %.0f MB (wanted: 8000)\n", cov / var, peak_memory_mb());
+}
+
+void bench_largest() {
+    std::printf("\nlargest: 8192^2, L/lambda_l = 4, L/lambda_s = 2048, all in\n");
+    Spectrum spectrum;
+    spectrum.L_lambda_l = 4;
+    spectrum.L_lambda_s = 2048;
+    SummitCount count;
+    Asperities a;
+    const double bare = bare_transform(8192);
+    const double make = shortest(1, [&] { a = make_asperities(spectrum, 8192, Normalise::sample, 1, 1, Curvature::geometric, &count); });
+    std::printf("  made and detected: %ld summits in %.2f s, %.2f of a bare transform (wanted: 15 s)\n", count.summits, make, make / bare);
+    SolverOptions options;
+    options.sigma = 0.01;
+    Level level;
+    const double time = shortest(1, [&] { level = Contact(a, kGold, options).at_separation(0.01); });
+    std::printf("  Z0 = sigma: %d candidates, %zu contacts, %ld overlapping pairs, status %d, residual %.1e, %d Newton steps, %ld products: "
+                "%.2f s (wanted: 10 s)\n",
+                level.candidates, level.f.size(), level.overlapping_pairs, static_cast<int>(level.status), level.residual, level.iterations,
+                level.products, time);
+    std::printf("  peak memory %.0f MB (wanted: 2000; 512 MB of it the bare transform's)\n", peak_memory_mb());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
+    const std::pair<const char*, void (*)()> parts[] = {{"pairs", bench_pairs},     {"realization", bench_realization},
+                                                        {"solve", bench_solve},     {"rough", bench_rough},
+                                                        {"largest", bench_largest}, {"many", bench_many}};
+    for (const auto& [name, part] : parts) {
+        const bool wanted = argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, name) == 0; });
+        if (wanted) part();
+        std::fflush(stdout);
+    }
+    return 0;
+}
