@@ -16,10 +16,11 @@ namespace rsc {
 
 namespace {
 
-constexpr std::size_t kDirect = 256;  // so few points are summed directly
+constexpr std::size_t kDirect = 256;    // so few points are summed directly
+constexpr std::size_t kThreads = 5000;  // and so few are not worth the threads
 
 // Seconds on one core, measured; they only decide how the work is shared between mesh and near field.
-constexpr double kSecondsPerNearPair = 1.7e-9;
+constexpr double kSecondsPerNearPair = 2.3e-9;
 constexpr double kSecondsPerMeshPoint = 11e-9;
 double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
 
@@ -179,7 +180,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
 
     for (auto* array : {&x, &y, &u, &v}) array->resize(point.size());
     const double offset = 0.5 * design->width;
-#pragma omp parallel for schedule(dynamic, 16)
+#pragma omp parallel for schedule(dynamic, 16) if (n > kThreads)
     for (std::size_t s = 0; s < strips; ++s) {
         const auto begin = point.begin() + static_cast<std::ptrdiff_t>(strip_begin[s]);
         std::sort(begin, begin + static_cast<std::ptrdiff_t>(strip_size[s]),
@@ -221,7 +222,7 @@ void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
 void MeshPotential::Parts::spread(const double* f, double* mesh) const {
     const std::size_t strips = strip_size.size(), bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
     const auto table = pair_kernels().spread;
-#pragma omp parallel
+#pragma omp parallel if (n > kThreads)
     {
 #pragma omp for schedule(static)
         for (std::size_t n = 0; n < far->rows(); ++n) std::fill_n(mesh + n * stride, stride, 0.0);
@@ -241,7 +242,7 @@ void MeshPotential::Parts::near_field(const double* f, double* phi) const {
     constexpr std::size_t kGroup = 4;
     const std::size_t strips = strip_size.size(), groups = (strips + kGroup - 1) / kGroup;
     const PairKernels& table = pair_kernels();
-#pragma omp parallel
+#pragma omp parallel if (n > kThreads)
     for (std::size_t odd = 0; odd < 2; ++odd) {
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t group = odd; group < groups; group += 2)
@@ -265,7 +266,7 @@ void MeshPotential::apply(const double* f, double* phi) const {
     auto scratch = p.take_scratch();
     const std::size_t strips = p.strip_size.size();
     double *const sorted = scratch->f.data(), *const near = scratch->near.data(), *const far = scratch->far.data();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (p.n > kThreads)
     for (std::size_t s = 0; s < strips; ++s) {
         const std::size_t b = p.strip_begin[s];
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // pads stay without force
@@ -275,7 +276,7 @@ void MeshPotential::apply(const double* f, double* phi) const {
     p.spread(sorted, scratch->mesh.get());
     p.far->convolve(scratch->mesh.get());
     const double far_unit = 1 / p.choice.spacing;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (p.n > kThreads)
     for (std::size_t s = 0; s < strips; ++s) {
         const std::size_t b = p.strip_begin[s];
         pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(),

@@ -1,5 +1,7 @@
 #include "contact/mesh_far.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,6 +25,16 @@ std::size_t transform_length(double n) {
 
 // The doubled mesh holds every difference of two points with its sign, and room for the kernel to bend where it wraps around.
 double period_needed(const MeshDesign& design, double length) { return 2 * length + 4 * design.cutoff + 2; }
+
+// A mesh this small is not worth the threads.
+int threads_for(std::size_t points) { return points < 65536 ? 1 : omp_get_max_threads(); }
+
+// A buffer a thread, made before the threads start: what is thrown inside of a parallel region is lost.
+std::vector<FftwArray> buffers(int threads, std::size_t n) {
+    std::vector<FftwArray> all;
+    for (int t = 0; t < threads; ++t) all.push_back(fftw_array(n));
+    return all;
+}
 
 fftw_complex* as_complex(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
@@ -88,9 +100,11 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
 
     // Rows: the kernel is even, so half of them, and real transforms.
     const FftwArray half = fftw_array((half_y + 1) * (half_x + 1));
-#pragma omp parallel
+    const int threads = threads_for(points());
+    const std::vector<FftwArray> row_of = buffers(threads, stride()), block_of = buffers(threads, 2 * kColumns * period_y_);
+#pragma omp parallel num_threads(threads)
     {
-        const FftwArray row = fftw_array(stride());
+        double* row = row_of[static_cast<std::size_t>(omp_get_thread_num())].get();
 #pragma omp for schedule(static)
         for (std::size_t n = 0; n <= half_y; ++n) {
             for (std::size_t m = 0; m <= half_x; ++m) {
@@ -104,23 +118,23 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
                 row[m] = value;
                 if (m > 0) row[period_x_ - m] = value;
             }
-            fftw_execute_dft_r2c(row_forward_.get(), row.get(), as_complex(row.get()));
+            fftw_execute_dft_r2c(row_forward_.get(), row, as_complex(row));
             for (std::size_t m = 0; m <= half_x; ++m) half[n * (half_x + 1) + m] = row[2 * m] * cx[m];
         }
     }
 
     multiplier_ = fftw_array(multiplier_size());
     const std::size_t blocks = columns_ / kColumns;
-#pragma omp parallel
+#pragma omp parallel num_threads(threads)
     {
-        const FftwArray block = fftw_array(2 * kColumns * period_y_);
+        double* block = block_of[static_cast<std::size_t>(omp_get_thread_num())].get();
 #pragma omp for schedule(static)
         for (std::size_t b = 0; b < blocks; ++b) {
-            std::fill_n(block.get(), 2 * kColumns * period_y_, 0.0);
+            std::fill_n(block, 2 * kColumns * period_y_, 0.0);
             for (std::size_t n = 0; n < period_y_; ++n)
                 for (std::size_t c = 0; c < kColumns && b * kColumns + c <= half_x; ++c)
                     block[2 * (n * kColumns + c)] = half[std::min(n, period_y_ - n) * (half_x + 1) + b * kColumns + c];
-            fftw_execute_dft(column_forward_.get(), as_complex(block.get()), as_complex(block.get()));
+            fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
             double* to = multiplier_.get() + b * (half_y + 1) * kColumns;
             for (std::size_t n = 0; n <= half_y; ++n)
                 for (std::size_t c = 0; c < kColumns; ++c) to[n * kColumns + c] = block[2 * (n * kColumns + c)] * cy[n];
@@ -130,28 +144,30 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
 
 void FarField::convolve(double* mesh) const {
     const std::size_t half_y = period_y_ / 2, blocks = columns_ / kColumns, used = (period_x_ / 2) / kColumns + 1;
-#pragma omp parallel
+    const int threads = threads_for(points());
+    const std::vector<FftwArray> block_of = buffers(threads, 2 * kColumns * period_y_);
+#pragma omp parallel num_threads(threads)
     {
 #pragma omp for schedule(static)
         for (std::size_t n = 0; n < rows_; ++n)
             fftw_execute_dft_r2c(row_forward_.get(), mesh + n * stride(), as_complex(mesh + n * stride()));
 
         // Columns, a few at a time: there and back while they are in the cache; the rows that hold no points are never stored.
-        const FftwArray block = fftw_array(2 * kColumns * period_y_);
+        double* block = block_of[static_cast<std::size_t>(omp_get_thread_num())].get();
 #pragma omp for schedule(static)
         for (std::size_t b = 0; b < std::min(blocks, used); ++b) {
             constexpr std::size_t kRow = 2 * kColumns;
-            for (std::size_t n = 0; n < rows_; ++n) std::copy_n(mesh + n * stride() + b * kRow, kRow, block.get() + n * kRow);
-            std::fill(block.get() + rows_ * kRow, block.get() + period_y_ * kRow, 0.0);
-            fftw_execute_dft(column_forward_.get(), as_complex(block.get()), as_complex(block.get()));
+            for (std::size_t n = 0; n < rows_; ++n) std::copy_n(mesh + n * stride() + b * kRow, kRow, block + n * kRow);
+            std::fill(block + rows_ * kRow, block + period_y_ * kRow, 0.0);
+            fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
             const double* factors = multiplier_.get() + b * (half_y + 1) * kColumns;
             for (std::size_t n = 0; n < period_y_; ++n) {
                 const double* factor = factors + std::min(n, period_y_ - n) * kColumns;
-                double* value = block.get() + n * kRow;
+                double* value = block + n * kRow;
                 for (std::size_t c = 0; c < kColumns; ++c) value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];
             }
-            fftw_execute_dft(column_backward_.get(), as_complex(block.get()), as_complex(block.get()));
-            for (std::size_t n = 0; n < rows_; ++n) std::copy_n(block.get() + n * kRow, kRow, mesh + n * stride() + b * kRow);
+            fftw_execute_dft(column_backward_.get(), as_complex(block), as_complex(block));
+            for (std::size_t n = 0; n < rows_; ++n) std::copy_n(block + n * kRow, kRow, mesh + n * stride() + b * kRow);
         }
 
 #pragma omp for schedule(static)

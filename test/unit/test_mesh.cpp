@@ -170,7 +170,7 @@ void numbering() {
 }
 
 void same_bits_for_any_threads() {
-    for (const Points& p : {uniform_points(6000, 20), clustered_points(3000, 21)}) {
+    for (const Points& p : {uniform_points(12000, 20), clustered_points(6000, 21)}) {
         const Vector f = random_forces(p.size(), 22, true);
         Vector first;
         for (int threads : {1, 2, 3}) {
