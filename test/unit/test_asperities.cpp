@@ -186,9 +186,10 @@ Point mode(const std::vector<Point>& points, double h) {
     return at;
 }
 
-// Curvatures of eight surfaces with 16 points in the shortest wavelength. Second differences are then low by at most
-// (2 pi/16)^2/12 = 1.3 % (the shortest waves), and a summit's grid point is off its top by half a step: a bias below 1.5 % in
-// all, which falls fourfold on a grid twice as fine. The statistical error is taken from the scatter between the surfaces.
+// Curvatures of eight surfaces with 16 points in the shortest wavelength. Second differences are low by at most (2 pi/16)^2/12 =
+// 1.3 % (the shortest waves). Measured on these surfaces with 8, 16, 32 points: <kappa_g> 1.3247, 1.3460, 1.3506, density 0.965,
+// 0.990, 0.996 of the theory: second order, 0.5 % and 0.8 % from the limit at 16. The statistical error is taken from the scatter
+// between the surfaces.
 void against_theory() {
     const Spectrum s{.L_lambda_l = 12, .L_lambda_s = 96};
     const double bias = 0.015;
@@ -221,8 +222,9 @@ void against_theory() {
     compare(a, 8 / (3 * std::sqrt(kPi)), "<kappa_a>/sqrt(m4)");
     compare(density, 1, "density/theory");
 
-    // The most frequent pair of curvatures. Smoothing by h moves a mode, so theory and sample are smoothed alike; with little
-    // smoothing the theory's own is at the ratio 2.21. The sample's scatter: some 3 % with 14 000 summits and h = 0.25.
+    // The most frequent pair of curvatures. Smoothing by h moves a mode, so theory and sample are smoothed alike; the theory's
+    // own is at the ratio 2.21. Measured over 12 other seeds, h = 0.25: ratio 2.235 with deviation 0.024, kappa1 1.780 with
+    // 0.017. The bounds are five deviations.
     std::vector<Point> theory;
     for (double k1 = 0.01; k1 < 5; k1 += 0.02)
         for (double k2 = 0.01; k2 < k1; k2 += 0.02) theory.push_back({k1, k2, joint_density(k1, k2)});
@@ -232,7 +234,7 @@ void against_theory() {
     std::printf("%zu summits: mode ratio %.3f, theory smoothed alike %.3f, sharp %.3f\n", points.size(), sample.k1 / sample.k2,
                 smooth.k1 / smooth.k2, sharp.k1 / sharp.k2);
     CHECK_CLOSE(sharp.k1 / sharp.k2, 2.21, 0.04);  // half a step of the grid in either
-    CHECK_RELATIVE(sample.k1 / sample.k2, smooth.k1 / smooth.k2, 0.1);
+    CHECK_RELATIVE(sample.k1 / sample.k2, smooth.k1 / smooth.k2, 0.055);
     CHECK_RELATIVE(sample.k1, smooth.k1, 0.05);
 
     // Distribution of kappa1/kappa2: the joint density integrated along rays, rho (rho - 1)/(3 rho^2 - 2 rho + 3)^(5/2).
