@@ -449,9 +449,11 @@ Level Contact::at_force(double N) {
             depth *= 2;
         }
         if (!(next < above) || !(next > below)) next = std::isinf(below) ? above - depth : 0.5 * (above + below);
-        if (next == Z0 || next >= above || next <= below) {  // a jump of N(Z0): no separation carries N
-            level.status = std::max(level.status, LevelStatus::not_unique);
-            if (std::abs(miss) > my.options.tolerance) level.status = LevelStatus::not_converged;
+        if (next == Z0 || next >= above || next <= below) {
+            // Nearer than neighbouring numbers Z0 nobody comes; what is missing beyond that is a jump of N(Z0): no separation carries N.
+            const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
+            const double resolved = 2 * ulp * std::abs(stiffness()) + my.law->force(highest, 2 * ulp);
+            if (std::abs(level.force - N) > resolved) level.status = LevelStatus::not_converged;
             break;
         }
         Z0 = next;

@@ -26,7 +26,8 @@ public:
     // proved unique, and not otherwise. Never throws for a level that did not converge: see Level::status.
     Level at_separation(double Z0);
 
-    // The separation at which the sphere carries the force N > 0 [force], and the answer there.
+    // The separation at which the sphere carries the force N > 0 [force], and the answer there, to the tolerance or to the
+    // spacing of floating-point numbers Z0, whichever is coarser.
     Level at_force(double N);
 
     // dN/dZ0 of the last level (negative; 0 without contact) [force/length].

@@ -1,0 +1,132 @@
+// Cases: options by name, and a run of the whole program.
+#include <omp.h>
+
+#include <algorithm>
+#include <string>
+
+#include "api/guard.hpp"
+#include "api/handles.hpp"
+#include "run/read_case.hpp"
+#include "run/registry.hpp"
+#include "run/run.hpp"
+
+namespace rsc::api {
+
+const Case& settings_of(const rsc_case* a_case) {
+    static const Case defaults;
+    return a_case ? a_case->settings : defaults;
+}
+
+void require_sound(const Case& settings, std::initializer_list<std::string_view> names) {
+    std::string text;
+    for (const Problem& problem : check_case(settings)) {
+        const Key& key = *problem.keys.front();
+        const std::string group = key.group, full = group + "%" + key.name;
+        if (std::none_of(names.begin(), names.end(), [&](std::string_view name) { return name == group || name == full; }))
+            continue;
+        text += (text.empty() ? "&" : "\n&") + group + ": " + problem.text;
+    }
+    if (!text.empty()) throw Error(Failure::bad_input, text);
+}
+
+int threads_of(const Case& settings) { return settings.run.threads > 0 ? settings.run.threads : omp_get_max_threads(); }
+
+Spectrum spectrum_of(const Case& settings) {
+    const auto& keys = settings.surface;
+    return {keys.L.value_or(1.0), keys.hurst, keys.L_lambda_l, keys.L_lambda_s, keys.plateau, keys.sigma.value_or(0.01)};
+}
+
+}  // namespace rsc::api
+
+using namespace rsc::api;
+
+extern "C" {
+
+int32_t rsc_case_create(rsc_case** new_case) {
+    return guarded(0, [&] { construct(new_case, "new_case", [] { return new rsc_case; }); });
+}
+
+int32_t rsc_case_copy(rsc_case** new_case, const rsc_case* original) {
+    return guarded(0, [&] {
+        construct(new_case, "new_case", [&] {
+            require(original, 2, "original");
+            return new rsc_case(*original);
+        });
+    });
+}
+
+int32_t rsc_case_destroy(rsc_case** old_case) {
+    return guarded(0, [&] { destroy(old_case, "old_case"); });
+}
+
+int32_t rsc_case_read(rsc_case* a_case, const char* text) {
+    return guarded(2, [&] {
+        require(a_case, 1, "a_case");
+        require(text, 2, "text");
+        rsc::ReadCase read = rsc::read_case_text(text, "case");
+        if (read.study) refuse(2, "text", "must be one case: &study belongs to the program");
+        a_case->settings = std::move(read.settings);
+    });
+}
+
+int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
+    return guarded(3, [&] {
+        require(a_case, 1, "a_case");
+        require(name, 2, "name");
+        require(value, 3, "value");
+        try {
+            (void)rsc::get_key(a_case->settings, name);
+        } catch (const rsc::Error& error) {
+            if (error.kind() == rsc::Failure::bad_input) throw Refusal{2, error.what()};
+            throw;
+        }
+        rsc::set_key(a_case->settings, name, value);
+    });
+}
+
+int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length) {
+    return guarded(2, [&] {
+        require(a_case, 1, "a_case");
+        require(name, 2, "name");
+        put_text(rsc::get_key(a_case->settings, name), buffer, size, length, 3);
+    });
+}
+
+int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length) {
+    return guarded(1, [&] {
+        require(a_case, 1, "a_case");
+        put_text(rsc::effective_namelist(a_case->settings), buffer, size, length, 2);
+    });
+}
+
+int32_t rsc_key_count(int64_t* count) {
+    return guarded(0, [&] {
+        require(count, 1, "count");
+        put(count, rsc::registry().size());
+    });
+}
+
+int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
+    return guarded(0, [&] {
+        const auto keys = rsc::registry();
+        if (key < 0 || key >= static_cast<int64_t>(keys.size())) refuse(1, "key", "must be the number of a key");
+        const rsc::Key& k = keys[static_cast<std::size_t>(key)];
+        put_text(std::string(k.group) + "%" + k.name, buffer, size, length, 2);
+    });
+}
+
+int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
+    return guarded(1, [&] {
+        require(a_case, 1, "a_case");
+        rsc::require_valid(a_case->settings);
+        rsc::RunOptions how;
+        how.case_text = rsc::effective_namelist(a_case->settings);
+        how.command = "rsc_case_run";
+        const long failed = rsc::run_case(a_case->settings, how);
+        put(failed_levels, failed);
+        if (failed > 0)
+            throw Outcome{RSC_NOT_CONVERGED, "some levels did not converge; their values are in the file with status = 4"};
+    });
+}
+
+}  // extern "C"

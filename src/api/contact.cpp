@@ -1,0 +1,251 @@
+// Contacts: levels, what they hold, and the deflection of the surface around them.
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "api/guard.hpp"
+#include "api/handles.hpp"
+#include "contact/equivalent.hpp"
+
+namespace rsc::api {
+namespace {
+
+SolverOptions options_of(const Case& settings, const rsc_asperities::Content& on) {
+    SolverOptions options;
+    options.method = settings.solver.method;
+    options.law = settings.asperities.law;
+    options.interaction = settings.solver.interaction;
+    options.selection = settings.indentation.selection;
+    options.selection_factor = settings.indentation.selection_factor;
+    options.sigma = settings.surface.sigma.value_or(on.sigma);
+    options.tolerance = settings.solver.tolerance;
+    options.max_iterations = settings.solver.max_iterations;
+    options.delta0 = settings.solver.delta0;
+    options.mean_spacing = on.mean_spacing;
+    if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
+        throw Error(Failure::bad_input,
+                    "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
+                    "asperities, all of one height, give none");
+    }
+    return options;
+}
+
+void require_contact_keys(const Case& settings) {
+    require_sound(settings,
+                  {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma"});
+}
+
+const Level& level_of(const rsc_contact* contact) {
+    require(contact, 1, "contact");
+    if (!contact->level) throw Outcome{RSC_NO_RESULT, "the contact holds no result: indent or press first"};
+    return *contact->level;
+}
+
+// Computes a level; whatever goes wrong on the way leaves no result behind, a level that did not converge is kept and told.
+template <class Compute>
+void compute(rsc_contact& contact, Compute&& level) {
+    contact.level.reset();
+    contact.level = level();
+    contact.energy = contact.contact.energy();
+}
+
+void tell_convergence(const rsc_contact& contact) {
+    if (contact.level->status == LevelStatus::not_converged) {
+        throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
+    }
+}
+
+}  // namespace
+}  // namespace rsc::api
+
+using namespace rsc::api;
+
+extern "C" {
+
+int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
+                           const rsc_case* a_case) {
+    return guarded(7, [&] {
+        construct(contact, "contact", [&] {
+            require(asperities, 2, "asperities");
+            if (!(E_star > 0) || !std::isfinite(E_star)) refuse(3, "E_star", "must be positive and finite");
+            if (!(R > 0)) refuse(4, "R", "must be positive");
+            require_finite(x0, 5, "x0");
+            require_finite(y0, 6, "y0");
+            const rsc::Case& settings = settings_of(a_case);
+            require_contact_keys(settings);
+            return new rsc_contact(asperities->content, {E_star, R, x0, y0}, options_of(settings, *asperities->content));
+        });
+    });
+}
+
+int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case) {
+    return guarded(3, [&] {
+        construct(contact, "contact", [&] {
+            require(asperities, 2, "asperities");
+            const rsc::Case& settings = settings_of(a_case);
+            require_contact_keys(settings);
+            require_sound(settings, {"solids"});
+            const auto& on = *asperities->content;
+            const auto& centre = settings.indentation.centre;
+            const rsc::Indenter indenter{rsc::equivalent_modulus(settings.solids.E, settings.solids.nu),
+                                         rsc::equivalent_radius(settings.solids.R), centre[0].value_or(on.x_middle),
+                                         centre[1].value_or(on.y_middle)};
+            return new rsc_contact(asperities->content, indenter, options_of(settings, on));
+        });
+    });
+}
+
+int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
+    return guarded(0, [&] {
+        construct(contact, "contact", [&] {
+            require(original, 2, "original");
+            return new rsc_contact(original->on, original->contact.indenter(), original->options);
+        });
+    });
+}
+
+int32_t rsc_contact_destroy(rsc_contact** contact) {
+    return guarded(0, [&] { destroy(contact, "contact"); });
+}
+
+int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
+    return guarded(0, [&] {
+        require(contact, 1, "contact");
+        require_finite(x0, 2, "x0");
+        require_finite(y0, 3, "y0");
+        contact->contact.move_tip(x0, y0);
+    });
+}
+
+int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0) {
+    return guarded(0, [&] {
+        require(contact, 1, "contact");
+        put(x0, contact->contact.indenter().x0);
+        put(y0, contact->contact.indenter().y0);
+    });
+}
+
+int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation) {
+    return guarded(0, [&] {
+        require(contact, 1, "contact");
+        require(separation, 2, "separation");
+        const double touch = contact->contact.first_touch();
+        if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere");
+        put(separation, touch);
+    });
+}
+
+int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force) {
+    return guarded(2, [&] {
+        require(contact, 1, "contact");
+        require_finite(separation, 2, "separation");
+        compute(*contact, [&] { return contact->contact.at_separation(separation); });
+        put(force, contact->level->force);
+        tell_convergence(*contact);
+    });
+}
+
+int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation) {
+    return guarded(2, [&] {
+        require(contact, 1, "contact");
+        if (!(force >= 0) || !std::isfinite(force)) refuse(2, "force", "must be positive or zero, and finite");
+        const double touch = contact->contact.first_touch();
+        if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere: no force can be carried");
+        compute(*contact, [&] { return force > 0 ? contact->contact.at_force(force) : contact->contact.at_separation(touch); });
+        put(separation, contact->level->separation);
+        tell_convergence(*contact);
+    });
+}
+
+int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        put(separation, level.separation);
+        put(force, level.force);
+        put(area, level.area);
+        put(contacts, level.asperity.size());
+    });
+}
+
+int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
+                          int64_t* overlapping_pairs, double* residual) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        put(level_status, level.status);
+        put(candidates, level.candidates);
+        put(iterations, level.iterations);
+        put(overlapping_pairs, level.overlapping_pairs);
+        put(residual, level.residual);
+    });
+}
+
+int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness) {
+    return guarded(0, [&] {
+        (void)level_of(contact);
+        require(stiffness, 2, "stiffness");
+        put(stiffness, contact->contact.stiffness());
+    });
+}
+
+int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
+    return guarded(0, [&] {
+        (void)level_of(contact);
+        require(energy, 2, "energy");
+        put(energy, contact->energy);
+    });
+}
+
+int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius,
+                          double* penetration) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        if (n < static_cast<int64_t>(level.asperity.size())) {
+            refuse(2, "n", ("must be at least the number of contacts, " + std::to_string(level.asperity.size())).c_str());
+        }
+        if (asperity) std::copy(level.asperity.begin(), level.asperity.end(), asperity);
+        if (force) std::copy(level.f.begin(), level.f.end(), force);
+        if (radius) std::copy(level.a.begin(), level.a.end(), radius);
+        if (penetration) std::copy(level.u.begin(), level.u.end(), penetration);
+    });
+}
+
+int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        if (n != static_cast<int64_t>(contact->on->asperities.size())) refuse(2, "n", "must be the number of asperities");
+        const auto spread = [&](double* output, const std::vector<double>& values) {
+            if (!output) return;
+            std::fill(output, output + n, 0.0);
+            for (std::size_t k = 0; k < values.size(); ++k) output[level.asperity[k]] = values[k];
+        };
+        spread(force, level.f);
+        spread(radius, level.a);
+        spread(penetration, level.u);
+    });
+}
+
+int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        if (n < 0) refuse(2, "n", "must not be negative");
+        if (n == 0) return;
+        require_finite(x, n, 3, "x");
+        require_finite(y, n, 4, "y");
+        require(deflection, 5, "deflection");
+        const auto& on = contact->on->asperities;
+        const double E_star = contact->contact.indenter().E_star;
+        // Each spot by itself: which formula holds is a matter of its own radius.
+        for (int64_t i = 0; i < n; ++i) {
+            double sum = 0;
+            for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+                const auto j = static_cast<std::size_t>(level.asperity[k]);
+                const double dx = x[i] - on.x[j], dy = y[i] - on.y[j], d2 = dx * dx + dy * dy, a2 = level.a[k] * level.a[k];
+                sum +=
+                    d2 < a2 ? level.f[k] * 0.375 / level.a[k] * (2 - d2 / a2) : level.f[k] / (std::numbers::pi * std::sqrt(d2));
+            }
+            deflection[i] = sum / E_star;
+        }
+    });
+}
+
+}  // extern "C"

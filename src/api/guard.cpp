@@ -1,0 +1,99 @@
+#include "api/guard.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "version.h"
+
+namespace rsc::api {
+namespace {
+
+// A plain array: nothing to allocate, nothing to destroy at the end of a thread.
+constexpr std::size_t kMessageSize = 4096;
+thread_local char last_message[kMessageSize];
+
+const char* meaning(std::int32_t status) {
+    switch (status) {
+#define RSC_CASE(name, value, text) \
+    case value:                     \
+        return text;
+        RSC_STATUS_LIST(RSC_CASE)
+#undef RSC_CASE
+        default:
+            return status < 0 ? "" : "not a status of rsc";
+    }
+}
+
+}  // namespace
+
+void remember(std::string_view message) noexcept {
+    const std::size_t n = std::min(message.size(), kMessageSize - 1);
+    std::memcpy(last_message, message.data(), n);
+    if (n < message.size()) std::memcpy(last_message + n - 4, " ...", 4);
+    last_message[n] = '\0';
+}
+
+std::int32_t status_of(const Error& error, int input) noexcept {
+    switch (error.kind()) {
+        case Failure::bad_input:
+            return input > 0 ? -input : RSC_INTERNAL;
+        case Failure::not_converged:
+            return RSC_NOT_CONVERGED;
+        case Failure::no_memory:
+            return RSC_NO_MEMORY;
+        case Failure::file_system:
+            return RSC_FILE;
+        case Failure::internal:
+            break;
+    }
+    return RSC_INTERNAL;
+}
+
+void refuse(int argument, const char* name, const char* why) {
+    throw Refusal{argument, std::string("argument ") + std::to_string(argument) + " (" + name + ") " + why};
+}
+
+void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
+    require(values, argument, name);
+    for (std::int64_t k = 0; k < n; ++k) {
+        if (!std::isfinite(values[k])) refuse(argument, name, ("must be finite: entry " + std::to_string(k) + " is not").c_str());
+    }
+}
+
+void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first) {
+    if (size < 0) refuse(first + 1, "size", "must not be negative");
+    if (!buffer && size > 0) refuse(first, "buffer", "must not be null unless size is 0");
+    if (size > 0) {
+        const std::size_t n = std::min(text.size(), static_cast<std::size_t>(size - 1));
+        std::memcpy(buffer, text.data(), n);
+        buffer[n] = '\0';
+    }
+    put(length, text.size());
+}
+
+}  // namespace rsc::api
+
+using namespace rsc::api;
+
+extern "C" {
+
+int32_t rsc_version(char* buffer, int64_t size, int64_t* length) {
+    return guarded(0, [&] { put_text(RSC_VERSION, buffer, size, length, 1); });
+}
+
+int32_t rsc_message(char* buffer, int64_t size, int64_t* length) {
+    // A refusal of this call must not replace the message it was to fetch.
+    if (size < 0) return -2;
+    if (!buffer && size > 0) return -1;
+    return guarded(0, [&] { put_text(last_message, buffer, size, length, 1); });
+}
+
+int32_t rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* length) {
+    return guarded(0, [&] {
+        const std::string text =
+            status < 0 ? "argument " + std::to_string(-static_cast<int64_t>(status)) + " is wrong" : meaning(status);
+        put_text(text, buffer, size, length, 2);
+    });
+}
+
+}  // extern "C"

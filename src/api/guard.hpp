@@ -1,0 +1,100 @@
+// The boundary: every entry of rsc.h runs inside guarded(), which turns whatever is thrown into a status and a message.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "error.hpp"
+#include "rsc.h"
+
+namespace rsc::api {
+
+// Argument number `argument` (from 1) is wrong.
+struct Refusal {
+    int argument;
+    std::string message;
+};
+
+// A status other than success that is no exception of the core.
+struct Outcome {
+    std::int32_t status;
+    const char* message;
+};
+
+// Keeps the message for rsc_message; cut where it does not fit. Never fails: it also speaks of memory that was refused.
+void remember(std::string_view message) noexcept;
+std::int32_t status_of(const Error& error, int input) noexcept;
+
+// Runs the body of an entry. `input` is the argument whose content the body hands to the core: bad input found there is its
+// fault; 0 when there is none.
+template <class Body>
+std::int32_t guarded(int input, Body&& body) noexcept {
+    try {
+        body();
+        return RSC_SUCCESS;
+    } catch (const Refusal& refusal) {
+        remember(refusal.message);
+        return -refusal.argument;
+    } catch (const Outcome& outcome) {
+        remember(outcome.message);
+        return outcome.status;
+    } catch (const Error& error) {
+        remember(error.what());
+        return status_of(error, input);
+    } catch (const std::bad_alloc&) {
+        remember("the machine refused memory");
+        return RSC_NO_MEMORY;
+    } catch (const std::length_error&) {  // an array longer than any memory
+        remember("the machine refused memory");
+        return RSC_NO_MEMORY;
+    } catch (const std::exception& error) {
+        remember(error.what());
+        return RSC_INTERNAL;
+    } catch (...) {
+        remember("an error of unknown kind");
+        return RSC_INTERNAL;
+    }
+}
+
+[[noreturn]] void refuse(int argument, const char* name, const char* why);
+
+template <class T>
+void require(T* pointer, int argument, const char* name) {
+    if (!pointer) refuse(argument, name, "must not be null");
+}
+
+inline void require_finite(double value, int argument, const char* name) {
+    if (!std::isfinite(value)) refuse(argument, name, "must be finite");
+}
+
+// Arrays: not null, all values finite.
+void require_finite(const double* values, std::int64_t n, int argument, const char* name);
+
+template <class T, class U>
+void put(T* output, const U& value) {
+    if (output) *output = static_cast<T>(value);
+}
+
+// Text into a caller's buffer: arguments number `first` (buffer) and first + 1 (size).
+void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first);
+
+// Makes a handle: the constructor's argument 1. The handle is null unless everything succeeds.
+template <class Handle, class Make>
+void construct(Handle** handle, const char* name, Make&& make) {
+    require(handle, 1, name);
+    *handle = nullptr;
+    *handle = make();
+}
+
+template <class Handle>
+void destroy(Handle** handle, const char* name) {
+    require(handle, 1, name);
+    delete *handle;
+    *handle = nullptr;
+}
+
+}  // namespace rsc::api

@@ -1,0 +1,280 @@
+// Surfaces and their asperities.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "api/guard.hpp"
+#include "api/handles.hpp"
+#include "run/inputs.hpp"
+
+namespace rsc::api {
+namespace {
+
+constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+
+Moments theory_of(const Case& settings) { return theoretical_moments(spectrum_of(settings)); }
+
+void copy_to(double* output, const std::vector<double>& values) {
+    if (output) std::copy(values.begin(), values.end(), output);
+}
+
+rsc_asperities* share(rsc_asperities::Content&& content) {
+    auto handle = std::make_unique<rsc_asperities>();
+    handle->content = std::make_shared<const rsc_asperities::Content>(std::move(content));
+    return handle.release();
+}
+
+double rms(const std::vector<double>& values) {
+    const double n = static_cast<double>(values.size());
+    double mean = 0, square = 0;
+    for (double v : values) mean += v / n;
+    for (double v : values) square += (v - mean) * (v - mean) / n;
+    return std::sqrt(square);
+}
+
+void require_positive(const std::vector<double>& values, int argument, const char* name) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!(values[k] > 0)) refuse(argument, name, ("must be positive: entry " + std::to_string(k) + " is not").c_str());
+    }
+}
+
+// Two summits at one place would be one contact counted twice.
+void require_apart(const Asperities& a) {
+    std::vector<std::size_t> order(a.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+        return std::pair(a.x[i], a.y[i]) != std::pair(a.x[j], a.y[j]) ? std::pair(a.x[i], a.y[i]) < std::pair(a.x[j], a.y[j])
+                                                                      : i < j;
+    });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        const std::size_t i = order[k - 1], j = order[k];
+        if (a.x[i] == a.x[j] && a.y[i] == a.y[j]) {
+            refuse(3, "x",
+                   ("and y: entries " + std::to_string(i) + " and " + std::to_string(j) + " are at the same place").c_str());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rsc::api
+
+using namespace rsc::api;
+
+extern "C" {
+
+int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization) {
+    return guarded(2, [&] {
+        construct(surface, "surface", [&] {
+            const rsc::Case& settings = settings_of(a_case);
+            require_sound(settings, {"surface", "run"});
+            auto made = std::make_unique<rsc_surface>();
+            made->theory = theory_of(settings);
+            const rsc::Spectrum spectrum = spectrum_of(settings);
+            made->sigma = spectrum.sigma;
+            made->map = rsc::synthesize(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization,
+                                        nullptr, threads_of(settings));
+            return made.release();
+        });
+    });
+}
+
+int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0,
+                         int32_t periodic, const double* heights) {
+    return guarded(0, [&] {
+        construct(surface, "surface", [&] {
+            if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
+            if (ny < 3 || ny > kMost) refuse(3, "ny", "must be from 3 to 2147483647");
+            if (!(dx > 0) || !std::isfinite(dx)) refuse(4, "dx", "must be positive and finite");
+            if (!(dy > 0) || !std::isfinite(dy)) refuse(5, "dy", "must be positive and finite");
+            require_finite(x0, 6, "x0");
+            require_finite(y0, 7, "y0");
+            if (periodic != 0 && periodic != 1) refuse(8, "periodic", "must be 0 or 1");
+            if (nx > std::numeric_limits<std::int64_t>::max() / 8 / ny) throw std::bad_alloc();
+            require_finite(heights, nx * ny, 9, "heights");
+            auto made = std::make_unique<rsc_surface>();
+            rsc::HeightMap& map = made->map;
+            map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
+            map.dx = dx;
+            map.dy = dy;
+            map.x0 = x0;
+            map.y0 = y0;
+            map.periodic = periodic == 1;
+            std::copy(heights, heights + nx * ny, map.row(0));
+            made->sigma = std::sqrt(rsc::grid_moments(map).m0);
+            return made.release();
+        });
+    });
+}
+
+int32_t rsc_surface_destroy(rsc_surface** surface) {
+    return guarded(0, [&] { destroy(surface, "surface"); });
+}
+
+int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_left) {
+    return guarded(0, [&] {
+        require(surface, 1, "surface");
+        require(how, 2, "how");
+        const std::string_view word = how;
+        const auto kind = word == "none" ? rsc::Detrend::none : word == "mean" ? rsc::Detrend::mean : rsc::Detrend::plane;
+        if (kind == rsc::Detrend::plane && word != "plane") refuse(2, "how", "must be \"none\", \"mean\" or \"plane\"");
+        const double left = rsc::detrend(surface->map, kind);
+        if (!surface->theory) surface->sigma = left;
+        put(rms_left, left);
+    });
+}
+
+int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0,
+                         int32_t* periodic) {
+    return guarded(0, [&] {
+        require(surface, 1, "surface");
+        const rsc::HeightMap& map = surface->map;
+        put(nx, map.nx);
+        put(ny, map.ny);
+        put(dx, map.dx);
+        put(dy, map.dy);
+        put(x0, map.x0);
+        put(y0, map.y0);
+        put(periodic, map.periodic ? 1 : 0);
+    });
+}
+
+int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights) {
+    return guarded(0, [&] {
+        require(surface, 1, "surface");
+        const rsc::HeightMap& map = surface->map;
+        if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
+        require(heights, 3, "heights");
+        for (int j = 0; j < map.ny; ++j)
+            std::copy(map.row(j), map.row(j) + map.nx, heights + static_cast<std::ptrdiff_t>(j) * map.nx);
+    });
+}
+
+int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4) {
+    return guarded(0, [&] {
+        require(surface, 1, "surface");
+        const rsc::Moments moments = rsc::grid_moments(surface->map);
+        put(m0, moments.m0);
+        put(m2, moments.m2);
+        put(m4, moments.m4);
+    });
+}
+
+int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case) {
+    return guarded(2, [&] {
+        construct(asperities, "asperities", [&] {
+            require(surface, 2, "surface");
+            const rsc::Case& settings = settings_of(a_case);
+            const rsc::HeightMap& map = surface->map;
+            rsc_asperities::Content content;
+            content.asperities = rsc::find_asperities(map, settings.asperities.curvature, nullptr, threads_of(settings));
+            if (content.asperities.size() == 0)
+                refuse(2, "surface", "has no summit: no point lies strictly above its 8 neighbours");
+            content.sigma = surface->sigma;
+            content.mean_spacing = surface->theory
+                                       ? surface->theory->mean_spacing()
+                                       : std::sqrt(map.Lx() * map.Ly() / static_cast<double>(content.asperities.size()));
+            content.x_middle = map.x0 + 0.5 * map.Lx();
+            content.y_middle = map.y0 + 0.5 * map.Ly();
+            return share(std::move(content));
+        });
+    });
+}
+
+int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization) {
+    return guarded(2, [&] {
+        construct(asperities, "asperities", [&] {
+            const rsc::Case& settings = settings_of(a_case);
+            require_sound(settings, {"surface", "run", "asperities%curvature"});
+            const rsc::Spectrum spectrum = spectrum_of(settings);
+            rsc_asperities::Content content;
+            content.mean_spacing = theory_of(settings).mean_spacing();
+            content.asperities =
+                rsc::make_asperities(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization,
+                                     settings.asperities.curvature, nullptr, nullptr, threads_of(settings));
+            if (content.asperities.size() == 0) refuse(2, "a_case", "gives a surface without summits");
+            content.sigma = spectrum.sigma;
+            content.x_middle = content.y_middle = 0.5 * spectrum.L;
+            return share(std::move(content));
+        });
+    });
+}
+
+int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z,
+                            const double* radius, const double* kappa1, const double* kappa2, const double* angle,
+                            const double* biharmonic) {
+    return guarded(0, [&] {
+        construct(asperities, "asperities", [&] {
+            if (n < 1 || n > kMost) refuse(2, "n", "must be from 1 to 2147483647");
+            if ((kappa1 || kappa2 || angle) && !(kappa1 && kappa2 && angle)) {
+                refuse(!kappa1 ? 7 : !kappa2 ? 8 : 9, "curvature", "is missing: kappa1, kappa2 and angle go together");
+            }
+            rsc_asperities::Content content;
+            rsc::Asperities& a = content.asperities;
+            const auto take = [n](std::vector<double>& to, const double* from, int argument, const char* name) {
+                require_finite(from, n, argument, name);
+                to.assign(from, from + n);
+            };
+            take(a.x, x, 3, "x");
+            take(a.y, y, 4, "y");
+            take(a.z, z, 5, "z");
+            take(a.radius, radius, 6, "radius");
+            require_positive(a.radius, 6, "radius");
+            if (kappa1) {
+                take(a.kappa1, kappa1, 7, "kappa1");
+                take(a.kappa2, kappa2, 8, "kappa2");
+                take(a.angle, angle, 9, "angle");
+                require_positive(a.kappa2, 8, "kappa2");
+                for (std::size_t k = 0; k < a.size(); ++k) {
+                    if (!(a.kappa1[k] >= a.kappa2[k]))
+                        refuse(7, "kappa1", ("must be at least kappa2: entry " + std::to_string(k) + " is less").c_str());
+                }
+            }
+            if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
+            require_apart(a);
+            content.sigma = rms(a.z);
+            const rsc::Extent box = rsc::extent(a);
+            content.x_middle = 0.5 * (box.x_min + box.x_max);
+            content.y_middle = 0.5 * (box.y_min + box.y_max);
+            return share(std::move(content));
+        });
+    });
+}
+
+int32_t rsc_asperities_destroy(rsc_asperities** asperities) {
+    return guarded(0, [&] { destroy(asperities, "asperities"); });
+}
+
+int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
+    return guarded(0, [&] {
+        require(asperities, 1, "asperities");
+        require(n, 2, "n");
+        put(n, asperities->content->asperities.size());
+    });
+}
+
+int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius) {
+    return guarded(0, [&] {
+        require(asperities, 1, "asperities");
+        const rsc::Asperities& a = asperities->content->asperities;
+        if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
+        copy_to(x, a.x);
+        copy_to(y, a.y);
+        copy_to(z, a.z);
+        copy_to(radius, a.radius);
+    });
+}
+
+int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle) {
+    return guarded(0, [&] {
+        require(asperities, 1, "asperities");
+        const rsc::Asperities& a = asperities->content->asperities;
+        if (a.kappa1.empty()) refuse(1, "asperities", "were given without curvatures");
+        if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
+        copy_to(kappa1, a.kappa1);
+        copy_to(kappa2, a.kappa2);
+        copy_to(angle, a.angle);
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,318 @@
+/* rsc: the elastic contact of rough spheres by a deterministic multi-asperity model (V. A. Yastrebov, "The Elastic Contact of
+ * Rough Spheres Investigated Using a Deterministic Multi-Asperity Model", J. Multiscale Modelling, 2018). The whole of the C
+ * interface.
+ *
+ * Way through it
+ *     rsc_surface (heights)  ->  rsc_asperities (its summits)  ->  rsc_contact (a sphere pressed on them)
+ *     rsc_case (every option, by the names of the program's namelist) goes along wherever there is something to choose.
+ * Each step may begin with data of your own: rsc_surface_take, rsc_asperities_take.
+ *
+ * Units are yours, as long as they are consistent: lengths, forces, moduli in force/length^2, energies in force length.
+ *
+ * Status
+ *     Every function returns an int32_t: 0 is success; -i says that argument number i (counted from 1) is wrong; a positive value
+ * is one of RSC_STATUS_LIST. rsc_message gives the reason in words. No function ends the program, prints, or lets a C++ exception
+ *     out. Errors found in an option of a case carry the number of the case argument.
+ * After a failure
+ *     Output arguments hold what they held before, except that a constructor sets its handle to null, and except for
+ *     RSC_NOT_CONVERGED, where all outputs are written (see rsc_contact_indent). Handles stay valid and usable.
+ * Handles
+ *     are made by the functions ending in _create, _copy, _synthesize, _find, _make, _take and released by _destroy, which takes
+ * the address of the handle, releases what it names and sets it to null; a null handle is released without complaint. A
+ *     constructor overwrites the handle it is given: destroy what it held before. Handles own copies of all arrays they were made
+ *     from, and share nothing you could change: a surface or a case may be destroyed while the things made from it are still in
+ * use. Threads Different handles may be used by different threads at the same time. One handle may be read by several threads at
+ * once: all functions that take it as pointer to const. Nothing is global, except that the writing of result files takes turns.
+ * Arrays
+ *     come from the caller with their length; indices count from 0. "May be null" says that an output that is not wanted may be
+ *     NULL. Two-dimensional arrays are stored with x running fastest: z[j*nx + i] is the height at (x0 + i dx, y0 + j dy).
+ * Text
+ *     goes in as a null-terminated string, and comes out into a caller's buffer: at most size-1 characters are written, always
+ *     followed by a null character, and *length receives the full length without it: length >= size tells that the text was cut.
+ * The buffer may be null if size is 0; length may be null.
+ */
+#ifndef RSC_H
+#define RSC_H
+
+#include <stdint.h>
+
+#ifndef RSC_API
+#if defined(__GNUC__)
+#define RSC_API __attribute__((visibility("default")))
+#else
+#define RSC_API
+#endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Status codes: name, value, meaning. Negative values -i name the wrong argument. */
+#define RSC_STATUS_LIST(X)                                                                                       \
+    X(RSC_SUCCESS, 0, "success")                                                                                 \
+    X(RSC_NOT_CONVERGED, 1, "the solver did not reach its tolerance; the results are those of its last iterate") \
+    X(RSC_NO_MEMORY, 2, "the machine refused memory")                                                            \
+    X(RSC_FILE, 3, "a file could not be read or written")                                                        \
+    X(RSC_NO_RESULT, 4, "the contact holds no result: indent or press first")                                    \
+    X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")
+
+#define RSC_STATUS_ENUMERATOR(name, value, meaning) name = value,
+enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_INTERNAL };
+#undef RSC_STATUS_ENUMERATOR
+
+/* What is to be said about a level that was computed (rsc_contact_level), the more serious the larger. The values are those of
+ * the variable `status` of a result file. */
+#define RSC_LEVEL_LIST(X)                                                                                       \
+    X(RSC_LEVEL_CONVERGED, 0, "converged")                                                                      \
+    X(RSC_LEVEL_OUT_OF_VALIDITY, 1, "some contact radius exceeds a quarter of the mean spacing of asperities")  \
+    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")                                                   \
+    X(RSC_LEVEL_NOT_UNIQUE, 3, "the solution is a minimum of the energy that could not be proved the only one") \
+    X(RSC_LEVEL_NOT_CONVERGED, 4, "the solver did not reach its tolerance")
+
+#define RSC_LEVEL_ENUMERATOR(name, value, meaning) name = value,
+enum { RSC_LEVEL_LIST(RSC_LEVEL_ENUMERATOR) RSC_LEVEL_LAST_ = RSC_LEVEL_NOT_CONVERGED };
+#undef RSC_LEVEL_ENUMERATOR
+
+typedef struct rsc_case rsc_case;             /* options: every key of the namelist with its value */
+typedef struct rsc_surface rsc_surface;       /* heights on a regular grid */
+typedef struct rsc_asperities rsc_asperities; /* summits: positions and radii */
+typedef struct rsc_contact rsc_contact;       /* a rigid sphere on asperities, and the last level computed */
+
+/* ---- version and messages ------------------------------------------------------------------------------------------------- */
+
+/* The version of the library, "major.minor.patch".
+ * buffer, size, length: text output. Errors: -1 buffer null with size > 0; -2 size < 0. */
+RSC_API int32_t rsc_version(char* buffer, int64_t size, int64_t* length);
+
+/* Why the last failing call of this thread failed; empty if none did. Successful calls leave the message as it is, and so does
+ * this one. buffer, size, length: text output. Errors: -1 buffer null with size > 0; -2 size < 0. */
+RSC_API int32_t rsc_message(char* buffer, int64_t size, int64_t* length);
+
+/* The meaning of a status code in general, for a status of any value.
+ * buffer, size, length: text output. Errors: -2 buffer null with size > 0; -3 size < 0. */
+RSC_API int32_t rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* length);
+
+/* ---- cases: options by name -------------------------------------------------------------------------------------------------
+ */
+
+/* A case with every key at its default.
+ * new_case (out): the handle. Errors: -1 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_case_create(rsc_case** new_case);
+
+/* A copy that is independent of the original.
+ * new_case (out): the handle; original: the case to copy. Errors: -1, -2 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_case_copy(rsc_case** new_case, const rsc_case* original);
+
+/* Releases a case and nulls the handle. Errors: -1 null address. */
+RSC_API int32_t rsc_case_destroy(rsc_case** old_case);
+
+/* Replaces all keys by what a namelist text says, defaults where it says nothing.
+ * a_case: the case; text: namelist input, as the program reads it, without &study.
+ * Errors: -1, -2 null; -2 whatever is wrong with the text, the message having a line for each fault; RSC_NO_MEMORY. On failure
+ * the case is unchanged. */
+RSC_API int32_t rsc_case_read(rsc_case* a_case, const char* text);
+
+/* Sets one key.
+ * a_case: the case; name: "group%key", "group%key(2)" or "group%key(1:2)", in any case; value: in namelist syntax (texts in
+ * quotes). Errors: -1 null; -2 null or unknown name; -3 null or a value that is refused; RSC_NO_MEMORY. On failure the case is
+ * unchanged. Relations between keys are looked at where the case is used. */
+RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value);
+
+/* The value of one key in namelist syntax, exactly as rsc_case_set takes it; empty for a key that is not set.
+ * a_case: the case; name: as above; buffer, size, length: text output.
+ * Errors: -1 null; -2 null or unknown name; -3 buffer null with size > 0; -4 size < 0; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length);
+
+/* All keys with their values, as namelist text that rsc_case_read reads back to the same values.
+ * a_case: the case; buffer, size, length: text output. Errors: -1 null; -2 buffer null with size > 0; -3 size < 0; RSC_NO_MEMORY.
+ */
+RSC_API int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length);
+
+/* How many keys there are. count (out): their number. Errors: -1 null. */
+RSC_API int32_t rsc_key_count(int64_t* count);
+
+/* The name of a key, "group%key", for going through all of them.
+ * key: 0 to count-1; buffer, size, length: text output. Errors: -1 out of range; -2 buffer null with size > 0; -3 size < 0. */
+RSC_API int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length);
+
+/* Runs the case as the program does, and writes its result file (output%file, relative to the working directory). Prints nothing.
+ * a_case: the case; failed_levels (out, may be null): number of levels that did not converge.
+ * Errors: -1 null or a case that is refused, an input file that cannot be used included; RSC_NOT_CONVERGED if failed_levels > 0,
+ * the file being written all the same; RSC_FILE; RSC_NO_MEMORY. No file is left behind by any other failure than
+ * RSC_NOT_CONVERGED. */
+RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
+
+/* ---- surfaces
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* A random surface by the keys of &surface and run%seed, on run%threads threads: the same as realization number `realization` of
+ * the program, whatever the threads. It is periodic, on x = i L/n, y = j L/n. surface (out): the handle; a_case: the case, null
+ * for the defaults; realization: any number. Errors: -1 null; -2 keys of &surface or &run that are refused; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization);
+
+/* A surface of given heights, copied. Separations are measured from z = 0: see rsc_surface_detrend.
+ * surface (out): the handle; nx, ny: points, 3 or more; dx, dy: grid steps > 0 [length]; x0, y0: place of the first point
+ * [length]; periodic: 1 if the surface wraps around, 0 if it ends (its outermost points are then no summits); heights: nx*ny
+ * values, x fastest, finite [length]. Errors: -1 null; -2, -3 less than 3, or more than 2^31-1; -4, -5 not positive or not
+ * finite; -6, -7 not finite; -8 neither 0 nor 1; -9 null, or a height that is not finite; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0,
+                                 int32_t periodic, const double* heights);
+
+/* Releases a surface and nulls the handle. Errors: -1 null address. */
+RSC_API int32_t rsc_surface_destroy(rsc_surface** surface);
+
+/* Subtracts the mean or the least-squares plane. Not while other threads read the surface.
+ * surface: the surface; how: "none", "mean" or "plane"; rms (out, may be null): rms height left, about its mean [length].
+ * Errors: -1 null; -2 null or another word. */
+RSC_API int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms);
+
+/* The grid. All outputs may be null. surface: the surface; nx, ny: points; dx, dy: steps [length]; x0, y0: place of the first
+ * point [length]; periodic: 1 or 0. Errors: -1 null. */
+RSC_API int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0,
+                                 double* y0, int32_t* periodic);
+
+/* The heights. surface: the surface; n: length of the array, nx*ny; heights (out): x fastest [length].
+ * Errors: -1 null; -2 n is not nx*ny; -3 null. */
+RSC_API int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights);
+
+/* Spectral moments by finite differences on the grid: m0 [length^2], m2 [1], m4 [1/length^2]; rms slope sqrt(2 m2). All outputs
+ * may be null. surface: the surface; m0, m2, m4 (out). Errors: -1 null. */
+RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4);
+
+/* ---- asperities
+ * ---------------------------------------------------------------------------------------------------------------- */
+
+/* The summits of a surface: points above their 8 neighbours, with curvatures from second differences.
+ * asperities (out): the handle, never empty; surface: the surface; a_case: asperities%curvature decides on the radius; null for
+ * the defaults. Errors: -1 null; -2 null, or a surface without summits; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case);
+
+/* The asperities of rsc_surface_synthesize, the very same, found without storing the surface: faster, in half the memory.
+ * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number.
+ * Errors: -1 null; -2 keys of &surface, &asperities or &run that are refused; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization);
+
+/* Given asperities, copied.
+ * asperities (out): the handle; n: number of them, 1 to 2^31-1; x, y, z: summits [length]; radius: > 0 [length]; kappa1, kappa2:
+ * principal curvatures, kappa1 >= kappa2 > 0 [1/length], and angle: direction of the kappa2 axis from x [rad], all three or none
+ * of them (null); biharmonic: nabla^4 z at the summit [1/length^3], or null. Laws of asperities%law that need what is not there
+ * refuse it. Errors: -1 null; -2 out of range; -3 to -10 null where it must not be, a value that is not finite, not positive
+ * where it must be, or two summits at the same (x, y) (-3); RSC_NO_MEMORY. */
+RSC_API int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z,
+                                    const double* radius, const double* kappa1, const double* kappa2, const double* angle,
+                                    const double* biharmonic);
+
+/* Releases asperities and nulls the handle. Errors: -1 null address. */
+RSC_API int32_t rsc_asperities_destroy(rsc_asperities** asperities);
+
+/* How many there are. asperities: the asperities; n (out): their number. Errors: -1, -2 null. */
+RSC_API int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n);
+
+/* Reads them back. asperities: the asperities; n: length of each array, their number; x, y, z, radius (out, may be null)
+ * [length]. Errors: -1 null; -2 n is not their number. */
+RSC_API int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius);
+
+/* Reads the curvatures back. asperities: the asperities; n: length of each array, their number; kappa1, kappa2 (out, may be null)
+ * [1/length]; angle (out, may be null) [rad].
+ * Errors: -1 null, or asperities that were given without curvatures; -2 n is not their number. */
+RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2,
+                                          double* angle);
+
+/* ---- contact
+ * -------------------------------------------------------------------------------------------------------------------- */
+
+/* A rigid smooth sphere over an elastic half-space that carries the asperities: the equivalent problem of two bodies,
+ * 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, 1/R = 1/R1 + 1/R2. No result yet.
+ * contact (out): the handle; asperities: copied by reference, may be destroyed at once; E_star: E* > 0, finite [force/length^2];
+ * R: radius > 0, Infinity for a flat [length]; x0, y0: place of the tip [length]; a_case: keys of &solver, asperities%law,
+ * indentation%selection, indentation%selection_factor and, where they need an rms height, surface%sigma (unless set: that of the
+ * surface the asperities come from, otherwise of their heights); null for the defaults.
+ * Errors: -1, -2 null; -3, -4 out of range; -5, -6 not finite; -7 keys that are refused; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0,
+                                   double y0, const rsc_case* a_case);
+
+/* The same with E* and R from the keys of &solids, and the tip at indentation%centre, by default above the middle of the surface
+ * (of the smallest rectangle that holds them, for asperities that were given). contact (out): the handle; asperities: as above;
+ * a_case: the case, null for the defaults. Errors: -1, -2 null; -3 keys that are refused; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case);
+
+/* Another contact with the same asperities, sphere, tip and options, without a result: one for another thread.
+ * contact (out): the handle; original: the contact. Errors: -1, -2 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original);
+
+/* Releases a contact and nulls the handle. Errors: -1 null address. */
+RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
+
+/* Moves the tip sideways. The results stay those of the last level until the next one is computed.
+ * contact: the contact; x0, y0: its new place [length]. Errors: -1 null; -2, -3 not finite; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
+
+/* Where the tip is. contact: the contact; x0, y0 (out, may be null) [length]. Errors: -1 null. */
+RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0);
+
+/* The separation at which the sphere, coming down, touches its first asperity.
+ * contact: the contact; separation (out) [length]. Errors: -1 null, or no asperity lies under the sphere; -2 null. */
+RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
+
+/* Computes the contact at a separation. The answer depends on the separation and the tip alone; a level near the last one is
+ * computed faster.
+ * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
+ * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, results then being those of the last iterate; RSC_NO_MEMORY,
+ * RSC_INTERNAL, the contact then holding no result. */
+RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
+
+/* Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force.
+ * contact: the contact; force: N >= 0; 0 gives the separation of first touch [force]; separation (out, may be null): Z0 [length].
+ * Errors: -1 null, or no asperity lies under the sphere; -2 negative or not finite; RSC_NOT_CONVERGED, also if the force jumps
+ * over N, results then being those of the last iterate; RSC_NO_MEMORY, RSC_INTERNAL, the contact then holding no result. */
+RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation);
+
+/* The last level. All outputs may be null. contact: the contact; separation: Z0 [length]; force: N = sum f [force]; area:
+ * A = sum pi a^2 [length^2]; contacts: number of asperities in contact. Errors: -1 null; RSC_NO_RESULT. */
+RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area,
+                                   int64_t* contacts);
+
+/* How the last level was reached. All outputs may be null. contact: the contact; level_status: of RSC_LEVEL_LIST; candidates:
+ * asperities that the sphere would penetrate without interaction; iterations: of the solver, of all levels visited when pressing;
+ * overlapping_pairs: pairs of contact spots with d < a_i + a_j; residual: relative residual of F = f(<g0 - BF>). Errors: -1 null;
+ * RSC_NO_RESULT. */
+RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
+                                  int64_t* overlapping_pairs, double* residual);
+
+/* dN/dZ0 of the last level, negative, 0 without contact. It takes one more solution of linear equations.
+ * contact: the contact; stiffness (out) [force/length]. Errors: -1, -2 null; RSC_NO_RESULT; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness);
+
+/* Elastic energy of the last level, W = sum W_i + F'BF/2, the work of the asperities and of their interaction; dW/dZ0 = -N, so
+ * that a sphere moving on the surface keeps kinetic plus elastic energy. In error by the square of the residual only. contact:
+ * the contact; energy (out) [force length]. Errors: -1, -2 null; RSC_NO_RESULT. */
+RSC_API int32_t rsc_contact_energy(const rsc_contact* contact, double* energy);
+
+/* The contacts of the last level, by increasing index of asperity.
+ * contact: the contact; n: length of each array, at least the number of contacts (rsc_contact_result); the first ones are
+ * written; asperity (out, may be null): indices; force (out, may be null) [force]; radius (out, may be null): contact radius a,
+ * the area being pi a^2 [length]; penetration (out, may be null): of the asperity, interaction included [length]. Errors: -1
+ * null; -2 too short; RSC_NO_RESULT. */
+RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius,
+                                  double* penetration);
+
+/* The same for every asperity: 0 where there is no contact.
+ * contact: the contact; n: length of each array, the number of asperities; force, radius, penetration (out, may be null): as
+ * above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
+RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius,
+                                         double* penetration);
+
+/* The lowering of the surface by the contact forces, at any points: sum of f/(pi E* d) over the contacts, d being the distance.
+ * Within a spot, d < a, its own share is that of its Hertz pressure, 3f/(8 E* a) (2 - d^2/a^2): at a summit in contact the sum is
+ * then the penetration without interaction. contact: the contact; n: number of points, >= 0; x, y: places [length]; deflection
+ * (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or not finite; -5 null with n > 0;
+ * RSC_NO_RESULT; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y,
+                                       double* deflection);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* RSC_H */

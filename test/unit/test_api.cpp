@@ -1,0 +1,434 @@
+// The C interface: every function does what rsc.h says, against closed forms, finite differences and the C++ core.
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "../physics/random_asperities.hpp"
+#include "check.hpp"
+#include "contact/contact.hpp"
+#include "rsc.h"
+#include "run/registry.hpp"
+#include "version.h"
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPi = std::numbers::pi;
+
+#define OK(call) CHECK((call) == RSC_SUCCESS)
+
+template <class Call>
+std::string text(Call&& call) {
+    std::int64_t length = -1;
+    if (call(nullptr, 0, &length) != RSC_SUCCESS || length < 0) return "<failed>";
+    std::string result(static_cast<std::size_t>(length) + 1, '?');
+    if (call(result.data(), length + 1, &length) != RSC_SUCCESS) return "<failed>";
+    CHECK(result.back() == '\0');
+    result.pop_back();
+    return result;
+}
+
+std::string message() {
+    return text([](char* b, std::int64_t n, std::int64_t* l) { return rsc_message(b, n, l); });
+}
+
+std::string get(const rsc_case* c, const std::string& name) {
+    return text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_get(c, name.c_str(), b, n, l); });
+}
+
+rsc_asperities* take(const rsc::Asperities& a) {
+    rsc_asperities* handle = nullptr;
+    OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(a.size()), a.x.data(), a.y.data(), a.z.data(), a.radius.data(),
+                           nullptr, nullptr, nullptr, nullptr));
+    return handle;
+}
+
+rsc_case* tight() {
+    rsc_case* c = nullptr;
+    OK(rsc_case_create(&c));
+    OK(rsc_case_set(c, "solver%tolerance", "1e-11"));
+    return c;
+}
+
+void test_text() {
+    const auto version = [](char* b, std::int64_t n, std::int64_t* l) { return rsc_version(b, n, l); };
+    CHECK(text(version) == RSC_VERSION);
+    char small[4] = "???";
+    std::int64_t length = 0;
+    OK(rsc_version(small, 3, &length));
+    CHECK(std::strlen(small) == 2 && small[0] == RSC_VERSION[0] && small[3] == '\0');
+    CHECK(length == static_cast<std::int64_t>(std::strlen(RSC_VERSION)));
+    OK(rsc_version(small, 1, nullptr));
+    CHECK(small[0] == '\0');
+    for (const std::int32_t status : {0, 1, 2, 3, 4, 5, -3, 99, std::numeric_limits<std::int32_t>::min()}) {
+        CHECK(!text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_status_text(status, b, n, l); }).empty());
+    }
+}
+
+// Every key by name: what is read is what was written, for its default and for another value.
+void test_options() {
+    rsc_case *c = nullptr, *d = nullptr;
+    OK(rsc_case_create(&c));
+    std::int64_t count = 0;
+    OK(rsc_key_count(&count));
+    CHECK(count == static_cast<std::int64_t>(rsc::registry().size()) && count > 40);
+    for (std::int64_t k = 0; k < count; ++k) {
+        const std::string name = text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_key_name(k, b, n, l); });
+        const rsc::Key& key = rsc::registry()[static_cast<std::size_t>(k)];
+        const std::string before = get(c, name);
+        std::vector<std::string> values;
+        if (!before.empty()) values.push_back(before);
+        for (const char* choice : key.choices) values.push_back("'" + std::string(choice) + "'");
+        if (key.type == rsc::Type::string) values.insert(values.end(), {"'x'", "'it''s \"quoted\"'", "''"});
+        if (key.type == rsc::Type::logical) values.insert(values.end(), {".true.", ".false."});
+        if (key.type == rsc::Type::integer || key.type == rsc::Type::long_integer || key.type == rsc::Type::real) {
+            for (const char* v : {"2", "4", "0.25"}) {  // one at least is within any bounds
+                const double number = std::stod(v);
+                if (key.bounds.hold(number) && (key.type == rsc::Type::real || number == std::floor(number))) values.push_back(v);
+            }
+        }
+        CHECK(values.size() >= 1);
+        for (const std::string& value : values) {
+            const std::int32_t status = rsc_case_set(c, name.c_str(), value.c_str());
+            if (status != 0) {  // documented, and not to be had yet: refused by name
+                const std::string why = message();
+                CHECK(status == -3);
+                CHECK(why.find("not available yet") != std::string::npos || (name == "output%file" && value == "''"));
+                continue;
+            }
+            const std::string now = get(c, name);
+            OK(rsc_case_create(&d));
+            const std::int32_t again = rsc_case_set(d, name.c_str(), now.c_str());
+            if (again != 0) std::printf("%s = %s: %s\n", name.c_str(), now.c_str(), message().c_str());
+            CHECK(again == 0 && get(d, name) == now);
+            if (key.type == rsc::Type::choice || key.type == rsc::Type::string || key.type == rsc::Type::logical)
+                CHECK(now == value);
+            OK(rsc_case_destroy(&d));
+        }
+    }
+    OK(rsc_case_destroy(&c));
+
+    // A case as text, there and back.
+    OK(rsc_case_create(&c));
+    OK(rsc_case_set(c, "Surface%Sigma", "0.02"));
+    OK(rsc_case_set(c, "solids%e(1)", "1d5"));
+    const std::string all = text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(c, b, n, l); });
+    OK(rsc_case_create(&d));
+    OK(rsc_case_read(d, all.c_str()));
+    CHECK(get(d, "surface%sigma") == "0.02");
+    CHECK(text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(d, b, n, l); }) == all);
+
+    // A refusal leaves the case as it was, and says why.
+    CHECK(rsc_case_set(c, "surface%simga", "1") == -2);
+    CHECK(message().find("sigma") != std::string::npos);
+    CHECK(rsc_case_set(c, "surface%sigma", "-1") == -3);
+    CHECK(rsc_case_read(d, "&surface sigma = -1, n = 'x' /") == -2);
+    CHECK(message().find("sigma") != std::string::npos && message().find("n:") != std::string::npos);
+    CHECK(rsc_case_read(d, "&surface sigma = 0.5 / &study surface%sigma = 1, 2 /") == -2);
+    CHECK(text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(d, b, n, l); }) == all);
+    rsc_case* e = nullptr;
+    OK(rsc_case_copy(&e, d));
+    OK(rsc_case_set(d, "surface%sigma", "0.5"));
+    CHECK(get(e, "surface%sigma") == "0.02");
+    OK(rsc_case_destroy(&c));
+    OK(rsc_case_destroy(&d));
+    OK(rsc_case_destroy(&e));
+    OK(rsc_case_destroy(&e));  // released twice
+    CHECK(e == nullptr);
+}
+
+// One asperity is Hertz: force, area, stiffness, energy and the deflection around it in closed form.
+void test_single() {
+    const double E = 2e5, r = 0.3, R = 5, u = 1e-3, x = 0.7, y = -0.2, z = 0.01;
+    rsc_asperities* a = nullptr;
+    OK(rsc_asperities_take(&a, 1, &x, &y, &z, &r, nullptr, nullptr, nullptr, nullptr));
+    rsc_case* options = tight();
+    rsc_contact* c = nullptr;
+    OK(rsc_contact_create(&c, a, E, R, x, y, options));
+    OK(rsc_asperities_destroy(&a));  // the contact keeps its own
+    OK(rsc_case_destroy(&options));
+    CHECK(rsc_contact_result(c, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+    double N = 0, A = 0, Z = 0, k = 0, W = 0, touch = 0;
+    std::int64_t contacts = 0, candidates = 0;
+    OK(rsc_contact_first_touch(c, &touch));
+    CHECK(touch == z);
+    OK(rsc_contact_indent(c, z - u, &N));
+    const double penetration = z - (z - u);  // as rounded
+    const double f = 4.0 / 3 * E * std::sqrt(r) * std::pow(penetration, 1.5);
+    CHECK_RELATIVE(N, f, 1e-13);
+    OK(rsc_contact_result(c, &Z, &N, &A, &contacts));
+    CHECK(Z == z - u && contacts == 1);
+    CHECK_RELATIVE(A, kPi * r * penetration, 1e-13);
+    OK(rsc_contact_stiffness(c, &k));
+    CHECK_RELATIVE(k, -2 * E * std::sqrt(r * penetration), 1e-13);
+    OK(rsc_contact_energy(c, &W));
+    CHECK_RELATIVE(W, 0.4 * f * penetration, 1e-12);
+    std::int32_t status = -1;
+    double residual = -1;
+    OK(rsc_contact_level(c, &status, &candidates, nullptr, nullptr, &residual));
+    CHECK(status == RSC_LEVEL_CONVERGED && candidates == 1 && residual <= 1e-11);
+    // Far away the point force, at the centre the penetration itself.
+    const double xs[2] = {x, x + 1}, ys[2] = {y, y};
+    double w[2];
+    OK(rsc_contact_deflection(c, 2, xs, ys, w));
+    CHECK_RELATIVE(w[0], penetration, 1e-12);
+    CHECK_RELATIVE(w[1], f / (kPi * E), 1e-13);
+
+    OK(rsc_contact_press(c, f, &Z));
+    CHECK_CLOSE(Z, z - penetration, 1e-10 * u);
+    // Out of contact: everything is zero, and no failure.
+    OK(rsc_contact_indent(c, z, &N));
+    OK(rsc_contact_stiffness(c, &k));
+    OK(rsc_contact_energy(c, &W));
+    CHECK(N == 0 && k == 0 && W == 0);
+    OK(rsc_contact_press(c, 0, &Z));
+    CHECK(Z == z);
+    // The sphere moved aside by s stands lower there by R - sqrt(R^2 - s^2).
+    const double s = 0.05, drop = R - std::sqrt(R * R - s * s);
+    OK(rsc_contact_move_tip(c, x + s, y));
+    OK(rsc_contact_indent(c, z - drop - u, &N));
+    CHECK_RELATIVE(N, f, 1e-10);
+    double x0 = 0;
+    OK(rsc_contact_tip(c, &x0, nullptr));
+    CHECK(x0 == x + s);
+    OK(rsc_contact_move_tip(c, x + 2 * R, y));
+    CHECK(rsc_contact_press(c, f, &Z) == -1);
+    CHECK(message().find("no asperity under") != std::string::npos);
+    OK(rsc_contact_indent(c, z - u, &N));
+    CHECK(N == 0);
+    OK(rsc_contact_destroy(&c));
+}
+
+// On many asperities, interacting: derivatives by differences, both kinds of arrays, the core's own values bit by bit.
+void test_many() {
+    const rsc::Asperities asperities = random_asperities(3000, 0.008, 0.01, 3e-3, 0.3, 5);
+    rsc_asperities* a = take(asperities);
+    rsc_case* options = tight();
+    rsc_contact *c = nullptr, *d = nullptr;
+    OK(rsc_contact_create(&c, a, 9e4, 20, 0.5, 0.5, options));
+    rsc::SolverOptions core_options;
+    core_options.tolerance = 1e-11;
+    rsc::Contact core(asperities, {9e4, 20.0, 0.5, 0.5}, core_options);
+    for (const double Z0 : {0.03, 0.02, 0.01, 0.005}) {
+        double N = 0, k = 0, W = 0;
+        OK(rsc_contact_indent(c, Z0, &N));
+        OK(rsc_contact_stiffness(c, &k));
+        OK(rsc_contact_energy(c, &W));
+        const rsc::Level level = core.at_separation(Z0);
+        CHECK_RELATIVE(N, level.force, 1e-11);
+        CHECK_RELATIVE(W, core.energy(), 1e-11);
+        CHECK_RELATIVE(k, core.stiffness(), 1e-9);
+        // W by its definition: the work of each asperity and half of every force times the lowering the others cause there.
+        double definition = 0;
+        for (std::size_t i = 0; i < level.f.size(); ++i) {
+            const auto m = static_cast<std::size_t>(level.asperity[i]);
+            const double rho2 = std::pow(asperities.x[m] - 0.5, 2) + std::pow(asperities.y[m] - 0.5, 2);
+            const double g0 = asperities.z[m] + std::sqrt(20.0 * 20.0 - rho2) - 20.0 - Z0;
+            definition += 0.4 * level.f[i] * level.u[i] + 0.5 * level.f[i] * (g0 - level.u[i]);
+        }
+        CHECK_RELATIVE(W, definition, 1e-9);
+        const double h = 1e-6;
+        double N_up = 0, N_down = 0, W_up = 0, W_down = 0;
+        OK(rsc_contact_indent(c, Z0 + h, &N_up));
+        OK(rsc_contact_energy(c, &W_up));
+        OK(rsc_contact_indent(c, Z0 - h, &N_down));
+        OK(rsc_contact_energy(c, &W_down));
+        // Central differences: errors of order h^2 of the third derivatives, and of the tolerance over h.
+        CHECK_RELATIVE((W_up - W_down) / (2 * h), -N, 2e-6);
+        CHECK_RELATIVE((N_up - N_down) / (2 * h), k, 2e-3);
+    }
+
+    double N = 0, Z = 0;
+    std::int64_t contacts = 0;
+    OK(rsc_contact_indent(c, 0.01, &N));
+    OK(rsc_contact_result(c, nullptr, nullptr, nullptr, &contacts));
+    const auto n = static_cast<std::size_t>(contacts);
+    std::vector<std::int32_t> which(n);
+    std::vector<double> f(n), r(n), u(n), all_f(asperities.size(), -1), all_r(asperities.size()), all_u(asperities.size());
+    OK(rsc_contact_spots(c, contacts, which.data(), f.data(), r.data(), u.data()));
+    OK(rsc_contact_per_asperity(c, static_cast<std::int64_t>(asperities.size()), all_f.data(), all_r.data(), all_u.data()));
+    CHECK(contacts > 100);
+    double sum = 0, largest_error = 0;
+    std::vector<double> xs, ys;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto m = static_cast<std::size_t>(which[i]);
+        CHECK(all_f[m] == f[i] && all_r[m] == r[i] && all_u[m] == u[i]);
+        sum += f[i];
+        xs.push_back(asperities.x[m]);
+        ys.push_back(asperities.y[m]);
+    }
+    CHECK_RELATIVE(sum, N, 1e-14);
+    double everywhere = 0;
+    for (const double v : all_f) everywhere += v;
+    CHECK_RELATIVE(everywhere, N, 1e-13);
+    // At a summit in contact that no other spot covers, lowering plus nothing is the penetration without interaction.
+    std::vector<double> w(n);
+    OK(rsc_contact_deflection(c, contacts, xs.data(), ys.data(), w.data()));
+    for (std::size_t i = 0; i < n; ++i) {
+        const double rho2 = std::pow(xs[i] - 0.5, 2) + std::pow(ys[i] - 0.5, 2);
+        const double g0 = asperities.z[static_cast<std::size_t>(which[i])] + std::sqrt(20.0 * 20.0 - rho2) - 20.0 - 0.01;
+        largest_error = std::max(largest_error, std::abs(w[i] - g0));
+    }
+    CHECK_CLOSE(largest_error, 0, 1e-10 * 0.01);
+
+    // Pressing with the force of an indentation gives its separation back, from a touch to deep; and so does a fresh copy.
+    OK(rsc_contact_copy(&d, c));
+    CHECK(rsc_contact_result(d, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+    for (const double Z0 : {0.025, 0.0, 0.02, -0.02, 0.01}) {
+        OK(rsc_contact_indent(c, Z0, &N));
+        OK(rsc_contact_press(d, N, &Z));
+        CHECK_CLOSE(Z, Z0, 1e-10);
+    }
+    // A moved tip gives what a contact made there gives.
+    rsc_contact* e = nullptr;
+    OK(rsc_contact_create(&e, a, 9e4, 20, 0.53, 0.48, options));
+    OK(rsc_contact_indent(c, 0.01, &N));
+    OK(rsc_contact_move_tip(c, 0.51, 0.49));
+    OK(rsc_contact_indent(c, 0.01, &N));
+    OK(rsc_contact_move_tip(c, 0.52, 0.49));
+    OK(rsc_contact_move_tip(c, 0.53, 0.48));
+    double M = 0;
+    OK(rsc_contact_indent(c, 0.01, &N));
+    OK(rsc_contact_indent(e, 0.01, &M));
+    CHECK_RELATIVE(N, M, 1e-9);
+    OK(rsc_contact_press(c, 2 * M, &Z));
+    double Y = 0;
+    OK(rsc_contact_press(e, 2 * M, &Y));
+    CHECK_CLOSE(Z, Y, 1e-10);
+    OK(rsc_contact_destroy(&c));
+    OK(rsc_contact_destroy(&d));
+    OK(rsc_contact_destroy(&e));
+    OK(rsc_case_destroy(&options));
+    OK(rsc_asperities_destroy(&a));
+}
+
+// The paper's method through the interface: same answer, its own stiffness and energy.
+void test_methods() {
+    rsc_asperities* a = take(random_asperities(300, 0.02, 0.01, 3e-3, 0.3, 6));
+    rsc_case* options = tight();
+    rsc_contact *c = nullptr, *d = nullptr;
+    OK(rsc_contact_create(&c, a, 9e4, 20, 0.5, 0.5, options));
+    OK(rsc_case_set(options, "solver%method", "'dgesv'"));
+    OK(rsc_contact_create(&d, a, 9e4, 20, 0.5, 0.5, options));
+    double value[2][3] = {};
+    for (rsc_contact* contact : {c, d}) {
+        double* v = value[contact == d];
+        OK(rsc_contact_indent(contact, 0.005, &v[0]));
+        OK(rsc_contact_stiffness(contact, &v[1]));
+        OK(rsc_contact_energy(contact, &v[2]));
+    }
+    for (int i = 0; i < 3; ++i) CHECK_RELATIVE(value[1][i], value[0][i], 1e-9);
+    OK(rsc_contact_destroy(&d));
+    // Too few iterations: told, and the iterate is there.
+    OK(rsc_case_set(options, "solver%method", "'direct'"));
+    OK(rsc_case_set(options, "solver%max_iterations", "1"));
+    OK(rsc_contact_create(&d, a, 9e4, 20, 0.5, 0.5, options));
+    double N = -1;
+    CHECK(rsc_contact_indent(d, 0.005, &N) == RSC_NOT_CONVERGED);
+    CHECK(N > 0);
+    std::int32_t status = 0;
+    OK(rsc_contact_level(d, &status, nullptr, nullptr, nullptr, nullptr));
+    CHECK(status == RSC_LEVEL_NOT_CONVERGED);
+    OK(rsc_contact_destroy(&c));
+    OK(rsc_contact_destroy(&d));
+    OK(rsc_case_destroy(&options));
+    OK(rsc_asperities_destroy(&a));
+}
+
+void test_surfaces() {
+    rsc_case* c = nullptr;
+    OK(rsc_case_create(&c));
+    for (const auto& [key, value] : std::vector<std::array<const char*, 2>>{{"surface%n", "256"},
+                                                                            {"surface%L", "2.0"},
+                                                                            {"surface%L_lambda_l", "4"},
+                                                                            {"surface%L_lambda_s", "32"},
+                                                                            {"surface%sigma", "0.03"}})
+        OK(rsc_case_set(c, key, value));
+    rsc_surface *s = nullptr, *t = nullptr;
+    OK(rsc_surface_synthesize(&s, c, 3));
+    std::int64_t nx = 0, ny = 0;
+    double dx = 0, dy = 0, x0 = 1, y0 = 1, m0 = 0, m2 = 0, m4 = 0, rms = 0;
+    std::int32_t periodic = 0;
+    OK(rsc_surface_grid(s, &nx, &ny, &dx, &dy, &x0, &y0, &periodic));
+    CHECK(nx == 256 && ny == 256 && dx == 2.0 / 256 && dy == dx && x0 == 0 && y0 == 0 && periodic == 1);
+    OK(rsc_surface_moments(s, &m0, &m2, &m4));
+    CHECK_RELATIVE(std::sqrt(m0), 0.03, 1e-12);
+    CHECK(m2 > 0 && m4 > 0);
+    std::vector<double> z(256 * 256), zt(256 * 256);
+    OK(rsc_surface_heights(s, 256 * 256, z.data()));
+
+    // The same heights taken back give the same summits; making them at once as well.
+    OK(rsc_surface_take(&t, nx, ny, dx, dy, 0, 0, 1, z.data()));
+    rsc_asperities* a[3] = {};
+    OK(rsc_asperities_find(&a[0], s, c));
+    OK(rsc_asperities_find(&a[1], t, nullptr));
+    OK(rsc_asperities_make(&a[2], c, 3));
+    std::int64_t n = 0;
+    OK(rsc_asperities_count(a[0], &n));
+    CHECK(n > 100);
+    std::vector<std::array<std::vector<double>, 4>> got(3);
+    for (int k = 0; k < 3; ++k) {
+        std::int64_t m = 0;
+        OK(rsc_asperities_count(a[k], &m));
+        CHECK(m == n);
+        for (auto& v : got[static_cast<std::size_t>(k)]) v.resize(static_cast<std::size_t>(n));
+        auto& g = got[static_cast<std::size_t>(k)];
+        OK(rsc_asperities_get(a[k], m, g[0].data(), g[1].data(), g[2].data(), g[3].data()));
+        CHECK(g == got[0]);
+    }
+    std::vector<double> k1(static_cast<std::size_t>(n)), k2(k1), angle(k1);
+    OK(rsc_asperities_curvatures(a[1], n, k1.data(), k2.data(), angle.data()));
+    double largest = 0;
+    for (std::size_t i = 0; i < k1.size(); ++i) {
+        CHECK(k1[i] >= k2[i] && k2[i] > 0);
+        largest = std::max(largest, std::abs(got[1][3][i] * std::sqrt(k1[i] * k2[i]) - 1));
+    }
+    CHECK_CLOSE(largest, 0, 1e-7);  // r = 1/kappa_g
+
+    // A contact straight from the case: E* and R of its solids, the tip above the middle.
+    rsc_contact *k = nullptr, *l = nullptr;
+    OK(rsc_contact_create_from_case(&k, a[0], c));
+    double x = 0, y = 0, N = 0, M = 0;
+    OK(rsc_contact_tip(k, &x, &y));
+    CHECK(x == 1.0 && y == 1.0);
+    OK(rsc_contact_create(&l, a[2], 78e3 / (1 - 0.42 * 0.42), 2.5, 1.0, 1.0, c));
+    OK(rsc_contact_indent(k, 0.05, &N));
+    OK(rsc_contact_indent(l, 0.05, &M));
+    CHECK(N > 0);
+    CHECK_RELATIVE(N, M, 1e-12);
+
+    // A tilted plane falls away.
+    for (std::size_t j = 0; j < 256; ++j)
+        for (std::size_t i = 0; i < 256; ++i) zt[j * 256 + i] = 3 + 0.5 * static_cast<double>(i) - 0.25 * static_cast<double>(j);
+    OK(rsc_surface_destroy(&t));
+    OK(rsc_surface_take(&t, nx, ny, dx, dy, 0, 0, 0, zt.data()));
+    rsc_asperities* none = a[0];
+    CHECK(rsc_asperities_find(&none, t, nullptr) == -2);
+    CHECK(none == nullptr);
+    OK(rsc_surface_detrend(t, "plane", &rms));
+    CHECK_CLOSE(rms, 0, 1e-11);
+
+    OK(rsc_contact_destroy(&k));
+    OK(rsc_contact_destroy(&l));
+    for (auto& handle : a) OK(rsc_asperities_destroy(&handle));
+    OK(rsc_surface_destroy(&s));
+    OK(rsc_surface_destroy(&t));
+    OK(rsc_case_destroy(&c));
+}
+
+}  // namespace
+
+int main() {
+    CHECK(message().empty());
+    test_text();
+    test_options();
+    test_single();
+    test_many();
+    test_methods();
+    test_surfaces();
+    return check::summary();
+}
