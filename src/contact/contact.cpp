@@ -133,6 +133,9 @@ void Contact::Impl::select(double Z0) {
     const auto rest = ranked.begin() + static_cast<std::ptrdiff_t>(sorted);
     const auto end = std::partition(rest, ranked.end(), [Z0](const Ranked& r) { return r.height > Z0; });
     std::sort(rest, end);
+    std::vector<int> fresh;
+    for (auto r = rest; r != end; ++r) fresh.push_back(r->asperity);
+    law->prepare(fresh);
     sorted = static_cast<std::size_t>(end - ranked.begin());
     const auto last = std::partition_point(ranked.begin(), end, [Z0](const Ranked& r) { return r.height > Z0; });
 
@@ -344,12 +347,13 @@ Level Contact::Impl::report(double Z0) const {
         level.u.push_back(v[k]);
         level.force += force[k];
         level.area += area;
+        level.beyond_law += law->beyond(candidates.asperity[k], v[k]);
         level.large_contacts += options.mean_spacing > 0 && level.a.back() > options.mean_spacing / 4;
         x.push_back(candidates.x[k]);
         y.push_back(candidates.y[k]);
     }
     level.overlapping_pairs = count_overlapping(x, y, level.a);
-    if (level.large_contacts > 0) level.status = LevelStatus::out_of_validity;
+    if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     return level;
 }
@@ -424,6 +428,7 @@ Level Contact::at_force(double N) {
     double below = -kInfinity;  // separations that carry more
     // A first depth: what the highest asperity alone would need.
     const auto highest = std::min_element(my.ranked.begin(), my.ranked.end())->asperity;
+    my.law->prepare({&highest, 1});
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (my.law->force(highest, depth) < N) depth *= 2;
     double Z0 = above - 0.25 * depth;

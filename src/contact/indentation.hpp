@@ -50,6 +50,7 @@ struct Level {
     long products = 0;               // products with B (matrix-free methods), solves (dgesv)
     long overlapping_pairs = 0;      // pairs with d < a_i + a_j
     int large_contacts = 0;          // contacts with a > <d>/4
+    int beyond_law = 0;              // contacts past the range in which the law's profile describes a summit
     Method method = Method::direct;  // the one used
     LevelStatus status = LevelStatus::converged;
     // The contacts, by increasing asperity index (0-based):

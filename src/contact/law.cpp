@@ -1,48 +1,137 @@
 #include "contact/law.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "contact/ellipse.hpp"
 #include "error.hpp"
 
 namespace rsc {
 namespace {
 
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
 class Hertz final : public Law {
 public:
-    Hertz(const Asperities& asperities, double E_star) : radius_(asperities.radius), c_(asperities.size()) {
-        for (std::size_t i = 0; i < c_.size(); ++i) c_[i] = 4.0 / 3.0 * E_star * std::sqrt(radius_[i]);
+    Hertz(const Asperities& asperities, double E_star) : radius_(asperities.radius), E_star_(E_star), c_(asperities.size()) {}
+
+    void prepare(std::span<const int> asperities) override {
+        for (int i : asperities) c_[at(i)] = 4.0 / 3.0 * E_star_ * std::sqrt(radius_[at(i)]);
     }
 
     void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
         for (int k = 0; k < n; ++k) {
             const double x = std::max(u[k], 0.0);
-            const double c_root = c_[static_cast<std::size_t>(asperity[k])] * std::sqrt(x);
+            const double c_root = c_[at(asperity[k])] * std::sqrt(x);
             force[k] = c_root * x;
             slope[k] = 1.5 * c_root;
             work[k] = 0.4 * force[k] * x;
         }
     }
 
+    double force(int asperity, double u) const override { return u > 0 ? c_[at(asperity)] * u * std::sqrt(u) : 0.0; }
+    double area(int asperity, double u) const override { return u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0; }
+    bool beyond(int, double) const override { return false; }
+
+private:
+    const std::vector<double>& radius_;
+    double E_star_;
+    std::vector<double> c_;  // (4/3) E* sqrt(r)
+};
+
+// The elliptic law is the fourth-order one with b = 0.
+class FourthOrder final : public Law {
+public:
+    FourthOrder(const Asperities& asperities, double E_star, bool quartic)
+        : asperities_(asperities), E_star_(E_star), quartic_(quartic), summits_(asperities.size()) {}
+
+    void prepare(std::span<const int> asperities) override {
+        for (int i : asperities) {
+            const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)];
+            const auto ellipse = ellipse_factors(kappa1 / kappa2);
+            Summit& s = summits_[at(i)];
+            s.kappa = std::sqrt(kappa1 * kappa2);
+            s.b = quartic_ ? asperities_.biharmonic[at(i)] / 64 : 0.0;
+            s.per_F2 = 1 / ellipse.F2;
+            s.F1_squared = ellipse.F1 * ellipse.F1;
+            s.last_delta = s.b > 0 ? 3 * s.kappa * s.kappa / (32 * s.b) : std::numeric_limits<double>::infinity();
+        }
+    }
+
+    void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
+        for (int k = 0; k < n; ++k) {
+            if (!(u[k] > 0)) {
+                force[k] = slope[k] = work[k] = 0;
+                continue;
+            }
+            const Summit& s = summits_[at(asperity[k])];
+            const double delta = u[k] * s.per_F2, smooth = std::min(delta, s.last_delta), past = delta - smooth;
+            const double a2 = a_squared(s, smooth), a = std::sqrt(a2), a3 = a * a2, P = load(s, a2, a3);
+            // W = int P ddelta in powers of a.
+            const double W = E_star_ * a3 * a2 * (8.0 / 15 * s.kappa * s.kappa - 1024.0 / 315 * s.b * s.kappa * a2 +
+                                                  2048.0 / 405 * s.b * s.b * a2 * a2);
+            force[k] = P + 2 * E_star_ * a * past;
+            slope[k] = 2 * E_star_ * a * s.per_F2;
+            work[k] = (W + P * past + E_star_ * a * past * past) / s.per_F2;
+        }
+    }
+
     double force(int asperity, double u) const override {
-        return u > 0 ? c_[static_cast<std::size_t>(asperity)] * u * std::sqrt(u) : 0.0;
+        double force, slope, work;
+        respond(1, &asperity, &u, &force, &slope, &work);
+        return force;
     }
 
     double area(int asperity, double u) const override {
-        return u > 0 ? std::numbers::pi * radius_[static_cast<std::size_t>(asperity)] * u : 0.0;
+        if (!(u > 0)) return 0;
+        const Summit& s = summits_[at(asperity)];
+        return std::numbers::pi * s.F1_squared * a_squared(s, std::min(u * s.per_F2, s.last_delta));
+    }
+
+    bool beyond(int asperity, double u) const override {
+        const Summit& s = summits_[at(asperity)];
+        return u * s.per_F2 > s.last_delta;
     }
 
 private:
-    std::vector<double> radius_;
-    std::vector<double> c_;  // (4/3) E* sqrt(r)
+    struct Summit {
+        double kappa = 0, b = 0;               // 1/R_e, quartic coefficient
+        double per_F2 = 1, F1_squared = 1;
+        double last_delta = 0;                 // where a stops being a function of delta
+    };
+
+    // Inverse of delta = a^2/R - (8/3) b a^4, without cancellation for small b.
+    static double a_squared(const Summit& s, double delta) {
+        return 2 * delta / (s.kappa + std::sqrt(std::max(0.0, s.kappa * s.kappa - 32.0 / 3 * s.b * delta)));
+    }
+    double load(const Summit& s, double a2, double a3) const {
+        return E_star_ * a3 * (4.0 / 3 * s.kappa - 64.0 / 15 * s.b * a2);
+    }
+
+    const Asperities& asperities_;
+    double E_star_;
+    bool quartic_;
+    std::vector<Summit> summits_;
 };
 
 }  // namespace
 
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star) {
     if (kind == LawKind::hertz) return std::make_unique<Hertz>(asperities, E_star);
-    throw Error(Failure::bad_input, "asperities%law: only 'hertz' is available");
+    const char* name = kind == LawKind::elliptic ? "elliptic" : "fourth_order";
+    if (asperities.size() > 0 && asperities.kappa1.size() != asperities.size()) {
+        throw Error(Failure::bad_input, std::string("asperities%law = '") + name +
+                                            "' needs the principal curvatures of every asperity; these were given without: only 'hertz' is "
+                                            "possible");
+    }
+    if (kind == LawKind::fourth_order && asperities.size() > 0 && asperities.biharmonic.size() != asperities.size()) {
+        throw Error(Failure::bad_input, "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
+                                        "were given without: 'hertz' and 'elliptic' are possible");
+    }
+    return std::make_unique<FourthOrder>(asperities, E_star, kind == LawKind::fourth_order);
 }
 
 }  // namespace rsc

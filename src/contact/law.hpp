@@ -2,26 +2,36 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "contact/indentation.hpp"
 
 namespace rsc {
 
 // A law is convex and increasing in the penetration u > 0, with force 0 and slope 0 at u = 0. Asperities are named by their
-// index in the Asperities the law was made from.
+// index in the Asperities the law was made from, which must outlive it.
 class Law {
 public:
     virtual ~Law() = default;
+
+    // Works out what the law needs of these asperities; must come before anything is asked of them.
+    virtual void prepare(std::span<const int> asperities) = 0;
 
     // For k = 0 .. n-1: force f(u), slope D = df/du and work W = int_0^u f du of asperity[k] at penetration u[k];
     // all three are 0 where u[k] <= 0.
     virtual void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const = 0;
 
     virtual double force(int asperity, double u) const = 0;
-    virtual double area(int asperity, double u) const = 0;  // contact area [length^2]; 0 for u <= 0
+    virtual double area(int asperity, double u) const = 0;    // contact area [length^2]; 0 for u <= 0
+    virtual bool beyond(int asperity, double u) const = 0;    // the penetration is past the law's own range: see the laws
 };
 
-// Hertz: f = (4/3) E* sqrt(r) u^(3/2), a = sqrt(r u).
+// hertz         a paraboloid of the asperity's radius: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.
+// elliptic      Hertz with both principal curvatures, R_e = 1/sqrt(kappa1 kappa2): u/F2 in the law above, area times F1^2 (ellipse.hpp).
+// fourth_order  the elliptic law on the profile r^2/(2 R_e) - b r^4, b = biharmonic/64 (Sneddon; Galin):
+//               delta = a^2/R - (8/3) b a^4, P = (4/3) E* a^3/R - (64/15) E* b a^5, dP = 2 E* a ddelta, delta = u/F2. Beyond
+//               delta = 3/(32 b R^2), where a stops being a function of delta (b > 0), a stays and the stiffness 2 E* a with it.
+// Throws Error(bad_input) when the asperities lack what the law needs.
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
 
 }  // namespace rsc

@@ -1,0 +1,175 @@
+// Each asperity law against its own limits and against independent quadratures.
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "check.hpp"
+#include "contact/ellipse.hpp"
+#include "contact/law.hpp"
+#include "error.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kE = 94.0e3;
+
+Asperities summit(double kappa1, double kappa2, double biharmonic) {
+    Asperities a;
+    a.x = {0}, a.y = {0}, a.z = {0}, a.radius = {1 / std::sqrt(kappa1 * kappa2)};
+    a.kappa1 = {kappa1}, a.kappa2 = {kappa2}, a.angle = {0}, a.biharmonic = {biharmonic};
+    return a;
+}
+
+struct Answer {
+    double force, slope, work, area;
+};
+Answer ask(Law& law, double u) {
+    const int zero = 0;
+    law.prepare({&zero, 1});
+    Answer r{};
+    law.respond(1, &zero, &u, &r.force, &r.slope, &r.work);
+    r.area = law.area(0, u);
+    return r;
+}
+
+// int_0^1 by Gauss-Legendre on 64 panels of 3 points; enough for 1e-13 on what is smooth here.
+template <class F>
+double integrate(double from, double to, F f) {
+    const double node = std::sqrt(0.6), h = (to - from) / 64;
+    double sum = 0;
+    for (int i = 0; i < 64; ++i) {
+        const double m = from + (i + 0.5) * h;
+        sum += h * (5 * f(m - 0.5 * h * node) + 8 * f(m) + 5 * f(m + 0.5 * h * node)) / 18;
+    }
+    return sum;
+}
+
+// The factors against the integrals that define the ellipse, taken by quadrature, not by elliptic functions: with semi-axes a >= b a
+// pressure p0 sqrt(1 - x^2/a^2 - y^2/b^2) gives u = (p0 b/E*) [K - (K - E)/e^2 x^2/a^2 - ...] (Johnson, eqs 3.64, 4.21 to 4.23).
+void ellipse_against_quadrature() {
+    for (double axes : {0.9, 0.5, 0.1, 0.01}) {
+        const double a = 1, b = axes, e2 = 1 - b * b;
+        const auto root = [&](double t) { return std::sqrt(1 - e2 * std::pow(std::sin(t), 2)); };
+        // The integrands peak at pi/2 when e is near 1: split there.
+        const auto whole = [&](auto f) {
+            double sum = 0, left = 0;
+            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * std::numbers::pi}) sum += integrate(left, piece, f), left = piece;
+            return sum;
+        };
+        const double K = whole([&](double t) { return 1 / root(t); }), E = whole(root);
+        const double D = (K - E) / e2, B = (E - b * b * K) / e2;
+        // Curvatures (p0 = E* = 1): 2 kappa = second derivatives of u: kappa along x: b D/a^2 2 /..., along y: B/b.
+        const double kx = 2 * b * D / (a * a), ky = 2 * B / b;
+        const double ratio = ky / kx, delta = b * K, force = 2.0 / 3 * std::numbers::pi * a * b;
+        const EllipseFactors f = ellipse_factors(ratio);
+        CHECK_RELATIVE(f.axes, axes, 1e-9);
+        const double R = 1 / std::sqrt(kx * ky);
+        CHECK_RELATIVE(4.0 / 3 * std::sqrt(R) * std::pow(delta / f.F2, 1.5), force, 1e-9);
+        CHECK_RELATIVE(f.F1 * f.F1 * R * delta / f.F2, a * b, 1e-9);
+    }
+}
+
+void ellipse_limits() {
+    const EllipseFactors circle = ellipse_factors(1.0);
+    CHECK_CLOSE(circle.F1, 1, 1e-13);
+    CHECK_CLOSE(circle.F2, 1, 1e-13);
+    double last = 1;
+    for (double ratio = 1; ratio < 1e12; ratio *= 1.7) {
+        const EllipseFactors f = ellipse_factors(ratio);
+        CHECK(f.axes <= last && f.axes > 0 && std::isfinite(f.F1) && f.F2 <= 1 + 1e-14);
+        last = f.axes;
+    }
+    // Smooth through the switches of the evaluation: neighbouring ratios give neighbouring factors.
+    for (double ratio = 1.0; ratio < 3; ratio += 1e-3) CHECK_CLOSE(ellipse_factors(ratio + 1e-9).F2, ellipse_factors(ratio).F2, 1e-9);
+    // The force factor F2^(-3/2) at the mode of the summits' curvatures and at 10.
+    CHECK_CLOSE(std::pow(ellipse_factors(2.21).F2, -1.5), 1.0131, 1e-4);
+    CHECK_CLOSE(std::pow(ellipse_factors(10).F2, -1.5), 1.109, 1e-3);
+    CHECK_THROWS(ellipse_factors(0.5), Error);
+}
+
+// Circle and b = 0: all laws are Hertz.
+void limits_are_hertz() {
+    const Asperities round = summit(5000, 5000, 0);
+    const auto hertz = make_law(LawKind::hertz, round, kE);
+    for (LawKind kind : {LawKind::elliptic, LawKind::fourth_order}) {
+        const auto law = make_law(kind, round, kE);
+        for (double u : {1e-9, 1e-4, 0.02}) {
+            const Answer a = ask(*law, u), h = ask(*hertz, u);
+            CHECK_RELATIVE(a.force, h.force, 1e-12);
+            CHECK_RELATIVE(a.slope, h.slope, 1e-12);
+            CHECK_RELATIVE(a.work, h.work, 1e-12);
+            CHECK_RELATIVE(a.area, h.area, 1e-12);
+        }
+        CHECK(ask(*law, -1.0).force == 0 && ask(*law, 0.0).slope == 0);
+    }
+    // b -> 0 continuously, from both sides.
+    const auto elliptic = make_law(LawKind::elliptic, summit(9000, 4000, 0), kE);
+    for (double b : {1e-3, -1e-3}) {
+        const Asperities s = summit(9000, 4000, b);
+        CHECK_RELATIVE(ask(*make_law(LawKind::fourth_order, s, kE), 1e-3).force, ask(*elliptic, 1e-3).force, 1e-9);
+    }
+}
+
+// Slope and work are derivative and integral of the force, through the end of the law's own range and beyond; the force is convex.
+void calculus() {
+    for (double biharmonic : {-4e11, 0.0, 2e11, 3e12}) {
+        const Asperities s = summit(9000, 4000, biharmonic);
+        const auto law = make_law(LawKind::fourth_order, s, kE);
+        double last_slope = 0;
+        for (double u = 1e-5; u < 2e-3; u *= 1.25) {
+            const double h = 1e-4 * u;
+            const Answer a = ask(*law, u);
+            CHECK_CLOSE(a.slope, (ask(*law, u + h).force - ask(*law, u - h).force) / (2 * h), 2e-4 * a.slope);  // sqrt end of range
+            CHECK_RELATIVE(a.work, integrate(0, 1, [&](double t) { return 2 * t * u * law->force(0, t * t * u); }), 1e-5);
+            CHECK(a.slope >= last_slope);
+            last_slope = a.slope;
+        }
+    }
+}
+
+// The axisymmetric law from Sneddon's integrals, by quadrature of the profile w(r) = r^2/(2R) - b r^4:
+// delta = a int_0^1 w'(a s)/sqrt(1 - s^2) ds, P = 2 E* int_0^a (delta - delta(t)) dt.
+void fourth_order_against_sneddon() {
+    const double kappa = 6000, b = 2e9;
+    const auto delta = [&](double a) {
+        return a * integrate(0, 0.5 * std::numbers::pi, [&](double t) {
+            const double r = a * std::sin(t);
+            return kappa * r - 4 * b * r * r * r;
+        });
+    };
+    const Asperities s = summit(kappa, kappa, 64 * b);
+    const auto law = make_law(LawKind::fourth_order, s, kE);
+    const double a_end = std::sqrt(3 * kappa / (16 * b));  // d delta/da = 0
+    for (double part : {0.2, 0.6, 0.95}) {
+        const double a = part * a_end, d = delta(a);
+        const double P = 2 * kE * integrate(0, a, [&](double t) { return d - delta(t); });
+        const Answer r = ask(*law, d);
+        CHECK_RELATIVE(r.force, P, 1e-9);
+        CHECK_RELATIVE(r.area, std::numbers::pi * a * a, 1e-9);
+        CHECK_RELATIVE(r.slope, 2 * kE * a, 1e-9);  // dP = 2 E* a ddelta
+        CHECK(!law->beyond(0, d));
+    }
+    CHECK(law->beyond(0, 1.01 * delta(a_end)));
+}
+
+void refusals() {
+    Asperities bare = summit(1, 1, 0);
+    bare.biharmonic.clear();
+    CHECK_THROWS(make_law(LawKind::fourth_order, bare, kE), Error);
+    bare.kappa1.clear(), bare.kappa2.clear();
+    CHECK_THROWS(make_law(LawKind::elliptic, bare, kE), Error);
+    make_law(LawKind::hertz, bare, kE);
+}
+
+}  // namespace
+
+int main() {
+    ellipse_against_quadrature();
+    ellipse_limits();
+    limits_are_hertz();
+    calculus();
+    fourth_order_against_sneddon();
+    refusals();
+    return check::summary();
+}
