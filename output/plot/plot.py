@@ -243,6 +243,8 @@ def plot_distributions(result):
 
     def gamma(p, k):
         alpha, beta, delta, factor = (result.attribute("pressure_pdf", a)[k] for a in ("alpha", "beta", "delta", "gamma"))
+        if not np.isfinite(alpha):  # too few contacts for a fit
+            return np.full_like(p, np.nan), ""
         return factor * p**alpha * np.exp(-((p / delta) ** beta)), rf": $\alpha$ = {alpha:.2f}, $\beta$ = {beta:.2f}"
 
     def exponential(a, k):
