@@ -124,7 +124,7 @@ RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* val
  * Errors: -1 null; -2 null or unknown name; -3 buffer null with size > 0; -4 size < 0; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length);
 
-/* All keys with their values, as namelist text that rsc_case_read reads back to the same values.
+/* All keys with their values, as namelist text that rsc_case_read reads back to the same values, unless it finds fault with them.
  * a_case: the case; buffer, size, length: text output. Errors: -1 null; -2 buffer null with size > 0; -3 size < 0; RSC_NO_MEMORY.
  */
 RSC_API int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length);
@@ -158,6 +158,10 @@ RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_
  * finite; -6, -7 not finite; -8 neither 0 nor 1; -9 null, or a height that is not finite; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0,
                                  int32_t periodic, const double* heights);
+
+/* A copy that is independent of the original.
+ * surface (out): the handle; original: the surface to copy. Errors: -1, -2 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original);
 
 /* Releases a surface and nulls the handle. Errors: -1 null address. */
 RSC_API int32_t rsc_surface_destroy(rsc_surface** surface);
@@ -202,6 +206,10 @@ RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case*
 RSC_API int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z,
                                     const double* radius, const double* kappa1, const double* kappa2, const double* angle,
                                     const double* biharmonic);
+
+/* Another handle of the same asperities, which never change and are held once.
+ * asperities (out): the handle; original: the asperities. Errors: -1, -2 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_asperities_copy(rsc_asperities** asperities, const rsc_asperities* original);
 
 /* Releases asperities and nulls the handle. Errors: -1 null address. */
 RSC_API int32_t rsc_asperities_destroy(rsc_asperities** asperities);

@@ -107,6 +107,27 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
     });
 }
 
+int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
+    return guarded(0, [&] {
+        construct(surface, "surface", [&] {
+            require(original, 2, "original");
+            const rsc::HeightMap& from = original->map;
+            auto made = std::make_unique<rsc_surface>();
+            rsc::HeightMap& map = made->map;
+            map.allocate(from.nx, from.ny, from.stride);
+            map.dx = from.dx;
+            map.dy = from.dy;
+            map.x0 = from.x0;
+            map.y0 = from.y0;
+            map.periodic = from.periodic;
+            for (int j = 0; j < from.ny; ++j) std::copy(from.row(j), from.row(j) + from.nx, map.row(j));
+            made->theory = original->theory;
+            made->sigma = original->sigma;
+            return made.release();
+        });
+    });
+}
+
 int32_t rsc_surface_destroy(rsc_surface** surface) {
     return guarded(0, [&] { destroy(surface, "surface"); });
 }
@@ -237,6 +258,15 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             content.x_middle = 0.5 * (box.x_min + box.x_max);
             content.y_middle = 0.5 * (box.y_min + box.y_max);
             return share(std::move(content));
+        });
+    });
+}
+
+int32_t rsc_asperities_copy(rsc_asperities** asperities, const rsc_asperities* original) {
+    return guarded(0, [&] {
+        construct(asperities, "asperities", [&] {
+            require(original, 2, "original");
+            return new rsc_asperities(*original);
         });
     });
 }

@@ -389,6 +389,19 @@ void test_surfaces() {
     }
     CHECK_CLOSE(largest, 0, 1e-7);  // r = 1/kappa_g
 
+    // Copies: of a surface independent of it, of asperities the same ones.
+    rsc_surface* copy = nullptr;
+    OK(rsc_surface_copy(&copy, s));
+    OK(rsc_surface_detrend(s, "plane", nullptr));
+    OK(rsc_surface_heights(copy, 256 * 256, zt.data()));
+    CHECK(zt == z);
+    OK(rsc_surface_destroy(&copy));
+    rsc_asperities* same = nullptr;
+    OK(rsc_asperities_copy(&same, a[0]));
+    OK(rsc_asperities_get(same, n, k1.data(), nullptr, nullptr, nullptr));
+    CHECK(k1 == got[0][0]);
+    OK(rsc_asperities_destroy(&same));
+
     // A contact straight from the case: E* and R of its solids, the tip above the middle.
     rsc_contact *k = nullptr, *l = nullptr;
     OK(rsc_contact_create_from_case(&k, a[0], c));

@@ -143,6 +143,11 @@ void test_surface() {
     REFUSED(1, rsc_asperities_make(nullptr, c, 1));
     REFUSED(2, rsc_asperities_make(&a, c, 1));
     OK(rsc_asperities_find(&a, s, nullptr));
+    REFUSED(1, rsc_surface_copy(nullptr, s));
+    REFUSED(2, rsc_surface_copy(&t, nullptr));
+    REFUSED(1, rsc_asperities_copy(nullptr, a));
+    rsc_asperities* b = nullptr;
+    REFUSED(2, rsc_asperities_copy(&b, nullptr));
     REFUSED(1, rsc_surface_destroy(nullptr));
     OK(rsc_surface_destroy(&t));
     OK(rsc_surface_destroy(&s));

@@ -1,0 +1,1106 @@
+!> rsc in Fortran: the contact of a sphere with a rough surface of asperities. The same as rsc.h, which says more about every argument.
+!>
+!>     use rsc
+!>     type(rsc_asperities) :: asperities
+!>     type(rsc_contact) :: contact
+!>     call asperities%take(x, y, z, radius)
+!>     call contact%create(asperities, E_star=94.7d3, R=2.5d0, x0=0.5d0, y0=0.5d0)
+!>     call contact%indent(separation=0.02d0, force=N)
+!>     print *, N, contact%area(), contact%stiffness()
+!>
+!> Objects release what they hold when they go out of scope; creating one again releases what it held before, and assignment copies
+!> (a copied contact has the same asperities, sphere and options, and no result yet: one for another thread). Different
+!> objects may be used by different threads at the same time.
+!>
+!> Every procedure takes stat and errmsg like the statements of the language: with stat, a failure is told there (negative: an argument
+!> is wrong; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
+!> with the message. Outputs are undefined after a failure, except with stat = rsc_not_converged. Asperities count from 1.
+module rsc
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_int32_t, c_int64_t
+  implicit none
+  private
+  public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_library_version
+
+  !> Status codes.
+  integer, parameter, public :: rsc_success = 0
+  integer, parameter, public :: rsc_not_converged = 1
+  integer, parameter, public :: rsc_no_memory = 2
+  integer, parameter, public :: rsc_file = 3
+  integer, parameter, public :: rsc_no_result = 4
+  integer, parameter, public :: rsc_internal = 5
+  !> What is to be said about a level.
+  integer, parameter, public :: rsc_level_converged = 0
+  integer, parameter, public :: rsc_level_out_of_validity = 1
+  integer, parameter, public :: rsc_level_overlapping = 2
+  integer, parameter, public :: rsc_level_not_unique = 3
+  integer, parameter, public :: rsc_level_not_converged = 4
+
+  !> Options by the names of the namelist, 'group%key'; all at their defaults to begin with.
+  type :: rsc_case
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    !> set(name, value): value is a real, an integer, a logical, or text in namelist syntax (with its quotes where it is a text).
+    generic :: set => set_text, set_real, set_integer, set_logical
+    procedure :: get => case_get
+    procedure :: read => case_read
+    procedure :: text => case_text
+    procedure :: run => case_run
+    generic :: assignment(=) => copy
+    procedure, private :: set_text => case_set_text
+    procedure, private :: set_real => case_set_real
+    procedure, private :: set_integer => case_set_integer
+    procedure, private :: set_logical => case_set_logical
+    procedure, private :: copy => case_copy
+    final :: case_final
+  end type
+
+  !> Heights z(i,j) at x0 + (i-1) dx, y0 + (j-1) dy.
+  type :: rsc_surface
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure :: synthesize => surface_synthesize
+    procedure :: take => surface_take
+    procedure :: detrend => surface_detrend
+    procedure :: grid => surface_grid
+    procedure :: heights => surface_heights
+    procedure :: moments => surface_moments
+    generic :: assignment(=) => copy
+    procedure, private :: copy => surface_copy
+    final :: surface_final
+  end type
+
+  !> Summits: positions and radii.
+  type :: rsc_asperities
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure :: find => asperities_find
+    procedure :: make => asperities_make
+    procedure :: take => asperities_take
+    procedure :: count => asperities_count
+    procedure :: get => asperities_get
+    procedure :: curvatures => asperities_curvatures
+    generic :: assignment(=) => copy
+    procedure, private :: copy => asperities_copy
+    final :: asperities_final
+  end type
+
+  !> A sphere on asperities, and the last level computed.
+  type :: rsc_contact
+    private
+    type(c_ptr) :: handle = c_null_ptr
+    integer(c_int64_t) :: asperities = 0
+  contains
+    procedure :: create => contact_create
+    procedure :: create_from_case => contact_create_from_case
+    procedure :: move_tip => contact_move_tip
+    procedure :: tip => contact_tip
+    procedure :: first_touch => contact_first_touch
+    procedure :: indent => contact_indent
+    procedure :: press => contact_press
+    procedure :: separation => contact_separation
+    procedure :: force => contact_force
+    procedure :: area => contact_area
+    procedure :: contacts => contact_contacts
+    procedure :: stiffness => contact_stiffness
+    procedure :: energy => contact_energy
+    procedure :: level => contact_level
+    procedure :: spots => contact_spots
+    procedure :: per_asperity => contact_per_asperity
+    procedure :: deflection => contact_deflection
+    generic :: assignment(=) => copy
+    procedure, private :: copy => contact_copy
+    final :: contact_final
+  end type
+
+  ! The functions of rsc.h, name by name and argument by argument; a test compares them with it.
+  interface
+    function rsc_version(buffer, size, length) bind(c) result(code)
+      import :: c_char, c_int32_t, c_int64_t
+      character(kind=c_char), intent(out) :: buffer(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int32_t) :: code
+    end function
+    function rsc_message(buffer, size, length) bind(c) result(code)
+      import :: c_char, c_int32_t, c_int64_t
+      character(kind=c_char), intent(out) :: buffer(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int32_t) :: code
+    end function
+    function rsc_status_text(status, buffer, size, length) bind(c) result(code)
+      import :: c_char, c_int32_t, c_int64_t
+      integer(c_int32_t), value :: status
+      character(kind=c_char), intent(out) :: buffer(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_create(new_case) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: new_case
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_copy(new_case, original) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: new_case
+      type(c_ptr), value :: original
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_destroy(old_case) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: old_case
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_read(a_case, text) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: a_case
+      character(kind=c_char), intent(in) :: text(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_set(a_case, name, value) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: a_case
+      character(kind=c_char), intent(in) :: name(*), value(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_get(a_case, name, buffer, size, length) bind(c) result(code)
+      import :: c_char, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: a_case
+      character(kind=c_char), intent(in) :: name(*)
+      character(kind=c_char), intent(out) :: buffer(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_text(a_case, buffer, size, length) bind(c) result(code)
+      import :: c_char, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: a_case
+      character(kind=c_char), intent(out) :: buffer(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int32_t) :: code
+    end function
+    function rsc_key_count(count) bind(c) result(code)
+      import :: c_int32_t, c_int64_t
+      integer(c_int64_t), intent(out) :: count
+      integer(c_int32_t) :: code
+    end function
+    function rsc_key_name(key, buffer, size, length) bind(c) result(code)
+      import :: c_char, c_int32_t, c_int64_t
+      integer(c_int64_t), value :: key
+      character(kind=c_char), intent(out) :: buffer(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_run(a_case, failed_levels) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: a_case
+      integer(c_int64_t), intent(out), optional :: failed_levels
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_synthesize(surface, a_case, realization) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), intent(inout) :: surface
+      type(c_ptr), value :: a_case
+      integer(c_int64_t), value :: realization
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_take(surface, nx, ny, dx, dy, x0, y0, periodic, heights) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), intent(inout) :: surface
+      integer(c_int64_t), value :: nx, ny
+      real(c_double), value :: dx, dy, x0, y0
+      integer(c_int32_t), value :: periodic
+      real(c_double), intent(in) :: heights(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_copy(surface, original) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: surface
+      type(c_ptr), value :: original
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_destroy(surface) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: surface
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_detrend(surface, how, rms) bind(c) result(code)
+      import :: c_char, c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: how(*)
+      real(c_double), intent(out), optional :: rms
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_grid(surface, nx, ny, dx, dy, x0, y0, periodic) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(out), optional :: nx, ny
+      real(c_double), intent(out), optional :: dx, dy, x0, y0
+      integer(c_int32_t), intent(out), optional :: periodic
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_heights(surface, n, heights) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: surface
+      integer(c_int64_t), value :: n
+      real(c_double), intent(out) :: heights(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_moments(surface, m0, m2, m4) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: surface
+      real(c_double), intent(out), optional :: m0, m2, m4
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_find(asperities, surface, a_case) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: asperities
+      type(c_ptr), value :: surface, a_case
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_make(asperities, a_case, realization) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), intent(inout) :: asperities
+      type(c_ptr), value :: a_case
+      integer(c_int64_t), value :: realization
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_take(asperities, n, x, y, z, radius, kappa1, kappa2, angle, biharmonic) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), intent(inout) :: asperities
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: x(*), y(*), z(*), radius(*)
+      real(c_double), intent(in), optional :: kappa1(*), kappa2(*), angle(*), biharmonic(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_copy(asperities, original) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: asperities
+      type(c_ptr), value :: original
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_destroy(asperities) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: asperities
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_count(asperities, n) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: asperities
+      integer(c_int64_t), intent(out) :: n
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_get(asperities, n, x, y, z, radius) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: asperities
+      integer(c_int64_t), value :: n
+      real(c_double), intent(out), optional :: x(*), y(*), z(*), radius(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_asperities_curvatures(asperities, n, kappa1, kappa2, angle) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: asperities
+      integer(c_int64_t), value :: n
+      real(c_double), intent(out), optional :: kappa1(*), kappa2(*), angle(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_create(contact, asperities, E_star, R, x0, y0, a_case) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: contact
+      type(c_ptr), value :: asperities
+      real(c_double), value :: E_star, R, x0, y0
+      type(c_ptr), value :: a_case
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_create_from_case(contact, asperities, a_case) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: contact
+      type(c_ptr), value :: asperities, a_case
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_copy(contact, original) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: contact
+      type(c_ptr), value :: original
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_destroy(contact) bind(c) result(code)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: contact
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_move_tip(contact, x0, y0) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), value :: x0, y0
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_tip(contact, x0, y0) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), intent(out), optional :: x0, y0
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_first_touch(contact, separation) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), intent(out) :: separation
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_indent(contact, separation, force) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), value :: separation
+      real(c_double), intent(out), optional :: force
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_press(contact, force, separation) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), value :: force
+      real(c_double), intent(out), optional :: separation
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_result(contact, separation, force, area, contacts) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), intent(out), optional :: separation, force, area
+      integer(c_int64_t), intent(out), optional :: contacts
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_level(contact, level_status, candidates, iterations, overlapping_pairs, residual) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: contact
+      integer(c_int32_t), intent(out), optional :: level_status
+      integer(c_int64_t), intent(out), optional :: candidates, iterations, overlapping_pairs
+      real(c_double), intent(out), optional :: residual
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_stiffness(contact, stiffness) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), intent(out) :: stiffness
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_energy(contact, energy) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), intent(out) :: energy
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_spots(contact, n, asperity, force, radius, penetration) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: contact
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), intent(out), optional :: asperity(*)
+      real(c_double), intent(out), optional :: force(*), radius(*), penetration(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_per_asperity(contact, n, force, radius, penetration) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: contact
+      integer(c_int64_t), value :: n
+      real(c_double), intent(out), optional :: force(*), radius(*), penetration(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_deflection(contact, n, x, y, deflection) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: contact
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: x(*), y(*)
+      real(c_double), intent(out) :: deflection(*)
+      integer(c_int32_t) :: code
+    end function
+  end interface
+
+contains
+
+  ! --- failures and text ---------------------------------------------------------------------------------------------------------
+
+  !> Tells the caller, or stops.
+  subroutine finish(status, stat, errmsg)
+    integer(c_int32_t), intent(in) :: status
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: message
+    if (present(stat)) stat = int(status)
+    if (status == rsc_success) return
+    message = last_message()
+    if (present(stat)) then
+      if (present(errmsg)) errmsg = message
+    else
+      error stop 'rsc: ' // message
+    end if
+  end subroutine
+
+  !> A mistake found on this side: no function of rsc.h was called.
+  subroutine refuse(message, stat, errmsg)
+    character(*), intent(in) :: message
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (present(stat)) then
+      stat = -1
+      if (present(errmsg)) errmsg = message
+    else
+      error stop 'rsc: ' // message
+    end if
+  end subroutine
+
+  function last_message() result(text)
+    character(:), allocatable :: text
+    character(kind=c_char) :: buffer(4096)
+    integer(c_int64_t) :: length
+    text = ''
+    if (rsc_message(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) text = joined(buffer, length)
+  end function
+
+  !> The version of the library.
+  function rsc_library_version() result(text)
+    character(:), allocatable :: text
+    character(kind=c_char) :: buffer(64)
+    integer(c_int64_t) :: length
+    text = ''
+    if (rsc_version(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) text = joined(buffer, length)
+  end function
+
+  function joined(buffer, length) result(text)
+    character(kind=c_char), intent(in) :: buffer(:)
+    integer(c_int64_t), intent(in) :: length
+    character(:), allocatable :: text
+    integer :: i, n
+    n = int(min(length, size(buffer, kind=c_int64_t)))
+    allocate (character(n) :: text)
+    do i = 1, n
+      text(i:i) = buffer(i)
+    end do
+  end function
+
+  function terminated(text) result(chars)
+    character(*), intent(in) :: text
+    character(kind=c_char) :: chars(len(text) + 1)
+    integer :: i
+    do i = 1, len(text)
+      chars(i) = text(i:i)
+    end do
+    chars(len(text) + 1) = c_null_char
+  end function
+
+  ! --- case ------------------------------------------------------------------------------------------------------------------------
+
+  subroutine case_ready(self, status)
+    class(rsc_case), intent(inout) :: self
+    integer(c_int32_t), intent(out) :: status
+    status = rsc_success
+    if (.not. c_associated(self%handle)) status = rsc_case_create(self%handle)
+  end subroutine
+
+  subroutine case_set_text(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name, value
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    call case_ready(self, status)
+    if (status == rsc_success) status = rsc_case_set(self%handle, terminated(trim(name)), terminated(value))
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  subroutine case_set_real(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_double), intent(in) :: value
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(40) :: text
+    write (text, '(es32.16e4)') value
+    call self%set_text(name, trim(adjustl(text)), stat, errmsg)
+  end subroutine
+
+  subroutine case_set_integer(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(in) :: value
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(40) :: text
+    write (text, '(i0)') value
+    call self%set_text(name, trim(text), stat, errmsg)
+  end subroutine
+
+  subroutine case_set_logical(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    logical, intent(in) :: value
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call self%set_text(name, merge('.true. ', '.false.', value), stat, errmsg)
+  end subroutine
+
+  !> The value of a key in namelist syntax, as set takes it; empty if the key is not set.
+  function case_get(self, name, stat, errmsg) result(value)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: value
+    character(kind=c_char), allocatable :: buffer(:)
+    integer(c_int64_t) :: length
+    integer(c_int32_t) :: status
+    value = ''
+    allocate (buffer(4096))
+    call case_ready(self, status)
+    do while (status == rsc_success)
+      status = rsc_case_get(self%handle, terminated(trim(name)), buffer, size(buffer, kind=c_int64_t), length)
+      if (status /= rsc_success) exit
+      if (length < size(buffer, kind=c_int64_t)) then
+        value = joined(buffer, length)
+        exit
+      end if
+      deallocate (buffer)
+      allocate (buffer(length + 1))
+    end do
+    call finish(status, stat, errmsg)
+  end function
+
+  !> Takes all keys from namelist text, defaults where it says nothing.
+  subroutine case_read(self, text, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: text
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    call case_ready(self, status)
+    if (status == rsc_success) status = rsc_case_read(self%handle, terminated(text))
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> All keys as namelist text.
+  function case_text(self, stat, errmsg) result(text)
+    class(rsc_case), intent(inout) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: text
+    character(kind=c_char), allocatable :: buffer(:)
+    integer(c_int64_t) :: length
+    integer(c_int32_t) :: status
+    text = ''
+    allocate (buffer(16384))
+    call case_ready(self, status)
+    do while (status == rsc_success)
+      status = rsc_case_text(self%handle, buffer, size(buffer, kind=c_int64_t), length)
+      if (status /= rsc_success) exit
+      if (length < size(buffer, kind=c_int64_t)) then
+        text = joined(buffer, length)
+        exit
+      end if
+      deallocate (buffer)
+      allocate (buffer(length + 1))
+    end do
+    call finish(status, stat, errmsg)
+  end function
+
+  !> Runs the case as the program does and writes its result file.
+  subroutine case_run(self, failed_levels, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    integer, intent(out), optional :: failed_levels
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: failed
+    failed = 0
+    call case_ready(self, status)
+    if (status == rsc_success) status = rsc_case_run(self%handle, failed)
+    if (present(failed_levels)) failed_levels = int(failed)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine case_copy(self, original)
+    class(rsc_case), intent(inout) :: self
+    class(rsc_case), intent(in) :: original
+    integer(c_int32_t) :: status
+    if (c_associated(self%handle, original%handle)) return
+    status = rsc_case_destroy(self%handle)
+    if (.not. c_associated(original%handle)) return
+    status = rsc_case_copy(self%handle, original%handle)
+    call finish(status)
+  end subroutine
+
+  impure elemental subroutine case_final(self)
+    type(rsc_case), intent(inout) :: self
+    integer(c_int32_t) :: status
+    status = rsc_case_destroy(self%handle)
+  end subroutine
+
+  function options_of(options) result(handle)
+    class(rsc_case), intent(in), optional :: options
+    type(c_ptr) :: handle
+    handle = c_null_ptr  ! the defaults
+    if (present(options)) handle = options%handle
+  end function
+
+  ! --- surface -----------------------------------------------------------------------------------------------------------------------
+
+  !> Realization number `realization` by the keys of &surface and run%seed.
+  subroutine surface_synthesize(self, options, realization, stat, errmsg)
+    class(rsc_surface), intent(inout) :: self
+    class(rsc_case), intent(in), optional :: options
+    integer, intent(in), optional :: realization
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: number
+    number = 1
+    if (present(realization)) number = realization
+    status = rsc_surface_destroy(self%handle)
+    status = rsc_surface_synthesize(self%handle, options_of(options), number)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Given heights z(i,j), measured from z = 0; periodic: whether the surface wraps around (it does not by default).
+  subroutine surface_take(self, z, dx, dy, x0, y0, periodic, stat, errmsg)
+    class(rsc_surface), intent(inout) :: self
+    real(c_double), intent(in) :: z(:,:)
+    real(c_double), intent(in) :: dx
+    real(c_double), intent(in), optional :: dy, x0, y0
+    logical, intent(in), optional :: periodic
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status, wraps
+    real(c_double) :: step_y, first_x, first_y
+    step_y = dx
+    if (present(dy)) step_y = dy
+    first_x = 0
+    if (present(x0)) first_x = x0
+    first_y = 0
+    if (present(y0)) first_y = y0
+    wraps = 0
+    if (present(periodic)) wraps = merge(1_c_int32_t, 0_c_int32_t, periodic)
+    status = rsc_surface_destroy(self%handle)
+    status = rsc_surface_take(self%handle, size(z, 1, c_int64_t), size(z, 2, c_int64_t), dx, step_y, first_x, first_y, wraps, z)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Subtracts the 'mean' or the least-squares 'plane'; rms: height left.
+  subroutine surface_detrend(self, how, rms, stat, errmsg)
+    class(rsc_surface), intent(inout) :: self
+    character(*), intent(in) :: how
+    real(c_double), intent(out), optional :: rms
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_surface_detrend(self%handle, terminated(trim(how)), rms), stat, errmsg)
+  end subroutine
+
+  subroutine surface_grid(self, nx, ny, dx, dy, x0, y0, periodic, stat, errmsg)
+    class(rsc_surface), intent(in) :: self
+    integer, intent(out), optional :: nx, ny
+    real(c_double), intent(out), optional :: dx, dy, x0, y0
+    logical, intent(out), optional :: periodic
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: n(2)
+    integer(c_int32_t) :: status, wraps
+    n = 0
+    wraps = 0
+    status = rsc_surface_grid(self%handle, n(1), n(2), dx, dy, x0, y0, wraps)
+    if (present(nx)) nx = int(n(1))
+    if (present(ny)) ny = int(n(2))
+    if (present(periodic)) periodic = wraps == 1
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> The heights, z(nx,ny).
+  subroutine surface_heights(self, z, stat, errmsg)
+    class(rsc_surface), intent(in) :: self
+    real(c_double), intent(out), contiguous, target :: z(:,:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: nx, ny
+    integer(c_int32_t) :: status
+    status = rsc_surface_grid(self%handle, nx, ny)
+    if (status == rsc_success) then
+      if (size(z, 1) /= nx .or. size(z, 2) /= ny) then
+        call refuse('the shape of z is not that of the surface', stat, errmsg)
+        return
+      end if
+      status = rsc_surface_heights(self%handle, size(z, kind=c_int64_t), z)
+    end if
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Spectral moments by finite differences on the grid.
+  subroutine surface_moments(self, m0, m2, m4, stat, errmsg)
+    class(rsc_surface), intent(in) :: self
+    real(c_double), intent(out), optional :: m0, m2, m4
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_surface_moments(self%handle, m0, m2, m4), stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine surface_copy(self, original)
+    class(rsc_surface), intent(inout) :: self
+    class(rsc_surface), intent(in) :: original
+    integer(c_int32_t) :: status
+    if (c_associated(self%handle, original%handle)) return
+    status = rsc_surface_destroy(self%handle)
+    if (.not. c_associated(original%handle)) return
+    status = rsc_surface_copy(self%handle, original%handle)
+    call finish(status)
+  end subroutine
+
+  impure elemental subroutine surface_final(self)
+    type(rsc_surface), intent(inout) :: self
+    integer(c_int32_t) :: status
+    status = rsc_surface_destroy(self%handle)
+  end subroutine
+
+  ! --- asperities ----------------------------------------------------------------------------------------------------------------------
+
+  !> The summits of a surface.
+  subroutine asperities_find(self, surface, options, stat, errmsg)
+    class(rsc_asperities), intent(inout) :: self
+    class(rsc_surface), intent(in) :: surface
+    class(rsc_case), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    status = rsc_asperities_destroy(self%handle)
+    status = rsc_asperities_find(self%handle, surface%handle, options_of(options))
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Those of a synthetic surface that is not stored.
+  subroutine asperities_make(self, options, realization, stat, errmsg)
+    class(rsc_asperities), intent(inout) :: self
+    class(rsc_case), intent(in), optional :: options
+    integer, intent(in), optional :: realization
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: number
+    number = 1
+    if (present(realization)) number = realization
+    status = rsc_asperities_destroy(self%handle)
+    status = rsc_asperities_make(self%handle, options_of(options), number)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Given ones; kappa1, kappa2 and angle all or none.
+  subroutine asperities_take(self, x, y, z, radius, kappa1, kappa2, angle, biharmonic, stat, errmsg)
+    class(rsc_asperities), intent(inout) :: self
+    real(c_double), intent(in) :: x(:), y(:), z(:), radius(:)
+    real(c_double), intent(in), optional :: kappa1(:), kappa2(:), angle(:), biharmonic(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    logical :: same
+    same = size(y) == size(x) .and. size(z) == size(x) .and. size(radius) == size(x)
+    if (present(kappa1)) same = same .and. size(kappa1) == size(x)
+    if (present(kappa2)) same = same .and. size(kappa2) == size(x)
+    if (present(angle)) same = same .and. size(angle) == size(x)
+    if (present(biharmonic)) same = same .and. size(biharmonic) == size(x)
+    status = rsc_asperities_destroy(self%handle)
+    if (.not. same) then
+      call refuse('asperities%take: the arrays are not of one size', stat, errmsg)
+      return
+    end if
+    status = rsc_asperities_take(self%handle, size(x, kind=c_int64_t), x, y, z, radius, kappa1, kappa2, angle, biharmonic)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  function asperities_count(self, stat, errmsg) result(n)
+    class(rsc_asperities), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer :: n
+    integer(c_int64_t) :: count
+    count = 0
+    call finish(rsc_asperities_count(self%handle, count), stat, errmsg)
+    n = int(count)
+  end function
+
+  subroutine asperities_get(self, x, y, z, radius, stat, errmsg)
+    class(rsc_asperities), intent(in) :: self
+    real(c_double), intent(out), allocatable, optional :: x(:), y(:), z(:), radius(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: n
+    n = 0
+    status = rsc_asperities_count(self%handle, n)
+    if (present(x)) allocate (x(n))
+    if (present(y)) allocate (y(n))
+    if (present(z)) allocate (z(n))
+    if (present(radius)) allocate (radius(n))
+    if (status == rsc_success) status = rsc_asperities_get(self%handle, n, x, y, z, radius)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  subroutine asperities_curvatures(self, kappa1, kappa2, angle, stat, errmsg)
+    class(rsc_asperities), intent(in) :: self
+    real(c_double), intent(out), allocatable, optional :: kappa1(:), kappa2(:), angle(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: n
+    n = 0
+    status = rsc_asperities_count(self%handle, n)
+    if (present(kappa1)) allocate (kappa1(n))
+    if (present(kappa2)) allocate (kappa2(n))
+    if (present(angle)) allocate (angle(n))
+    if (status == rsc_success) status = rsc_asperities_curvatures(self%handle, n, kappa1, kappa2, angle)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine asperities_copy(self, original)
+    class(rsc_asperities), intent(inout) :: self
+    class(rsc_asperities), intent(in) :: original
+    integer(c_int32_t) :: status
+    if (c_associated(self%handle, original%handle)) return
+    status = rsc_asperities_destroy(self%handle)
+    if (.not. c_associated(original%handle)) return
+    status = rsc_asperities_copy(self%handle, original%handle)
+    call finish(status)
+  end subroutine
+
+  impure elemental subroutine asperities_final(self)
+    type(rsc_asperities), intent(inout) :: self
+    integer(c_int32_t) :: status
+    status = rsc_asperities_destroy(self%handle)
+  end subroutine
+
+  ! --- contact -------------------------------------------------------------------------------------------------------------------------
+
+  !> A sphere of radius R (infinite: flat) with its tip above (x0, y0), and the equivalent modulus E*.
+  subroutine contact_create(self, asperities, E_star, R, x0, y0, options, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    class(rsc_asperities), intent(in) :: asperities
+    real(c_double), intent(in) :: E_star, R, x0, y0
+    class(rsc_case), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    status = rsc_contact_destroy(self%handle)
+    status = rsc_contact_create(self%handle, asperities%handle, E_star, R, x0, y0, options_of(options))
+    if (status == rsc_success) status = rsc_asperities_count(asperities%handle, self%asperities)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> The same by the keys of &solids and &indentation.
+  subroutine contact_create_from_case(self, asperities, options, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    class(rsc_asperities), intent(in) :: asperities
+    class(rsc_case), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    status = rsc_contact_destroy(self%handle)
+    status = rsc_contact_create_from_case(self%handle, asperities%handle, options_of(options))
+    if (status == rsc_success) status = rsc_asperities_count(asperities%handle, self%asperities)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  subroutine contact_move_tip(self, x0, y0, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    real(c_double), intent(in) :: x0, y0
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_contact_move_tip(self%handle, x0, y0), stat, errmsg)
+  end subroutine
+
+  subroutine contact_tip(self, x0, y0, stat, errmsg)
+    class(rsc_contact), intent(in) :: self
+    real(c_double), intent(out), optional :: x0, y0
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_contact_tip(self%handle, x0, y0), stat, errmsg)
+  end subroutine
+
+  !> Separation at which the sphere, coming down, touches its first asperity.
+  function contact_first_touch(self, stat, errmsg) result(separation)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: separation
+    separation = 0
+    call finish(rsc_contact_first_touch(self%handle, separation), stat, errmsg)
+  end function
+
+  !> The contact at a separation.
+  subroutine contact_indent(self, separation, force, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    real(c_double), intent(in) :: separation
+    real(c_double), intent(out), optional :: force
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_contact_indent(self%handle, separation, force), stat, errmsg)
+  end subroutine
+
+  !> The contact under a force.
+  subroutine contact_press(self, force, separation, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    real(c_double), intent(in) :: force
+    real(c_double), intent(out), optional :: separation
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_contact_press(self%handle, force, separation), stat, errmsg)
+  end subroutine
+
+  !> Z0 of the last level.
+  function contact_separation(self, stat, errmsg) result(separation)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: separation
+    separation = 0
+    call finish(rsc_contact_result(self%handle, separation=separation), stat, errmsg)
+  end function
+
+  !> N of the last level.
+  function contact_force(self, stat, errmsg) result(force)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: force
+    force = 0
+    call finish(rsc_contact_result(self%handle, force=force), stat, errmsg)
+  end function
+
+  !> A of the last level.
+  function contact_area(self, stat, errmsg) result(area)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: area
+    area = 0
+    call finish(rsc_contact_result(self%handle, area=area), stat, errmsg)
+  end function
+
+  !> Number of asperities in contact.
+  function contact_contacts(self, stat, errmsg) result(n)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer :: n
+    integer(c_int64_t) :: contacts
+    contacts = 0
+    call finish(rsc_contact_result(self%handle, contacts=contacts), stat, errmsg)
+    n = int(contacts)
+  end function
+
+  !> dN/dZ0 of the last level.
+  function contact_stiffness(self, stat, errmsg) result(stiffness)
+    class(rsc_contact), intent(inout) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: stiffness
+    stiffness = 0
+    call finish(rsc_contact_stiffness(self%handle, stiffness), stat, errmsg)
+  end function
+
+  !> Elastic energy W of the last level, dW/dZ0 = -N.
+  function contact_energy(self, stat, errmsg) result(energy)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: energy
+    energy = 0
+    call finish(rsc_contact_energy(self%handle, energy), stat, errmsg)
+  end function
+
+  !> How the last level was reached; level_status is one of the rsc_level_* codes.
+  subroutine contact_level(self, level_status, candidates, iterations, overlapping_pairs, residual, stat, errmsg)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), optional :: level_status, candidates, iterations, overlapping_pairs
+    real(c_double), intent(out), optional :: residual
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status, quality
+    integer(c_int64_t) :: n(3)
+    quality = 0
+    n = 0
+    status = rsc_contact_level(self%handle, quality, n(1), n(2), n(3), residual)
+    if (present(level_status)) level_status = int(quality)
+    if (present(candidates)) candidates = int(n(1))
+    if (present(iterations)) iterations = int(n(2))
+    if (present(overlapping_pairs)) overlapping_pairs = int(n(3))
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> The contacts of the last level: number of the asperity, force, contact radius, penetration.
+  subroutine contact_spots(self, asperity, force, radius, penetration, stat, errmsg)
+    class(rsc_contact), intent(in) :: self
+    integer, intent(out), allocatable, optional :: asperity(:)
+    real(c_double), intent(out), allocatable, optional :: force(:), radius(:), penetration(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: n
+    integer(c_int32_t), allocatable :: which(:)
+    n = 0
+    status = rsc_contact_result(self%handle, contacts=n)
+    allocate (which(n))
+    if (present(force)) allocate (force(n))
+    if (present(radius)) allocate (radius(n))
+    if (present(penetration)) allocate (penetration(n))
+    if (status == rsc_success) status = rsc_contact_spots(self%handle, n, which, force, radius, penetration)
+    if (present(asperity)) asperity = int(which) + 1
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> The same for every asperity, 0 where there is no contact; the arrays are as long as there are asperities.
+  subroutine contact_per_asperity(self, force, radius, penetration, stat, errmsg)
+    class(rsc_contact), intent(in) :: self
+    real(c_double), intent(out), contiguous, optional :: force(:), radius(:), penetration(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    logical :: same
+    same = .true.
+    if (present(force)) same = same .and. size(force) == self%asperities
+    if (present(radius)) same = same .and. size(radius) == self%asperities
+    if (present(penetration)) same = same .and. size(penetration) == self%asperities
+    if (.not. same) then
+      call refuse('contact%per_asperity: the size of an array is not the number of asperities', stat, errmsg)
+      return
+    end if
+    call finish(rsc_contact_per_asperity(self%handle, self%asperities, force, radius, penetration), stat, errmsg)
+  end subroutine
+
+  !> The lowering of the surface at points (x, y) by the contact forces.
+  subroutine contact_deflection(self, x, y, deflection, stat, errmsg)
+    class(rsc_contact), intent(in) :: self
+    real(c_double), intent(in) :: x(:), y(:)
+    real(c_double), intent(out), contiguous :: deflection(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (size(y) /= size(x) .or. size(deflection) /= size(x)) then
+      call refuse('contact%deflection: the arrays are not of one size', stat, errmsg)
+      return
+    end if
+    call finish(rsc_contact_deflection(self%handle, size(x, kind=c_int64_t), x, y, deflection), stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine contact_copy(self, original)
+    class(rsc_contact), intent(inout) :: self
+    class(rsc_contact), intent(in) :: original
+    integer(c_int32_t) :: status
+    if (c_associated(self%handle, original%handle)) return
+    status = rsc_contact_destroy(self%handle)
+    self%asperities = original%asperities
+    if (.not. c_associated(original%handle)) return
+    status = rsc_contact_copy(self%handle, original%handle)
+    call finish(status)
+  end subroutine
+
+  impure elemental subroutine contact_final(self)
+    type(rsc_contact), intent(inout) :: self
+    integer(c_int32_t) :: status
+    status = rsc_contact_destroy(self%handle)
+  end subroutine
+
+end module rsc

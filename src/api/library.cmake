@@ -1,0 +1,84 @@
+# The libraries a program links, and what an installation holds: rsc.h, librsc shared and static, the Fortran module as source and compiled,
+# a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set_target_properties(rsc_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+set(rsc_dependencies LAPACK::LAPACK OpenMP::OpenMP_CXX PkgConfig::FFTW PkgConfig::NETCDF)
+
+add_library(rsc_shared SHARED $<TARGET_OBJECTS:rsc_core>)
+set_target_properties(rsc_shared PROPERTIES OUTPUT_NAME rsc EXPORT_NAME rsc VERSION ${PROJECT_VERSION}
+                      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LINKER_LANGUAGE CXX)
+target_link_libraries(rsc_shared PRIVATE $<BUILD_INTERFACE:${rsc_dependencies}>)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")  # templates of the C++ library would be visible otherwise
+  set(rsc_symbols ${CMAKE_CURRENT_LIST_DIR}/rsc.map)
+  target_link_options(rsc_shared PRIVATE "LINKER:--version-script=${rsc_symbols}")
+  set_target_properties(rsc_shared PROPERTIES LINK_DEPENDS ${rsc_symbols})
+endif()
+
+add_library(rsc_static STATIC $<TARGET_OBJECTS:rsc_core>)
+set_target_properties(rsc_static PROPERTIES OUTPUT_NAME rsc EXPORT_NAME static LINKER_LANGUAGE CXX)
+target_link_libraries(rsc_static PUBLIC "$<BUILD_INTERFACE:${rsc_dependencies}>"
+                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;OpenMP::OpenMP_CXX;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf>")
+
+foreach(library rsc_shared rsc_static)
+  target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endforeach()
+add_library(rsc::rsc ALIAS rsc_shared)
+add_library(rsc::static ALIAS rsc_static)
+
+set(rsc_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/rsc)
+install(TARGETS rsc RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS rsc_shared EXPORT rscTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS rsc_static EXPORT rscStaticTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/src/rsc.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT rscTargets NAMESPACE rsc:: DESTINATION ${rsc_package_folder})
+install(EXPORT rscStaticTargets NAMESPACE rsc:: DESTINATION ${rsc_package_folder})
+
+set(rsc_fortran_root ${CMAKE_INSTALL_LIBDIR}/fortran/modules)
+if(RSC_FORTRAN)
+  enable_language(Fortran)
+  # A .mod file can be read by the compiler that wrote it only: its folder says which that is, and the source lies beside it.
+  string(REGEX MATCH "^[0-9]+" compiler_version "${CMAKE_Fortran_COMPILER_VERSION}")
+  string(TOLOWER "${CMAKE_Fortran_COMPILER_ID}" compiler_name)
+  string(REPLACE "gnu" "gfortran" compiler_name "${compiler_name}")
+  set(rsc_fortran_folder ${rsc_fortran_root}/${compiler_name}-${compiler_version})
+
+  add_library(rsc_fortran STATIC ${PROJECT_SOURCE_DIR}/modules/rsc.f90)
+  set(modules ${PROJECT_BINARY_DIR}/modules)
+  set_target_properties(rsc_fortran PROPERTIES Fortran_MODULE_DIRECTORY ${modules} EXPORT_NAME fortran)
+  target_compile_options(rsc_fortran PRIVATE $<$<Fortran_COMPILER_ID:GNU>:-std=f2018 -Wall -Wextra>)
+  target_include_directories(rsc_fortran INTERFACE $<BUILD_INTERFACE:${modules}> $<INSTALL_INTERFACE:${rsc_fortran_folder}>)
+  target_link_libraries(rsc_fortran PUBLIC rsc_shared)
+  add_library(rsc::fortran ALIAS rsc_fortran)
+  install(TARGETS rsc_fortran EXPORT rscFortranTargets ARCHIVE DESTINATION ${rsc_fortran_folder})
+  install(EXPORT rscFortranTargets NAMESPACE rsc:: DESTINATION ${rsc_package_folder})
+  install(FILES ${modules}/rsc.mod ${PROJECT_SOURCE_DIR}/modules/rsc.f90 ${PROJECT_SOURCE_DIR}/modules/rsc_results.f90
+          DESTINATION ${rsc_fortran_folder})
+endif()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rscConfig.cmake.in ${PROJECT_BINARY_DIR}/rscConfig.cmake
+                              INSTALL_DESTINATION ${rsc_package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/rscConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/rscConfig.cmake ${PROJECT_BINARY_DIR}/rscConfigVersion.cmake DESTINATION ${rsc_package_folder})
+
+# pkg-config: folders relative to the .pc file, so that an installation may be moved.
+string(REGEX REPLACE "[^/]+" ".." rsc_up "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+set(rsc_private_libraries "")
+foreach(library ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
+  if(library MATCHES "lib([^/]+)\\.(so|a|dylib)$")
+    list(APPEND rsc_private_libraries "-l${CMAKE_MATCH_1}")
+  elseif(NOT library MATCHES "::")
+    list(APPEND rsc_private_libraries "${library}")
+  endif()
+endforeach()
+list(APPEND rsc_private_libraries ${OpenMP_CXX_FLAGS} -lstdc++ -lm)
+list(REMOVE_DUPLICATES rsc_private_libraries)
+list(JOIN rsc_private_libraries " " rsc_private_libraries)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/rsc.pc.in ${PROJECT_BINARY_DIR}/rsc.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/rsc.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(RSC_FORTRAN)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/rsc_fortran.pc.in ${PROJECT_BINARY_DIR}/rsc_fortran.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/rsc_fortran.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()

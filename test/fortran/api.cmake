@@ -1,0 +1,21 @@
+# The Fortran module of the library.
+add_executable(test_api_fortran test_api.f90)
+target_link_libraries(test_api_fortran PRIVATE rsc::fortran)
+target_compile_options(test_api_fortran PRIVATE -fcheck=all -Wall -Wno-compare-reals)
+add_test(NAME fortran.api COMMAND test_api_fortran)
+
+add_executable(test_api_stop test_api_stop.f90)
+target_link_libraries(test_api_stop PRIVATE rsc::fortran)
+add_test(NAME fortran.api_stop COMMAND test_api_stop)
+set_tests_properties(fortran.api fortran.api_stop PROPERTIES LABELS fortran TIMEOUT 60)
+set_tests_properties(fortran.api_stop PROPERTIES PASS_REGULAR_EXPRESSION "ERROR STOP rsc: [^\n]*sigma"
+                     FAIL_REGULAR_EXPRESSION "went on after a failure")
+
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  set(check_interface ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/check_interface.py)
+  set(interface ${PROJECT_SOURCE_DIR}/src/rsc.h ${PROJECT_SOURCE_DIR}/modules/rsc.f90)
+  add_test(NAME fortran.interface COMMAND ${check_interface} ${interface})
+  add_test(NAME fortran.interface_check_itself COMMAND ${check_interface} --self-test ${interface})
+  set_tests_properties(fortran.interface fortran.interface_check_itself PROPERTIES LABELS fortran)
+endif()

@@ -1,0 +1,238 @@
+! The Fortran module: values against closed forms, arrays of every kind, failures told and not told, copies, finalisers.
+program test_api
+  use rsc
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  implicit none
+  real(dp), parameter :: pi = acos(-1.0_dp), E = 2.0e5_dp, u = 1.0e-3_dp
+  integer :: checks = 0, failures = 0
+
+  call options_by_name()
+  call one_asperity()
+  call many_asperities()
+  call surfaces()
+  call misuse()
+  call lifetimes()
+  print '(i0,a,i0,a)', checks, ' checks, ', failures, ' failed'
+  if (failures > 0) error stop 'test_api'
+
+contains
+
+  subroutine check(ok, what)
+    logical, intent(in) :: ok
+    character(*), intent(in) :: what
+    checks = checks + 1
+    if (ok) return
+    failures = failures + 1
+    print '(2a)', 'failed: ', what
+  end subroutine
+
+  subroutine close_to(a, b, relative, what)
+    real(dp), intent(in) :: a, b, relative
+    character(*), intent(in) :: what
+    call check(abs(a - b) <= relative * abs(b), what)
+  end subroutine
+
+  subroutine options_by_name()
+    type(rsc_case) :: options, other
+    character(200) :: errmsg
+    integer :: stat
+    call options%set('surface%sigma', 0.02_dp)
+    call options%set('surface%n', 4096)
+    call options%set('surface%plateau', .true.)
+    call options%set('solver%method', "'direct'")
+    call check(options%get('surface%sigma') == '0.02', 'real by name')
+    call check(options%get('Surface%N ') == '4096', 'integer by name')
+    call check(options%get('surface%plateau') == '.true.', 'logical by name')
+    call check(options%get('solver%method') == "'direct'", 'text by name')
+    call other%read(options%text())
+    call check(other%text() == options%text(), 'case as text and back')
+    call options%set('solids%E(1)', 1.0_dp / 3)  ! every bit of it
+    other = options
+    call options%set('solids%E(1)', 2.0_dp)
+    call check(other%get('solids%E(1)') == '0.3333333333333333', 'an assigned case is a copy')
+    errmsg = 'untouched'
+    call options%set('surface%n', 128, stat, errmsg)
+    call check(stat == 0 .and. errmsg == 'untouched', 'errmsg keeps its value without failure')
+    call options%set('surface%simga', 1, stat, errmsg)
+    call check(stat < 0 .and. index(errmsg, 'sigma') > 0, 'unknown name')
+    call options%read('&surface n = 64 /', stat)
+    call check(stat < 0 .and. options%get('surface%n') == '128', 'a refused text changes nothing')
+    call check(index(rsc_library_version(), '.') > 0, 'version')
+  end subroutine
+
+  subroutine one_asperity()
+    type(rsc_asperities) :: asperities
+    type(rsc_contact) :: contact
+    type(rsc_case) :: options
+    real(dp) :: N, f, Z, w(2)
+    real(dp), allocatable :: force(:), radius(:), penetration(:)
+    integer, allocatable :: which(:)
+    integer :: level_status, candidates
+    call options%set('solver%tolerance', 1.0e-11_dp)
+    call asperities%take([0.0_dp], [0.0_dp], [0.0_dp], [0.3_dp])
+    call contact%create(asperities, E, 5.0_dp, 0.0_dp, 0.0_dp, options)
+    call contact%indent(-u, N)
+    f = 4.0_dp / 3 * E * sqrt(0.3_dp) * u**1.5_dp
+    call close_to(N, f, 1e-13_dp, 'force of Hertz')
+    call close_to(contact%force(), f, 1e-13_dp, 'force read back')
+    call close_to(contact%area(), pi * 0.3_dp * u, 1e-13_dp, 'area of Hertz')
+    call close_to(contact%stiffness(), -2 * E * sqrt(0.3_dp * u), 1e-12_dp, 'stiffness of Hertz')
+    call close_to(contact%energy(), 0.4_dp * f * u, 1e-12_dp, 'energy of Hertz')
+    call check(contact%contacts() == 1 .and. contact%separation() >= -u .and. contact%separation() <= -u, 'level read back')
+    call contact%spots(which, force, radius, penetration)
+    call check(size(which) == 1 .and. which(1) == 1, 'asperities count from 1')
+    call close_to(penetration(1), u, 1e-12_dp, 'penetration')
+    call close_to(radius(1)**2, 0.3_dp * u, 1e-12_dp, 'radius')
+    call contact%deflection([0.0_dp, 3.0_dp], [0.0_dp, 4.0_dp], w)
+    call close_to(w(1), u, 1e-12_dp, 'deflection at the summit')
+    call close_to(w(2), f / (pi * E * 5), 1e-12_dp, 'deflection far away')
+    call contact%level(level_status, candidates)
+    call check(level_status == rsc_level_converged .and. candidates == 1, 'level status')
+    call contact%press(f, Z)
+    call close_to(Z, -u, 1e-9_dp, 'separation under a force')
+    call contact%move_tip(0.05_dp, 0.0_dp)
+    call close_to(contact%first_touch(), sqrt(25 - 0.05_dp**2) - 5, 1e-9_dp, 'first touch beside the summit')
+  end subroutine
+
+  ! Sections that are not contiguous; the sum rule; a copy works on its own.
+  subroutine many_asperities()
+    integer, parameter :: n = 400
+    real(dp) :: xyzr(4, n), force(n), radius(n), x(1), w(1)
+    real(dp), allocatable :: got(:), f(:)
+    integer, allocatable :: which(:)
+    type(rsc_asperities) :: asperities
+    type(rsc_contact) :: contact, other
+    integer :: i
+    do i = 1, n
+      xyzr(1, i) = mod(i - 1, 20) * 0.05_dp
+      xyzr(2, i) = ((i - 1) / 20) * 0.05_dp
+      xyzr(3, i) = 0.01_dp * sin(12.3_dp * i)
+      xyzr(4, i) = 0.003_dp * (1 + 0.5_dp * cos(3.1_dp * i))
+    end do
+    call asperities%take(xyzr(1, :), xyzr(2, :), xyzr(3, :), xyzr(4, :))
+    call check(asperities%count() == n, 'count')
+    call asperities%get(radius=got)
+    call check(all(got >= xyzr(4, :)) .and. all(got <= xyzr(4, :)), 'radii read back')
+    call contact%create(asperities, 9.0e4_dp, 20.0_dp, 0.475_dp, 0.475_dp)
+    call contact%indent(0.0_dp)
+    call contact%per_asperity(force=force, radius=radius)
+    call close_to(sum(force), contact%force(), 1e-12_dp, 'forces add up')
+    call close_to(pi * sum(radius**2), contact%area(), 1e-12_dp, 'areas add up')
+    call contact%spots(which, f)
+    call check(size(which) == count(force > 0) .and. all(f >= force(which)) .and. all(f <= force(which)), 'both kinds of arrays')
+    x = [2.0_dp]
+    call contact%deflection(x, x, w)
+    call close_to(w(1), sum(force / sqrt((xyzr(1, :) - 2)**2 + (xyzr(2, :) - 2)**2)) / (pi * 9.0e4_dp), 1e-12_dp, 'deflection')
+    other = contact
+    call other%indent(0.0_dp)
+    call close_to(other%force(), contact%force(), 1e-9_dp, 'a copied contact')
+  end subroutine
+
+  subroutine surfaces()
+    type(rsc_case) :: options
+    type(rsc_surface) :: surface, other
+    type(rsc_asperities) :: found, made
+    type(rsc_contact) :: contact
+    real(dp), allocatable :: z(:,:), a(:), b(:), k1(:), k2(:)
+    real(dp) :: m0, dx, N, rms
+    integer :: nx, ny
+    logical :: periodic
+    call options%set('surface%n', 128)
+    call options%set('surface%L_lambda_l', 4.0_dp)
+    call options%set('surface%L_lambda_s', 32.0_dp)
+    call surface%synthesize(options, realization=2)
+    call surface%grid(nx, ny, dx, periodic=periodic)
+    call check(nx == 128 .and. ny == 128 .and. periodic, 'grid')
+    allocate (z(nx, ny))
+    call surface%heights(z)
+    call surface%moments(m0)
+    call close_to(sqrt(m0), 0.01_dp, 1e-10_dp, 'rms height')
+    call found%find(surface, options)
+    call made%make(options, realization=2)
+    call found%get(z=a)
+    call made%get(z=b)
+    call check(size(a) == size(b) .and. size(a) > 100, 'asperities')
+    call check(all(a >= b .and. a <= b), 'found and made are the same')
+    call found%curvatures(k1, k2)
+    call check(all(k1 >= k2 .and. k2 > 0), 'curvatures')
+    ! z(i,j): the first index is x. A ridge along y has its rows equal.
+    other = surface
+    call surface%take(reshape([1, 2, 3, 1, 2, 3, 1, 2, 3] * 1.0_dp, [3, 3]), dx)
+    call surface%heights(z(:3, :3))
+    call check(all(abs(z(2, :3) - 2) < 1e-15_dp), 'x is the first index')
+    call surface%detrend('plane', rms)
+    call check(rms < 1e-12_dp, 'a plane is taken away')
+    call other%grid(nx)
+    call check(nx == 128, 'an assigned surface is a copy')
+    call contact%create_from_case(found, options)
+    call contact%indent(0.02_dp, N)
+    call check(N > 0, 'contact from a case')
+  end subroutine
+
+  subroutine misuse()
+    type(rsc_asperities) :: asperities
+    type(rsc_contact) :: contact
+    type(rsc_surface) :: surface
+    real(dp) :: one(1), two(2), square(1, 1), N
+    integer :: stat
+    character(100) :: errmsg
+    one = 1
+    two = [1.0_dp, 2.0_dp]
+    N = asperities%count(stat)
+    call check(stat < 0, 'nothing taken yet')
+    call contact%indent(0.0_dp, stat=stat, errmsg=errmsg)
+    call check(stat < 0 .and. index(errmsg, 'contact') > 0, 'nothing created yet')
+    call contact%create(asperities, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, stat=stat)
+    call check(stat < 0, 'no asperities')
+    call surface%heights(square, stat)
+    call check(stat < 0, 'no surface')
+    call asperities%take(two, two, two, one, stat=stat, errmsg=errmsg)
+    call check(stat < 0 .and. index(errmsg, 'size') > 0, 'sizes')
+    call asperities%take([1.0_dp, 1.0_dp], [1.0_dp, 1.0_dp], two, two, stat=stat, errmsg=errmsg)
+    call check(stat < 0 .and. index(errmsg, 'same place') > 0, 'coincident points')
+    call asperities%take(two, two, two, two, kappa1=two, stat=stat)
+    call check(stat < 0, 'curvatures go together')
+    call asperities%take(one, one, one, -one, stat=stat)
+    call check(stat < 0, 'negative radius')
+    call asperities%take(one, one, one, one)
+    call contact%create(asperities, -1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, stat=stat)
+    call check(stat < 0, 'negative modulus')
+    call contact%create(asperities, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp)
+    N = contact%force(stat)
+    call check(stat == rsc_no_result, 'no result yet')
+    call contact%indent(0.5_dp, N, stat)
+    call check(stat == 0 .and. N > 0, 'works after failures')
+    call contact%per_asperity(force=two, stat=stat, errmsg=errmsg)
+    call check(stat < 0 .and. index(errmsg, 'size') > 0, 'array too long')
+    call contact%deflection(two, two, one, stat)
+    call check(stat < 0, 'arrays of several sizes')
+  end subroutine
+
+  ! Many objects made, made again, and left: a leak or a double release shows under valgrind or AddressSanitizer.
+  subroutine lifetimes()
+    integer :: k
+    do k = 1, 50
+      call one_life(k)
+    end do
+    call check(.true., 'lifetimes')
+  end subroutine
+
+  subroutine one_life(k)
+    integer, intent(in) :: k
+    type(rsc_asperities) :: asperities, several(3)
+    type(rsc_contact) :: contact
+    type(rsc_contact), allocatable :: other
+    real(dp) :: N, M
+    call asperities%take([1.0_dp * k], [0.0_dp], [0.0_dp], [1.0_dp])
+    several = asperities
+    call asperities%take([0.0_dp], [0.0_dp], [0.0_dp], [1.0_dp])
+    asperities = asperities
+    call contact%create(several(2), E, 10.0_dp, 1.0_dp * k, 0.0_dp)
+    allocate (other)
+    other = contact
+    call contact%create(asperities, E, 10.0_dp, 0.0_dp, 0.0_dp)
+    call contact%indent(-u, N)
+    call other%indent(-u, M)
+    call close_to(M, N, 1e-10_dp, 'copies outlive what they came from')
+  end subroutine
+end program
