@@ -9,6 +9,7 @@
 #include "contact/dgesv.hpp"
 #include "contact/mesh.hpp"
 #include "contact/pairs.hpp"
+#include "contact/ranking.hpp"
 #include "contact/uniqueness.hpp"
 #include "error.hpp"
 
@@ -22,30 +23,13 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-double height_under_sphere(const Indenter& indenter, double x, double y, double z) {
-    if (std::isinf(indenter.R)) return z;
-    const double dx = x - indenter.x0, dy = y - indenter.y0, rho2 = dx * dx + dy * dy, R = indenter.R;
-    if (rho2 > R * R) return -kInfinity;
-    return z - rho2 / (R + std::sqrt(R * R - rho2));  // sqrt(R^2 - rho^2) - R without its cancellation
-}
-
 struct Contact::Impl {
     const Asperities& asperities;
     Indenter indenter;
     SolverOptions options;
     std::unique_ptr<Law> law;
 
-    // Asperities by falling height under the sphere, so that the candidates of a level are the first ones; sorted as far as the
-    // deepest level asked for.
-    struct Ranked {
-        double height;
-        int asperity;
-        bool operator<(const Ranked& other) const {
-            return height != other.height ? height > other.height : asperity < other.asperity;
-        }
-    };
-    std::vector<Ranked> ranked;
-    std::size_t sorted = 0;
+    Ranking ranking;
 
     // The candidates of the level at hand, and the answer.
     WorkingSet candidates;
@@ -85,8 +69,7 @@ struct Contact::Impl {
             throw Error(Failure::bad_input, "E* must be positive and finite");
         }
         if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
-        ranked.reserve(asperities.size());
-        rank_heights();
+        ranking.assign(asperities, indenter);
     }
 
     double E_star() const { return direct->modulus(); }
@@ -94,25 +77,15 @@ struct Contact::Impl {
     void use(Method how);
     Method choose() const;
 
-    void rank_heights();
     void carry();
     void select(double Z0);
-    NewtonOutcome solve_from(const Vector& start);
+    NewtonOutcome solve_from(const Vector& start, bool rough_start);
     bool predict(double Z0, Vector& start) const;
     Vector cold_start();
     bool one_solution() const { return has_one_solution(*law, E_star(), candidates.asperity, candidates.x, candidates.y, v, force, slope); }
     void remember(double Z0, bool unique);
     Level report(double Z0) const;
 };
-
-void Contact::Impl::rank_heights() {
-    ranked.clear();
-    sorted = 0;
-    for (std::size_t i = 0; i < asperities.size(); ++i) {
-        const double h = height_under_sphere(indenter, asperities.x[i], asperities.y[i], asperities.z[i]);
-        if (h > -kInfinity) ranked.push_back({h, static_cast<int>(i)});
-    }
-}
 
 // Ranks lose their meaning when the tip moves: the last level is kept by asperity.
 void Contact::Impl::carry() {
@@ -130,15 +103,9 @@ void Contact::Impl::carry() {
 // Candidates: g0 > 0; B F >= 0 only lowers the surface, so nothing else can touch. The paper's selection drops also those outside
 // r0 = 1.5 sqrt(2 (4 sigma - Z0) R).
 void Contact::Impl::select(double Z0) {
-    const auto rest = ranked.begin() + static_cast<std::ptrdiff_t>(sorted);
-    const auto end = std::partition(rest, ranked.end(), [Z0](const Ranked& r) { return r.height > Z0; });
-    std::sort(rest, end);
     std::vector<int> fresh;
-    for (auto r = rest; r != end; ++r) fresh.push_back(r->asperity);
+    const std::size_t last = ranking.above(Z0, fresh);
     law->prepare(fresh);
-    sorted = static_cast<std::size_t>(end - ranked.begin());
-    const auto last = std::partition_point(ranked.begin(), end, [Z0](const Ranked& r) { return r.height > Z0; });
-
     double r0_squared = kInfinity;
     if (options.selection == Selection::paper) {
         const double depth = std::max(0.0, 4 * options.sigma - Z0);
@@ -146,15 +113,15 @@ void Contact::Impl::select(double Z0) {
     }
     candidates = {};
     rank.clear();
-    for (auto r = ranked.begin(); r != last; ++r) {
-        const auto i = at(r->asperity);
+    for (std::size_t r = 0; r < last; ++r) {
+        const auto i = at(ranking[r].asperity);
         const double dx = asperities.x[i] - indenter.x0, dy = asperities.y[i] - indenter.y0;
         if (dx * dx + dy * dy > r0_squared) continue;
-        rank.push_back(static_cast<std::size_t>(r - ranked.begin()));
-        candidates.asperity.push_back(r->asperity);
+        rank.push_back(r);
+        candidates.asperity.push_back(ranking[r].asperity);
         candidates.x.push_back(asperities.x[i]);
         candidates.y.push_back(asperities.y[i]);
-        candidates.g0.push_back(r->height - Z0);
+        candidates.g0.push_back(ranking[r].height - Z0);
     }
 }
 
@@ -212,12 +179,17 @@ Vector Contact::Impl::cold_start() {
 }
 
 // From a start over the candidates to the solution v, force, slope over the candidates. Candidates far from touching are left out
-// of the working set, checked at the end, and taken in where they do touch after all.
-NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
+// of the working set, checked at the end, and taken in where they do touch after all. After a rough start the set is drawn anew as
+// soon as the solution is known to some ten per cent.
+NewtonOutcome Contact::Impl::solve_from(const Vector& start, bool rough_start) {
     const std::size_t n = at(candidates.size());
-    const double highest = *std::max_element(start.begin(), start.end());
     std::vector<char> in(n);
-    for (std::size_t k = 0; k < n; ++k) in[k] = method == Method::mesh || start[k] > -0.1 * highest;
+    const auto draw = [&](const Vector& penetration) {
+        const double highest = *std::max_element(penetration.begin(), penetration.end());
+        for (std::size_t k = 0; k < n; ++k) in[k] = method == Method::mesh || penetration[k] > -0.03 * highest;
+    };
+    draw(start);
+    bool settle = !rough_start || method == Method::mesh;
     v = start;
     NewtonOutcome total;
     std::vector<std::size_t> inside, outside;
@@ -240,7 +212,8 @@ NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
             working_v.push_back(v[k]);
         }
         products->set_points(working.size(), working.x.data(), working.y.data());
-        const auto outcome = newton.solve(working, options.tolerance, options.max_iterations - total.iterations, working_v);
+        const double tolerance = settle ? options.tolerance : std::max(options.tolerance, 0.1);
+        const auto outcome = newton.solve(working, tolerance, options.max_iterations - total.iterations, working_v, settle);
         total.iterations += outcome.iterations;
         total.converged = outcome.converged;
         total.minimum = outcome.minimum;
@@ -252,7 +225,7 @@ NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
             slope[inside[k]] = newton.slope()[k];
             v[inside[k]] = working_v[k] > 0 ? working_v[k] : candidates.g0[inside[k]] - newton.phi()[k];
         }
-        if (outside.empty()) break;
+        if (outside.empty() && settle) break;
         xo.clear();
         yo.clear();
         for (std::size_t k : outside) {
@@ -261,9 +234,14 @@ NewtonOutcome Contact::Impl::solve_from(const Vector& start) {
         }
         phi.resize(outside.size());
         newton.potential_at(outside.size(), xo.data(), yo.data(), phi.data());
+        for (std::size_t k = 0; k < outside.size(); ++k) v[outside[k]] = candidates.g0[outside[k]] - phi[k];
+        if (!settle) {
+            settle = true;
+            draw(v);
+            continue;
+        }
         bool complete = true;
         for (std::size_t k = 0; k < outside.size(); ++k) {
-            v[outside[k]] = candidates.g0[outside[k]] - phi[k];
             // Single precision decides only what it can: within its error of touching, the point joins the working set.
             if (v[outside[k]] > -1e-4 * phi[k]) {
                 in[outside[k]] = 1;
@@ -397,13 +375,13 @@ Level Contact::at_separation(double Z0) {
     } else {
         Vector start;
         if (my.predict(Z0, start)) {
-            outcome = my.solve_from(start);
+            outcome = my.solve_from(start, false);
             iterations = outcome.iterations;
             unique = outcome.converged && my.one_solution();
         }
     }
     if (!unique) {  // the rule that defines the answer: from the no-interaction start, downhill to a minimum
-        outcome = my.solve_from(my.cold_start());
+        outcome = my.solve_from(my.cold_start(), true);
         iterations += outcome.iterations;
         unique = outcome.converged && my.one_solution();
     }
@@ -422,12 +400,11 @@ Level Contact::at_separation(double Z0) {
 Level Contact::at_force(double N) {
     Impl& my = *impl_;
     if (!(N > 0) || !std::isfinite(N)) throw Error(Failure::bad_input, "the force must be positive and finite");
-    double above = -kInfinity;  // separations that carry less
-    for (const auto& r : my.ranked) above = std::max(above, r.height);
+    double above = my.ranking.highest();  // separations that carry less
     if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the sphere: no force can be carried");
     double below = -kInfinity;  // separations that carry more
     // A first depth: what the highest asperity alone would need.
-    const auto highest = std::min_element(my.ranked.begin(), my.ranked.end())->asperity;
+    const int highest = my.ranking.highest_asperity();
     my.law->prepare({&highest, 1});
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (my.law->force(highest, depth) < N) depth *= 2;
@@ -478,13 +455,11 @@ void Contact::move_tip(double x0, double y0) {
     impl_->carry();
     impl_->indenter.x0 = x0;
     impl_->indenter.y0 = y0;
-    impl_->rank_heights();
+    impl_->ranking.assign(impl_->asperities, impl_->indenter);
 }
 
 double Contact::first_touch() const {
-    double highest = -kInfinity;
-    for (const auto& r : impl_->ranked) highest = std::max(highest, r.height);
-    return highest;
+    return impl_->ranking.highest();
 }
 
 const Indenter& Contact::indenter() const { return impl_->indenter; }

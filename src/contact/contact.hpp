@@ -8,12 +8,9 @@
 #include "contact/law.hpp"
 #include "contact/newton.hpp"
 #include "contact/products.hpp"
+#include "contact/ranking.hpp"
 
 namespace rsc {
-
-// Penetration without interaction, g0_i = height_i - Z0, of an asperity under the sphere whose tip is at (x0, y0):
-// height_i = z_i + sqrt(R^2 - rho_i^2) - R; -Infinity outside the sphere (rho > R).
-double height_under_sphere(const Indenter& indenter, double x, double y, double z);
 
 class Contact {
 public:

@@ -22,8 +22,12 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-// Fills everything of the state from its v.
-void Newton::evaluate(const WorkingSet& set, State& state) {
+bool Newton::rough_will_do(double residual) const {
+    return products_->inner_error() < 1e-5 && residual > 100 * products_->inner_error();
+}
+
+// Fills everything of the state from its v; in full accuracy if asked, or if the residual turns out too small for less.
+void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
     const int n = set.size();
     for (auto* x : {&state.force, &state.slope, &state.work, &state.phi, &state.res}) x->resize(at(n));
     law_.respond(n, set.asperity.data(), state.v.data(), state.force.data(), state.slope.data(), state.work.data());
@@ -34,7 +38,9 @@ void Newton::evaluate(const WorkingSet& set, State& state) {
     products_->set_active(state.active);
     active_force_.clear();
     for (int k : state.active) active_force_.push_back(state.force[at(k)]);
-    products_->full(active_force_.data(), state.phi.data());
+    if (accurate) products_->full(active_force_.data(), state.phi.data());
+    else products_->inner_everywhere(active_force_.data(), state.phi.data());
+    state.accurate = accurate;
 
     state.energy = state.scale = 0;
     double error2 = 0, force2 = 0;
@@ -50,6 +56,7 @@ void Newton::evaluate(const WorkingSet& set, State& state) {
         force2 += f * f;
     }
     state.residual = force2 > 0 ? std::sqrt(error2 / force2) : (error2 > 0 ? 1.0 : 0.0);
+    if (!accurate && !rough_will_do(state.residual)) evaluate(set, state, true);
 }
 
 void Newton::scale_active(const State& state) {
@@ -136,17 +143,17 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
     }
 }
 
-NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v) {
+NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v, bool settle) {
     NewtonOutcome outcome;
     now_.v = v;
-    evaluate(set, now_);
+    evaluate(set, now_, !rough_will_do(1.0));
     double radius = std::numeric_limits<double>::infinity(), entering = 1.0;
     Step step_now;
     for (;; ++outcome.iterations) {
         outcome.residual = now_.residual;
         if (now_.residual <= tolerance) {
             Vector lowest;
-            outcome.minimum = positive_definite(set, now_, lowest);
+            outcome.minimum = !settle || positive_definite(set, now_, lowest);
             if (outcome.minimum || outcome.iterations >= max_iterations) {
                 outcome.converged = outcome.minimum;
                 break;
@@ -154,7 +161,13 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             leave_saddle(set, lowest);
             continue;
         }
-        if (outcome.iterations >= max_iterations) break;
+        if (outcome.iterations >= max_iterations) {
+            if (!now_.accurate) {
+                evaluate(set, now_, true);
+                outcome.residual = now_.residual;
+            }
+            break;
+        }
         const double forcing =
             std::clamp(std::max(std::min(0.1, std::sqrt(now_.residual)), 0.2 * tolerance / now_.residual), 1e-5, 0.3);
         double size2 = 0;  // |S v|: the natural size of a step
@@ -166,9 +179,13 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             step(set, now_, forcing, radius, entering, step_now);
             trial_.v.resize(now_.v.size());
             for (std::size_t k = 0; k < now_.v.size(); ++k) trial_.v[k] = now_.v[k] + step_now.dv[k];
-            evaluate(set, trial_);
+            // Newton's order is 3/2 at least: that much of the residual is expected to be left.
+            const double expected = std::max(forcing * now_.residual, std::pow(now_.residual, 1.5));
+            evaluate(set, trial_, !rough_will_do(expected));
             const double decrease = now_.energy - trial_.energy;
-            const double noise = std::max(1e-11, products_->full_error()) * (now_.scale + trial_.scale);
+            const bool accurate = now_.accurate && trial_.accurate;
+            const double noise =
+                std::max(1e-11, accurate ? products_->full_error() : products_->inner_error()) * (now_.scale + trial_.scale);
             accepted = decrease >= 1e-4 * step_now.predicted ||
                        (decrease >= -noise && trial_.residual < now_.residual && !step_now.negative_curvature);
             if (!accepted || decrease < 0.1 * step_now.predicted) {
@@ -190,7 +207,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
 
 void Newton::take(const WorkingSet& set, const Vector& v) {
     now_.v = v;
-    evaluate(set, now_);
+    evaluate(set, now_, true);
 }
 
 bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector& w) {
@@ -226,7 +243,7 @@ void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
             for (std::size_t k = 0; k < w.size(); ++k) {
                 trial_.v[at(now_.active[k])] += side * length / largest * w[k] / root_[k];
             }
-            evaluate(set, trial_);
+            evaluate(set, trial_, true);
             if (trial_.energy < now_.energy) {
                 std::swap(now_, trial_);
                 return;

@@ -38,8 +38,9 @@ public:
     // How products with B are taken from now on; they must outlive their use here.
     void use(Products& products) { products_ = &products; }
 
-    // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points.
-    NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v);
+    // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points. Unless it is to
+    // settle, an approximation is all that is wanted: whether it is a minimum is not asked.
+    NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v, bool settle = true);
 
     // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
     void take(const WorkingSet& set, const std::vector<double>& v);
@@ -60,6 +61,7 @@ private:
         std::vector<double> v, force, slope, work, phi, res;
         std::vector<int> active;
         double energy = 0, scale = 0, residual = 0;
+        bool accurate = false;  // phi from a full product
     };
     struct Step {
         std::vector<double> dv;
@@ -68,7 +70,9 @@ private:
         bool border = false, negative_curvature = false;
     };
 
-    void evaluate(const WorkingSet& set, State& state);
+    void evaluate(const WorkingSet& set, State& state, bool accurate);
+    // Whether a residual of this size can be told from inner products.
+    bool rough_will_do(double residual) const;
     void step(const WorkingSet& set, const State& state, double forcing, double radius, double entering, Step& out);
     // Products with I + S B S on the active set.
     void multiply(const std::vector<double>& w, std::vector<double>& out);

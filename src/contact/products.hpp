@@ -25,6 +25,8 @@ public:
     virtual void inner(const double* f, double* phi) = 0;
     // phi = B f at the passive points (those not active, increasing); f over the active list; accuracy of `inner`.
     virtual void inner_passive(const double* f, double* phi) = 0;
+    // phi = B f at every point of the working set, in inner accuracy.
+    void inner_everywhere(const double* f, double* phi);
     // phi = B f of the active points at n other places, in single precision at best.
     virtual void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) = 0;
     // phi = B f at every point of the working set, in full accuracy; f over the active list.
@@ -34,6 +36,7 @@ public:
 
     // Relative error (2-norm) of full products.
     virtual double full_error() const = 0;
+    virtual double inner_error() const = 0;
     const std::vector<int>& active() const { return active_; }
     const std::vector<int>& passive() const { return passive_; }
     long count() const { return count_; }  // products taken so far, a full one counting as one
@@ -44,6 +47,7 @@ protected:
     void complement(int n);
     std::vector<int> active_, passive_;
     double E_star_;
+    std::vector<double> part_;
     long count_ = 0;
 };
 

@@ -14,9 +14,12 @@ public:
     void set_points(int n, const double* x, const double* y) override {
         x_.assign(x, x + n);
         y_.assign(y, y + n);
+        fresh_ = true;
     }
 
     void set_active(const std::vector<int>& active) override {
+        if (!fresh_ && active == active_) return;
+        fresh_ = false;
         active_ = active;
         gather(active_, xa_, ya_);
         set_.assign(active_.size(), xa_.data(), ya_.data());
@@ -66,6 +69,7 @@ public:
     }
 
     double full_error() const override { return 1e-14; }
+    double inner_error() const override { return 1e-6; }
 
 private:
     void gather(const std::vector<int>& which, std::vector<double>& x, std::vector<double>& y) const {
@@ -84,12 +88,21 @@ private:
 
     double scale_;
     bool precise_ = false;
+    bool fresh_ = true;  // the active list belongs to earlier points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
     std::vector<float> f_single_, phi_single_;
     PairSet set_;
 };
 
 }  // namespace
+
+void Products::inner_everywhere(const double* f, double* phi) {
+    part_.resize(std::max(active_.size(), passive_.size()));
+    inner(f, part_.data());
+    for (std::size_t k = 0; k < active_.size(); ++k) phi[active_[k]] = part_[k];
+    inner_passive(f, part_.data());
+    for (std::size_t k = 0; k < passive_.size(); ++k) phi[passive_[k]] = part_[k];
+}
 
 void Products::complement(int n) {
     passive_.clear();

@@ -59,6 +59,7 @@ public:
         std::copy(phi_.begin(), phi_.end(), phi);
     }
 
+    double inner_error() const override { return inner_error_; }
     double full_error() const override { return exact_ ? full_error_ : 1e-14; }
 
 private:

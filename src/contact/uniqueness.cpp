@@ -39,6 +39,17 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
     const std::size_t n = a.size();
     std::vector<double> rho(n), row(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) rho[i] = widening * 2 / std::numbers::pi * a[i];
+    const auto overlap_of = [&](std::size_t i, std::size_t j, double d) {
+        return 2 / std::numbers::pi * std::sqrt(a[i] * a[j]) * (1 / d - shell_energy(rho[i], rho[j], d));
+    };
+    // Gershgorin settles most sets; a cluster with a row it does not settle is factorised whole.
+    for_close_pairs(x, y, rho, [&](std::size_t i, std::size_t j, double d) {
+        const double c = overlap_of(i, j, d);
+        row[i] += c;
+        row[j] += c;
+    });
+    if (std::all_of(row.begin(), row.end(), [](double sum) { return sum < diagonal; })) return true;
+
     std::vector<Coupling> overlap;
     std::vector<std::size_t> parent(n);
     std::iota(parent.begin(), parent.end(), 0);
@@ -47,13 +58,9 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
         return i;
     };
     for_close_pairs(x, y, rho, [&](std::size_t i, std::size_t j, double d) {
-        const double c = 2 / std::numbers::pi * std::sqrt(a[i] * a[j]) * (1 / d - shell_energy(rho[i], rho[j], d));
-        overlap.push_back({i, j, c});
-        row[i] += c;
-        row[j] += c;
+        overlap.push_back({i, j, overlap_of(i, j, d)});
         parent[root(i)] = root(j);
     });
-    // Gershgorin settles most; a cluster with a row it does not settle is factorised whole.
     std::vector<std::size_t> doubtful;
     for (std::size_t i = 0; i < n; ++i) {
         if (!(row[i] < diagonal)) doubtful.push_back(root(i));
@@ -84,8 +91,8 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
                       const std::vector<double>& slope) {
     if (std::isinf(E_star)) return true;
     const std::size_t n = v.size();
-    // Partners beyond `near` contact radii cannot be the other half of a second solution: there (B D) < 0.15.
-    constexpr double near = 3.0;
+    // Partners beyond `near` contact radii cannot be the other half of a second solution: there S B S < 0.16.
+    constexpr double near = 2.0;
     constexpr double touch = 1e-300;  // passive points have no radius of their own but are found by the others' reach
     std::vector<double> reach(n), alone(v), high, low(n), f(force), relief(n);
     for (std::size_t i = 0; i < n; ++i) reach[i] = std::max(near * slope[i] / (2 * E_star), touch);

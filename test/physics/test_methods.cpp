@@ -82,6 +82,10 @@ void methods_agree() {
             const Indenter indenter{kE, family.R, 0.5, 0.5};
             const Level direct = Contact(a, indenter, options(Method::direct)).at_separation(family.separation);
             const Level dgesv = Contact(a, indenter, options(Method::dgesv)).at_separation(family.separation);
+            const Level mesh = Contact(a, indenter, options(Method::mesh)).at_separation(family.separation);
+            CHECK(mesh.status == direct.status);
+            CHECK_CLOSE(mesh.force, direct.force, kTolerance * direct.force);
+            CHECK_CLOSE(mesh.area, direct.area, kTolerance * direct.area);
             CHECK(direct.status != LevelStatus::not_converged);
             CHECK(dgesv.status != LevelStatus::not_converged);
             CHECK(direct.residual <= 1e-10);
