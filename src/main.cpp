@@ -1,39 +1,75 @@
-// The program: `rsc < case.nml`. It turns text into a case and runs it; everything else is in run/.
+// The program: `rsc < case.nml`. It turns text into a case and runs it; everything else is in run/. Built with RSC_MPI it is
+// rsc_mpi.
+#include <cstdlib>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <new>
 
 #include "error.hpp"
+#include "run/campaign_manifest.hpp"
+#include "run/campaign_study.hpp"
 #include "run/options.hpp"
 #include "run/read_case.hpp"
 #include "run/registry.hpp"
-#include "run/run.hpp"
+#include "run/signals.hpp"
+#ifdef RSC_MPI
+#include "run/mpi_team.hpp"
+#endif
 
 // A threaded BLAS sums in an order that depends on its threads; results must not. OpenBLAS has this switch, others need none.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace {
 
-int exit_status(const rsc::Error& error) { return error.kind() == rsc::Failure::bad_input ? 2 : 1; }
+#ifdef RSC_MPI
+using Job = rsc::MpiJob;
+#else
+struct Job {};  // one process
+#endif
 
+// For the attribute `history`. Where bytes are to be the same again (SOURCE_DATE_EPOCH) it is the version only: with --resume or
+// without, by whatever program and threads.
 std::string command_line(int argc, char** argv) {
+    if (std::getenv("SOURCE_DATE_EPOCH")) return {};
     std::string text = "rsc";
     for (int i = 1; i < argc; ++i) text.append(1, ' ').append(argv[i]);
     return text;
 }
 
+std::unique_ptr<rsc::Team> make_team(Job& job, rsc::CampaignWork& work, const rsc::ReadCase& read, std::size_t threads) {
+#ifdef RSC_MPI
+    return job.team(std::ref(work), threads, rsc::effective_namelist(read));
+#else
+    (void)job, (void)read;
+    return std::make_unique<rsc::ThreadTeam>(std::ref(work), static_cast<int>(threads));
+#endif
+}
+
+std::size_t threads_of(const rsc::Case& settings) {
+#ifdef RSC_MPI
+    return rsc::threads_of_rank(settings.run.threads);
+#else
+    return rsc::thread_count(settings.run.threads);
+#endif
+}
+
 // 0: done, 1: some level did not converge.
-int run(const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
+int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
     rsc::RunOptions how;
-    how.case_text = rsc::effective_namelist(read);
     how.command = command;
     how.progress = options.progress;
     how.quiet = options.quiet;
+    how.resume = options.resume;
     how.table = &std::cout;
     how.messages = &std::cerr;
-    return rsc::run_case(read.settings, how) == 0 ? 0 : 1;
+    const std::size_t threads = threads_of(read.settings);
+    rsc::CampaignWork work = rsc::make_work(rsc::members_of(read), how, threads);
+    const std::unique_ptr<rsc::Team> team = make_team(job, work, read, threads);
+    return rsc::run_members(read, options.member, how, work, *team).failed == 0 ? 0 : 1;
 }
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, Job& job) {
     const rsc::Options options = rsc::parse_options(argc, argv);
     if (options.help) {
         std::cout << rsc::usage_text();
@@ -49,23 +85,29 @@ int run_program(int argc, char** argv) {
     }
     const rsc::ReadCase read = rsc::read_case(options);
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
+    if (options.list) {
+        if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");
+        std::cout << rsc::list_members(rsc::members_of(read));
+        return 0;
+    }
     if (options.check) {
+        rsc::members_of(read);  // throws for members that are wrong
         std::cout << rsc::effective_namelist(read);
         return 0;
     }
-    return run(options, read, command_line(argc, argv));
+    return run(job, options, read, command_line(argc, argv));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    if (openblas_set_num_threads) openblas_set_num_threads(1);
-    std::ios::sync_with_stdio(false);
+// Every failure becomes a message and an exit status here.
+int guarded(const std::function<int()>& program) {
     try {
-        return run_program(argc, argv);
+        return program();
+    } catch (const rsc::Interrupted& stop) {
+        std::cerr << "rsc: " << stop.what() << '\n';
+        return 128 + stop.signal();
     } catch (const rsc::Error& error) {
         std::cerr << error.what() << '\n';
-        return exit_status(error);
+        return error.kind() == rsc::Failure::bad_input ? 2 : 1;
     } catch (const std::bad_alloc&) {
         std::cerr << "rsc: the machine refused memory; a smaller surface%n, fewer levels or solver%method='direct' need less\n";
         return 1;
@@ -73,4 +115,39 @@ int main(int argc, char** argv) {
         std::cerr << "rsc: internal failure: " << error.what() << "\nPlease report it with the case that led here.\n";
         return 1;
     }
+}
+
+#ifdef RSC_MPI
+// What a rank other than the first does.
+int serve(Job& job, const std::string& command) {
+    return job.serve([&command](const std::string& case_text, std::size_t threads) -> rsc::Work {
+        rsc::RunOptions how;
+        how.command = command;
+        const auto members = rsc::members_of(rsc::read_case_text(case_text, "case"));
+        const std::shared_ptr<rsc::CampaignWork> work(new rsc::CampaignWork(rsc::make_work(members, how, threads)));
+        return [work](const rsc::Task& task, const std::atomic<bool>& abandoned) { return (*work)(task, abandoned); };
+    });
+}
+#endif
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
+    std::ios::sync_with_stdio(false);
+#ifdef RSC_MPI
+    return guarded([&] {
+        Job job(argc, argv);
+        rsc::catch_signals();  // behind MPI_Init, which has handlers of its own
+        if (!job.root()) return serve(job, command_line(argc, argv));
+        const int status = guarded([&] { return run_program(argc, argv, job); });
+        std::cout.flush();
+        job.dismiss(status);
+        return status;
+    });
+#else
+    rsc::catch_signals();
+    Job job;
+    return guarded([&] { return run_program(argc, argv, job); });
+#endif
 }

@@ -120,7 +120,6 @@ int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
         require(a_case, 1, "a_case");
         rsc::require_valid(a_case->settings);
         rsc::RunOptions how;
-        how.case_text = rsc::effective_namelist(a_case->settings);
         how.command = "rsc_case_run";
         const long failed = rsc::run_case(a_case->settings, how);
         put(failed_levels, failed);

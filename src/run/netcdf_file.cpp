@@ -202,6 +202,10 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
             check(nc_put_vara_double(ncid, varid, start, count, rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride),
                   path);
         }
+    } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
+        std::string padded;
+        for (const std::string& text : *texts) padded.append(text).append(shape[1] - text.size(), '\0');
+        check(nc_put_var_text(ncid, varid, padded.data()), path);
     }
 }
 
@@ -258,6 +262,9 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
             const double* row = rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride;
             finite = std::none_of(row, row + length(v.dimensions[1]), bad);
         }
+    } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
+        fits = v.dimensions.size() == 2 && texts->size() == length(v.dimensions[0]) &&
+               std::none_of(texts->begin(), texts->end(), [&](const auto& t) { return t.size() > length(v.dimensions[1]); });
     }
     if (!fits) throw Error(Failure::internal, "result file: the values of '" + v.name + "' do not fill its dimensions");
     if (!finite) throw Error(Failure::internal, "result file: '" + v.name + "' holds a value that is not a finite number");
@@ -282,7 +289,9 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression, const 
             ids.push_back(std::find_if(dimids.begin(), dimids.end(), [&](const auto& p) { return p.first == d; })->second);
             shape.push_back(length(d));
         }
-        const nc_type type = std::holds_alternative<std::vector<std::int32_t>>(v.values) ? NC_INT : NC_DOUBLE;
+        const nc_type type = std::holds_alternative<std::vector<std::int32_t>>(v.values)  ? NC_INT
+                             : std::holds_alternative<std::vector<std::string>>(v.values) ? NC_CHAR
+                                                                                          : NC_DOUBLE;
         int varid = -1;
         check(nc_def_var(ncid, v.name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &varid), path);
         if (v.may_be_absent) put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
@@ -291,7 +300,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression, const 
             if (compression > 0) check(nc_def_var_deflate(ncid, varid, 1, 1, compression), path);
         }
         put_attribute(ncid, varid, "long_name", v.long_name, path);
-        put_attribute(ncid, varid, "units", v.units, path);
+        if (!v.units.empty()) put_attribute(ncid, varid, "units", v.units, path);  // texts have none
         for (const auto& [name, value] : v.attributes) put_attribute(ncid, varid, name, value, path);
         varids.push_back(varid);
         shapes.push_back(std::move(shape));

@@ -29,7 +29,8 @@ struct NetcdfVariable {
     std::string name;
     std::vector<std::string> dimensions;  // slowest first; none for a scalar
     std::string units, long_name;
-    std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows> values;  // StridedRows: two dimensions
+    // StridedRows: two dimensions; texts: two, the last one their longest length in bytes (shorter ones end in zeros)
+    std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows, std::vector<std::string>> values;
     NetcdfAttributes attributes;
     bool may_be_absent = false;  // NaN is an absent value, written as _FillValue; elsewhere it is an internal error
 };

@@ -45,13 +45,13 @@ std::string unit_of(const std::string& length_unit, int length_power, const std:
     return text.empty() ? "1" : text;
 }
 
+std::string history_text(const std::string& command) { return date() + " " + (command.empty() ? "rsc " RSC_VERSION : command); }
+
 void write_result(const Result& result, const std::string& path, const WriteOptions& options) {
     const Observations& o = result.observations;
     if (o.realizations == 0 || o.steps == 0)
         throw Error(Failure::internal, "result file: there is nothing to write, no level was run");
-    std::string history = date() + " rsc " RSC_VERSION;
-    if (!options.command.empty()) history = date() + " " + options.command;
-    ResultTable(result).make(history).write(path, options.format, options.compression);
+    ResultTable(result).make(history_text(options.command)).write(path, options.format, options.compression);
 }
 
 }  // namespace rsc

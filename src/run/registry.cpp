@@ -169,8 +169,8 @@ constexpr std::pair<const char*, const char*> kGroups[] = {
 
 }  // namespace
 
-const bool kCampaignsAvailable = false;
-const bool kStudiesAvailable = false;
+const bool kCampaignsAvailable = true;
+const bool kStudiesAvailable = true;
 
 std::span<const Unavailable> unavailable() { return kUnavailable; }
 

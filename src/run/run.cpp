@@ -1,5 +1,6 @@
 #include "run/run.hpp"
 
+#include <omp.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -8,10 +9,14 @@
 
 #include "error.hpp"
 #include "observe/regimes.hpp"
+#include "run/campaign.hpp"
+#include "run/campaign_work.hpp"
 #include "run/job.hpp"
 #include "run/netcdf_file.hpp"
 #include "run/netcdf_writer.hpp"
+#include "run/registry.hpp"
 #include "run/screen.hpp"
+#include "run/signals.hpp"
 
 namespace rsc {
 namespace {
@@ -24,13 +29,14 @@ struct Tally {
     std::map<Method, long> methods;
 };
 
-void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds, const std::string& file) {
+void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds,
+               const std::string& file) {
     const char* l = job.settings.run.length_unit.c_str();
     char line[400];
     const auto& s = r.statistics;
     out << '\n';
-    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %ld levels in %s\n", static_cast<long long>(s.summits),
-                  static_cast<long long>(s.saddles), tally.levels, duration(seconds).c_str());
+    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %ld levels in %s\n",
+                  static_cast<long long>(s.summits), static_cast<long long>(s.saddles), tally.levels, duration(seconds).c_str());
     out << line;
     if (s.m2 > 0) {
         std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, std::sqrt(2 * s.m2),
@@ -42,47 +48,83 @@ void summarise(std::ostream& out, const Job& job, const Realization& r, const Ta
     out << '\n';
     print_statuses(out, tally.statuses, tally.levels);
     if (tally.crowded_cells > 0) {
-        std::snprintf(line, sizeof line, "  %lld map cells (over all levels) with an area fraction above pi/16 = 19.6 %%: contacts there would merge.\n",
-                      static_cast<long long>(tally.crowded_cells));
+        std::snprintf(
+            line, sizeof line,
+            "  %lld map cells (over all levels) with an area fraction above pi/16 = 19.6 %%: contacts there would merge.\n",
+            static_cast<long long>(tally.crowded_cells));
         out << line;
     }
     out << "result: " << file << '\n';
     out << "picture: python3 output/plot/plot.py " << file << '\n';
 }
 
+// The OpenMP threads of the caller while this lives.
+class OmpThreads {
+public:
+    explicit OmpThreads(int threads) { omp_set_num_threads(threads); }
+    OmpThreads(const OmpThreads&) = delete;
+    OmpThreads& operator=(const OmpThreads&) = delete;
+    ~OmpThreads() { omp_set_num_threads(before_); }
+
+private:
+    int before_ = omp_get_max_threads();
+};
+
 }  // namespace
 
-long run_case(const Case& settings, const RunOptions& options) {
+std::string case_text(const Case& settings) {
+    Case told = settings;
+    told.run.threads = Case{}.run.threads;
+    return effective_namelist(told);
+}
+
+// On a terminal a line that is drawn over, unless the table scrolls there; `always` gives a line now and then elsewhere too.
+std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
+    terminal = isatty(STDERR_FILENO) != 0;
+    const bool scrolls = options.table && !options.quiet && isatty(STDOUT_FILENO) != 0;
+    const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal && !scrolls);
+    return show ? options.messages : nullptr;
+}
+
+void tell_failed(const RunOptions& options, const RunSummary& summary) {
+    if (summary.failed == 0 || !options.messages) return;
+    *options.messages << "rsc: " << summary.failed << " of " << summary.levels
+                      << " levels did not converge; their values are in the file with status = 4. Raise solver%max_iterations or "
+                         "solver%tolerance.\n";
+}
+
+RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check_output(settings.output.file);
     const Contacts keep = contacts_kept(settings);
     Job job = prepare(settings);
-    // On a terminal a line that is drawn over, unless the table scrolls there; `always` gives a line now and then elsewhere too.
-    const bool terminal = isatty(STDERR_FILENO) != 0;
-    const bool scrolls = options.table && !options.quiet && isatty(STDOUT_FILENO) != 0;
-    const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal && !scrolls);
-    std::ostream* line_out = show ? options.messages : nullptr;
-
+    const int threads = static_cast<int>(thread_count(settings.run.threads));
+    const OmpThreads omp(threads);
+    bool terminal = false;
+    std::ostream* const line_out = progress_stream(options, terminal);
     std::ostream* table = options.quiet ? nullptr : options.table;
     if (table) print_heading(*table, job);
     Tally tally;
     Realization r;
     {
         ProgressLine progress(line_out, terminal, "levels");
-        r = realize(job, settings.run.first_realization, settings.run.threads, [&](std::size_t k, const Level& level) {
+        r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
             if (table) print_level(*table, job, k, level);
             ++tally.statuses[level.status];
             ++tally.methods[level.method];
             ++tally.levels;
             progress.show(static_cast<double>(k + 1), static_cast<double>(job.levels.size()));
-            return true;
+            return caught_signal() == 0 && !(options.abandoned && *options.abandoned);
         });
     }
+    if (const int signal = caught_signal())
+        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+    if (options.abandoned && *options.abandoned) throw Interrupted(0, "abandoned");
     Accumulators sums(job.observe, job.levels.size());
     const RealizationRecord record = observe(job, settings.run.first_realization, r);
     for (const auto& row : record.levels) tally.crowded_cells += row.crowded_cells;
     sums.add(record);
-    Result result = make_result(settings, options.case_text, job.indenter, job.sigma, job.theory, sums.finish());
+    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
     keep_contacts(result, r.levels, keep);
     const Realization shown{r.statistics, {}, {}, {}, {}};
     result.asperities = std::move(r.asperities);
@@ -91,13 +133,17 @@ long run_case(const Case& settings, const RunOptions& options) {
 
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table) summarise(*table, job, shown, tally, seconds, settings.output.file);
-    const long failed = tally.statuses[LevelStatus::not_converged];
-    if (failed > 0 && options.messages) {
-        *options.messages << "rsc: " << failed << " of " << tally.levels
-                          << " levels did not converge; their values are in the file with status = 4. Raise solver%max_iterations or "
-                             "solver%tolerance.\n";
-    }
-    return failed;
+    const LevelRow& last = record.levels.back();
+    const RunSummary summary{tally.levels, tally.statuses[LevelStatus::not_converged], last.separation, last.force, last.area};
+    tell_failed(options, summary);
+    return summary;
+}
+
+long run_case(const Case& settings, const RunOptions& options) {
+    if (settings.run.realizations == 1) return run_realization(settings, options).failed;
+    CampaignWork work({settings}, options);
+    ThreadTeam team(std::ref(work), settings.run.threads);
+    return run_campaign(settings, options, team, 0, work.job(0)).failed;
 }
 
 }  // namespace rsc

@@ -38,7 +38,7 @@ const char* status_name(LevelStatus status) {
     return "?";
 }
 
-void print_heading(std::ostream& out, const Job& job) {
+void print_case(std::ostream& out, const Job& job) {
     const auto& run = job.settings.run;
     const char* l = run.length_unit.c_str();
     const char* f = run.force_unit.c_str();
@@ -50,6 +50,12 @@ void print_heading(std::ostream& out, const Job& job) {
         out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s, transition force N* %.5g %s\n",
                       m.rms_slope(), m.nayak(), m.summit_density(), l, m.mean_radius(), l, transition_force(m, job.indenter.E_star), f);
     }
+}
+
+void print_heading(std::ostream& out, const Job& job) {
+    print_case(out, job);
+    const char* l = job.settings.run.length_unit.c_str();
+    const char* f = job.settings.run.force_unit.c_str();
     out << format("\n%5s %12s %9s %14s %14s %9s %10s %5s %9s  %s\n", "level", format("Z0 [%s]", l).c_str(), "Z0/sigma",
                   format("N [%s]", f).c_str(), format("A [%s2]", l).c_str(), "contacts", "candidates", "steps", "residual", "status");
 }
@@ -83,11 +89,14 @@ std::string duration(double seconds) {
     return format("%d h %02d min", static_cast<int>(seconds / 3600), static_cast<int>(seconds / 60) % 60);
 }
 
-ProgressLine::ProgressLine(std::ostream* out, bool terminal, const char* unit)
-    : out_(out), terminal_(terminal), unit_(unit), start_(Clock::now()), last_(start_) {}
+ProgressLine::ProgressLine(std::ostream* out, bool terminal, const char* unit, double already)
+    : out_(out), terminal_(terminal), unit_(unit), already_(already), start_(Clock::now()), last_(start_) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { wipe(); }
+
+void ProgressLine::wipe() {
     if (drawn_ && terminal_) *out_ << "\r\033[K" << std::flush;
+    drawn_ = false;
 }
 
 void ProgressLine::show(double done, double total) {
@@ -97,7 +106,8 @@ void ProgressLine::show(double done, double total) {
     if (since < (terminal_ ? 0.1 : 30.0)) return;
     last_ = now;
     drawn_ = true;
-    const std::string left = done > 0 ? duration(spent * (total / done - 1)) + " left" : "";
+    const double rate = (done - already_) / spent;
+    const std::string left = rate > 0 ? format("%.3g a second, ", rate) + duration((total - done) / rate) + " left" : "";
     if (terminal_) {
         constexpr int width = 30;
         const int filled = static_cast<int>(width * done / total);

@@ -15,7 +15,10 @@ namespace rsc {
 const char* method_name(Method method);
 const char* status_name(LevelStatus status);
 
-// A line for the surface and the column heads; then a line a level.
+// The title, the bodies, and what theory says of the surface.
+void print_case(std::ostream& out, const Job& job);
+
+// print_case and the column heads; then a line a level.
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 
@@ -25,19 +28,21 @@ void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts
 // "12.3 s", "4 min 10 s", ...
 std::string duration(double seconds);
 
-// A line on a terminal that is written over, with the time left; on other streams a line now and then.
+// A line on a terminal that is written over, with rate and time left; on other streams a line now and then.
 class ProgressLine {
 public:
-    // `out` null: silent. `terminal`: redraw in place.
-    ProgressLine(std::ostream* out, bool terminal, const char* unit);
+    // `out` null: silent. `terminal`: redraw in place. `already`: how much an earlier run has done; it says nothing of the rate.
+    ProgressLine(std::ostream* out, bool terminal, const char* unit, double already = 0);
     ~ProgressLine();  // wipes the line
     void show(double done, double total);
+    void wipe();  // before something else is printed to the same terminal
 
 private:
     using Clock = std::chrono::steady_clock;
     std::ostream* out_;
     bool terminal_, drawn_ = false;
     const char* unit_;
+    double already_;
     Clock::time_point start_, last_;
 };
 

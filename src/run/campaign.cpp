@@ -1,0 +1,191 @@
+#include "run/campaign.hpp"
+
+#include <netcdf.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "error.hpp"
+#include "run/campaign_archive.hpp"
+#include "run/campaign_screen.hpp"
+#include "run/checkpoint.hpp"
+#include "run/netcdf_file.hpp"
+#include "run/netcdf_writer.hpp"
+#include "run/screen.hpp"
+#include "run/signals.hpp"
+#include "version.h"
+
+namespace rsc {
+namespace fs = std::filesystem;
+namespace {
+
+const char* const kGoesOn = "the same command with --resume goes on from there";
+
+using Clock = std::chrono::steady_clock;
+
+// The realizations of a campaign that are finished: those added up, and those that wait for one before them.
+class Progressing {
+public:
+    Progressing(const Job& job, Checkpoint& checkpoint, std::size_t workers)
+        : first_(job.settings.run.first_realization),
+          count_(job.settings.run.realizations),
+          window_(static_cast<std::int64_t>(4 * workers + 32)),
+          sums_(job.observe, job.levels.size()),
+          checkpoint_(checkpoint) {
+        Checkpoint::Contents contents = checkpoint.take_contents();
+        if (contents.sums) sums_from_bytes(*contents.sums, sums_);
+        for (std::string& record : contents.records) take(std::move(record));
+        add_in_order();
+        next_ = next_to_add();
+    }
+
+    // The next realization to begin. None may be far ahead of one that takes long: what waits is held in memory.
+    std::optional<std::int64_t> next() {
+        while (waiting_.contains(next_)) ++next_;
+        if (next_ >= first_ + count_ || next_ >= next_to_add() + window_) return {};
+        return next_++;
+    }
+
+    void collect(std::string record) {
+        checkpoint_.append(record);
+        take(std::move(record));
+        add_in_order();
+        if (!checkpoint_.wants_rewrite()) return;
+        std::vector<const std::string*> rest;
+        for (const auto& [number, bytes] : waiting_) rest.push_back(&bytes);
+        checkpoint_.rewrite(to_bytes(sums_), rest);
+    }
+
+    const Accumulators& sums() const { return sums_; }
+    std::size_t added() const { return sums_.realization.size(); }
+    std::size_t finished() const { return added() + waiting_.size(); }
+
+private:
+    std::int64_t next_to_add() const { return first_ + static_cast<std::int64_t>(added()); }
+    void take(std::string record) {
+        const std::int64_t number = realization_of(record);
+        if (number >= next_to_add() && number < first_ + count_) waiting_.emplace(number, std::move(record));
+    }
+    void add_in_order() {
+        for (auto found = waiting_.find(next_to_add()); found != waiting_.end(); found = waiting_.find(next_to_add())) {
+            sums_.add(record_from_bytes(found->second));
+            waiting_.erase(found);
+        }
+    }
+
+    std::int64_t first_, count_, window_, next_ = 0;
+    Accumulators sums_;
+    std::map<std::int64_t, std::string> waiting_;
+    Checkpoint& checkpoint_;
+};
+
+// What an interrupted writer of the result left: the checkpoint's lock says that nobody is at it now.
+void remove_parts(const std::string& file) {
+    std::error_code error;
+    const fs::path folder = fs::path(file).parent_path(), name = fs::path(file).filename();
+    const std::string start = name.string() + ".part-";
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error))
+        if (entry.path().filename().string().starts_with(start)) fs::remove(entry.path(), error);
+}
+
+std::string how_far(const Progressing& state, const Case& settings) {
+    return std::to_string(state.finished()) + " of " + std::to_string(settings.run.realizations) +
+           " realizations are finished and kept in '" + checkpoint_name(settings.output.file) + "'";
+}
+
+}  // namespace
+
+RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member,
+                        std::shared_ptr<const Job> job) {
+    const auto start = Clock::now();
+    const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const std::string& file = settings.output.file;
+    check_output(file);
+    contacts_kept(settings);
+    std::error_code ignored;
+    if (const fs::path folder = fs::path(file).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
+
+    Checkpoint checkpoint(file, settings, options.resume);
+    remove_parts(file);
+    Progressing state(*job, checkpoint, team.workers());
+    const std::size_t already = state.finished();
+    const auto total = static_cast<std::size_t>(settings.run.realizations);
+
+    std::ostream* const table = options.quiet ? nullptr : options.table;
+    const bool terminal = ::isatty(STDERR_FILENO) != 0;
+    const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal);
+    if (table) print_campaign_heading(*table, *job, team.workers(), already);
+    const std::size_t batch = std::max<std::size_t>(1, total / 20);
+    try {
+        ProgressLine line(show ? options.messages : nullptr, terminal, "realizations", static_cast<double>(already));
+        team.run(
+            [&]() -> std::optional<Task> {
+                const std::optional<std::int64_t> number = state.next();
+                return number ? std::optional<Task>({member, *number}) : std::nullopt;
+            },
+            [&](const Task&, std::string&& record) {
+                const std::size_t before = state.added();
+                state.collect(std::move(record));
+                if (table && state.added() / batch > before / batch) {
+                    line.wipe();
+                    print_batch(*table, *job, state.sums(), seconds(), state.finished() - already);
+                }
+                line.show(static_cast<double>(state.finished()), static_cast<double>(total));
+            },
+            1);
+    } catch (const Interrupted& stop) {
+        throw Interrupted(stop.signal(), std::string(stop.what()) + "; " + how_far(state, settings) + ": " + kGoesOn);
+    } catch (const Error& error) {
+        throw Error(error.kind() == Failure::bad_input ? Failure::internal : error.kind(),
+                    std::string(error.what()) + "\n" + how_far(state, settings) + ": " + kGoesOn);
+    }
+
+    Observations observations = state.sums().finish();
+    Result result = make_result(settings, case_text(settings), job->indenter, job->sigma, job->theory, std::move(observations));
+    try {
+        write_result(result, file, {settings.output.format, settings.output.compression, options.command});
+    } catch (const Error& error) {
+        throw Error(error.kind(), std::string(error.what()) + "\n" + how_far(state, settings) +
+                                      ": the same command with --resume writes the file without computing them again");
+    }
+    checkpoint.remove();
+    const RunSummary summary = campaign_summary(result.observations);
+    if (table) print_campaign_summary(*table, *job, result.observations, seconds(), file);
+    tell_failed(options, summary);
+    return summary;
+}
+
+std::optional<RunSummary> finished_result(const Case& settings) {
+    const std::lock_guard lock(netcdf_mutex());
+    int file = -1;
+    if (!fs::exists(settings.output.file) || nc_open(settings.output.file.c_str(), NC_NOWRITE, &file) != NC_NOERR) return {};
+    const auto text = [file](const char* name) {
+        std::size_t length = 0;
+        if (nc_inq_attlen(file, NC_GLOBAL, name, &length) != NC_NOERR || length > (std::size_t{1} << 26)) return std::string();
+        std::string value(length, '\0');
+        if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
+        return value;
+    };
+    std::optional<RunSummary> summary;
+    int status = -1, dimensions[2] = {};
+    std::size_t shape[2] = {};
+    if (text("case") == case_text(settings) && text("source").starts_with(std::string("rsc ") + RSC_VERSION + ",") &&
+        nc_inq_varid(file, "status", &status) == NC_NOERR && nc_inq_vardimid(file, status, dimensions) == NC_NOERR &&
+        nc_inq_dimlen(file, dimensions[0], &shape[0]) == NC_NOERR && nc_inq_dimlen(file, dimensions[1], &shape[1]) == NC_NOERR) {
+        std::vector<int> values(shape[0] * shape[1]);
+        if (nc_get_var_int(file, status, values.data()) == NC_NOERR) {
+            summary.emplace();
+            summary->levels = static_cast<long>(values.size());
+            summary->failed = std::count(values.begin(), values.end(), static_cast<int>(LevelStatus::not_converged));
+        }
+    }
+    nc_close(file);
+    return summary;
+}
+
+}  // namespace rsc

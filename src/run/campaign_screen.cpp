@@ -1,0 +1,100 @@
+#include "run/campaign_screen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "run/screen.hpp"
+
+namespace rsc {
+namespace {
+
+template <class... Args>
+std::string format(const char* text, Args... args) {
+    char buffer[400];
+    std::snprintf(buffer, sizeof buffer, text, args...);
+    return buffer;
+}
+
+struct Spread {
+    double mean = 0, deviation = 0;
+};
+
+template <class Get>
+Spread spread(std::size_t count, Get value) {
+    Spread s;
+    for (std::size_t k = 0; k < count; ++k) s.mean += value(k);
+    s.mean /= static_cast<double>(count);
+    for (std::size_t k = 0; k < count; ++k) s.deviation += (value(k) - s.mean) * (value(k) - s.mean);
+    s.deviation = count > 1 ? std::sqrt(s.deviation / static_cast<double>(count - 1)) : 0;
+    return s;
+}
+
+// Steps of the table: about ten, the first and the last among them.
+std::vector<std::size_t> shown_steps(std::size_t steps) {
+    constexpr std::size_t most = 11;
+    std::vector<std::size_t> shown;
+    const std::size_t rows = std::min(steps, most);
+    for (std::size_t r = 0; r < rows; ++r) shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
+    return shown;
+}
+
+}  // namespace
+
+void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done) {
+    print_case(out, job);
+    const auto& run = job.settings.run;
+    out << format("%d realizations of %zu levels, %zu at a time", run.realizations, job.levels.size(), workers);
+    if (done > 0) out << format("; %zu of them are done", done);
+    out << "\n\nMeans over the realizations so far at the last level; scatter is the standard deviation of one realization.\n"
+        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations", format("N [%s]", run.force_unit.c_str()).c_str(),
+                  "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed", "a second")
+        << std::flush;
+}
+
+void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds, std::size_t done_in_this_run) {
+    const std::size_t count = sums.realization.size();
+    const auto row = [&](std::size_t k) -> const LevelRow& { return sums.rows[(k + 1) * sums.steps - 1]; };
+    const Spread force = spread(count, [&](std::size_t k) { return row(k).force; });
+    const Spread area = spread(count, [&](std::size_t k) { return row(k).area; });
+    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean, force.deviation, area.mean,
+                  area.deviation, duration(seconds).c_str(), static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
+        << std::flush;
+}
+
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o, double seconds, const std::string& file) {
+    const auto& run = job.settings.run;
+    out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n", o.realizations, "level",
+                  format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma",
+                  format("N [%s]", run.force_unit.c_str()).c_str(), "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(),
+                  "scatter");
+    for (const std::size_t s : shown_steps(o.steps))
+        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation_mean[s],
+                      o.separation_mean[s] / job.sigma, o.force_mean[s], o.force_std[s], o.area_mean[s], o.area_std[s]);
+
+    std::map<LevelStatus, long> statuses;
+    long long crowded = 0;
+    for (const LevelRow& row : o.rows) {
+        ++statuses[static_cast<LevelStatus>(row.status)];
+        crowded += row.crowded_cells;
+    }
+    out << '\n' << o.realizations << " realizations, " << o.rows.size() << " levels in " << duration(seconds) << '\n';
+    print_statuses(out, statuses, static_cast<long>(o.rows.size()));
+    if (crowded > 0)
+        out << "  " << crowded
+            << " map cells (over all levels) with an area fraction above pi/16 = 19.6 %: contacts there would merge.\n";
+    out << "result: " << file << "\npicture: python3 output/plot/plot.py " << file << std::endl;
+}
+
+RunSummary campaign_summary(const Observations& o) {
+    RunSummary summary;
+    summary.levels = static_cast<long>(o.rows.size());
+    for (const LevelRow& row : o.rows)
+        if (row.status == static_cast<std::int32_t>(LevelStatus::not_converged)) ++summary.failed;
+    summary.separation = o.separation_mean.back();
+    summary.force = o.force_mean.back();
+    summary.area = o.area_mean.back();
+    return summary;
+}
+
+}  // namespace rsc

@@ -1,0 +1,29 @@
+// The program's run: one case, or the members of a study, by whatever team there is.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "run/campaign_team.hpp"
+#include "run/campaign_work.hpp"
+#include "run/read_case.hpp"
+#include "run/run.hpp"
+#include "run/study.hpp"
+
+namespace rsc {
+
+// The members of the study, or the case as its only one. Throws Error(bad_input) naming the members that are wrong.
+std::vector<Member> members_of(const ReadCase& read);
+
+// The work of all members: any rank makes the same from the same case. `threads` work at a time in all, so that a member run as a
+// whole has its share of them.
+CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options, std::size_t threads);
+
+// Runs all members, or the one numbered `only` (from 1), and the manifest. With options.resume those that are finished are left
+// alone. Everything is looked at before anything runs: Error(bad_input) names the member. Returns the sums of levels.
+// An interrupted study leaves whole files and checkpoints.
+RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team);
+
+}  // namespace rsc

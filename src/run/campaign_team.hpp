@@ -1,0 +1,94 @@
+// Who does the work of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
+// handed out piece by piece, to whoever has finished the last one; nothing about the answer depends on who does what.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace rsc {
+
+// A piece of work: one realization of a member, or the whole member (realization 0).
+struct Task {
+    std::int32_t member = 0;  // from 0
+    std::int64_t realization = 0;
+};
+
+// Does a task and gives back its answer as bytes. When `abandoned` becomes true the answer is not wanted any more.
+using Work = std::function<std::string(const Task&, const std::atomic<bool>& abandoned)>;
+
+class Team {
+public:
+    // The next task; none when there is none to begin now. Asked again after every answer.
+    using Next = std::function<std::optional<Task>()>;
+    // Takes an answer. Called by the thread that called run(), one at a time, in the order in which the answers come.
+    using Collect = std::function<void(const Task&, std::string&&)>;
+
+    virtual ~Team() = default;
+    virtual std::size_t workers() const = 0;
+    // Runs until `next` has nothing more and every answer is in. `ahead`: tasks held ready for a worker beside the one it is at.
+    // Throws what a task or `collect` throws, and Interrupted once a signal has been caught; unfinished tasks are then abandoned.
+    virtual void run(const Next& next, const Collect& collect, int ahead) = 0;
+};
+
+// Threads that take tasks from a queue. Each works with one OpenMP thread.
+class WorkerThreads {
+public:
+    struct Done {
+        Task task;
+        std::string answer;
+        std::exception_ptr error;
+    };
+    WorkerThreads(const Work& work, std::size_t threads);
+    WorkerThreads(const WorkerThreads&) = delete;
+    WorkerThreads& operator=(const WorkerThreads&) = delete;
+    ~WorkerThreads();  // abandons what is going on and waits for the threads
+
+    void push(const Task& task);
+    // Waits for an answer, at most so long.
+    std::optional<Done> pop(std::chrono::microseconds wait);
+    // Tasks pushed and not popped.
+    std::size_t unfinished() const { return unfinished_; }
+    std::size_t size() const { return threads_.size(); }
+
+private:
+    void loop();
+
+    const Work& work_;
+    std::mutex mutex_;
+    std::condition_variable wake_worker_, wake_owner_;
+    std::deque<Task> tasks_;
+    std::deque<Done> done_;
+    std::atomic<bool> abandoned_{false};
+    std::size_t unfinished_ = 0;  // the owner's
+    std::vector<std::thread> threads_;
+};
+
+class ThreadTeam : public Team {
+public:
+    // threads = 0: as many as the machine offers this process.
+    ThreadTeam(Work work, int threads);
+    std::size_t workers() const override { return threads_; }
+    void run(const Next& next, const Collect& collect, int ahead) override;
+
+private:
+    Work work_;
+    std::size_t threads_;
+};
+
+// Throws Interrupted if a signal has been caught.
+void leave_if_interrupted();
+
+// threads of the case, or of the machine where it says 0.
+std::size_t thread_count(int threads);
+
+}  // namespace rsc

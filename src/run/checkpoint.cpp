@@ -1,0 +1,292 @@
+#include "run/checkpoint.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "error.hpp"
+#include "run/campaign_archive.hpp"
+#include "run/read_case.hpp"
+#include "run/registry.hpp"
+#include "version.h"
+
+namespace rsc {
+namespace {
+
+enum : std::uint32_t { kHeader = 0x68637372, kSums = 0x73637372, kRecord = 0x72637372 };  // "rsch", "rscs", "rscr"
+
+struct FrameHead {
+    std::uint32_t kind = 0, checksum = 0;
+    std::uint64_t length = 0;
+};
+
+constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // not worth a rewrite below that
+constexpr double kSyncShare = 0.01;                           // of the time may go into waiting for the disk
+constexpr double kSyncSeconds = 5;
+
+// CRC-32 (IEEE 802.3), eight bytes at a time.
+std::uint32_t crc32(std::uint32_t crc, const char* data, std::size_t n) {
+    static const auto table = [] {
+        std::array<std::array<std::uint32_t, 256>, 8> t{};
+        for (std::uint32_t i = 0; i < 256; ++i) {
+            std::uint32_t c = i;
+            for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
+            t[0][i] = c;
+        }
+        for (std::size_t k = 1; k < 8; ++k)
+            for (std::size_t i = 0; i < 256; ++i) t[k][i] = (t[k - 1][i] >> 8) ^ t[0][t[k - 1][i] & 255];
+        return t;
+    }();
+    crc = ~crc;
+    const auto byte = [](char c) { return static_cast<std::uint32_t>(static_cast<unsigned char>(c)); };
+    for (; n >= 8; data += 8, n -= 8) {
+        crc ^= byte(data[0]) | byte(data[1]) << 8 | byte(data[2]) << 16 | byte(data[3]) << 24;
+        crc = table[7][crc & 255] ^ table[6][crc >> 8 & 255] ^ table[5][crc >> 16 & 255] ^ table[4][crc >> 24] ^
+              table[3][byte(data[4])] ^ table[2][byte(data[5])] ^ table[1][byte(data[6])] ^ table[0][byte(data[7])];
+    }
+    for (; n > 0; ++data, --n) crc = (crc >> 8) ^ table[0][(crc ^ byte(*data)) & 255];
+    return ~crc;
+}
+
+std::uint32_t checksum_of(const FrameHead& head, const std::string& bytes) {
+    std::uint32_t crc = crc32(0, reinterpret_cast<const char*>(&head.kind), sizeof head.kind);
+    crc = crc32(crc, reinterpret_cast<const char*>(&head.length), sizeof head.length);
+    return crc32(crc, bytes.data(), bytes.size());
+}
+
+// 0, or errno.
+int put(int fd, const char* data, std::size_t n, std::uint64_t offset) {
+    while (n > 0) {
+        const ssize_t written = ::pwrite(fd, data, std::min<std::size_t>(n, std::size_t{1} << 30), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return written < 0 ? errno : EIO;
+        data += written, n -= static_cast<std::size_t>(written), offset += static_cast<std::uint64_t>(written);
+    }
+    return 0;
+}
+
+bool get(int fd, char* data, std::size_t n, std::uint64_t offset) {
+    while (n > 0) {
+        const ssize_t got = ::pread(fd, data, std::min<std::size_t>(n, std::size_t{1} << 30), static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        data += got, n -= static_cast<std::size_t>(got), offset += static_cast<std::uint64_t>(got);
+    }
+    return true;
+}
+
+// The whole frame at `offset`, which moves behind it; false for one that is torn, spoilt or not there.
+bool get_frame(int fd, std::uint64_t end, std::uint64_t& offset, std::uint32_t& kind, std::string& bytes) {
+    FrameHead head;
+    if (end - offset < sizeof head || !get(fd, reinterpret_cast<char*>(&head), sizeof head, offset)) return false;
+    if (head.length > end - offset - sizeof head) return false;
+    bytes.resize(static_cast<std::size_t>(head.length));
+    if (!get(fd, bytes.data(), bytes.size(), offset + sizeof head) || checksum_of(head, bytes) != head.checksum) return false;
+    kind = head.kind;
+    offset += sizeof head + head.length;
+    return true;
+}
+
+std::uint64_t file_size(int fd) {
+    struct stat status {};
+    return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
+// The descriptor is of the file that has the name now.
+bool still_named(int fd, const std::string& name) {
+    struct stat open {
+    }, named{};
+    return ::fstat(fd, &open) == 0 && ::stat(name.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
+           open.st_dev == named.st_dev;
+}
+
+std::string header_start() { return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n"; }
+
+}  // namespace
+
+std::string checkpoint_name(const std::string& result_file) { return result_file + ".checkpoint"; }
+
+Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, bool resume)
+    : name_(checkpoint_name(result_file)),
+      header_(header_start() + effective_namelist(settings)),
+      last_sync_(std::chrono::steady_clock::now()) {
+    for (int attempt = 0; fd_ < 0; ++attempt) {
+        fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (fd_ < 0) fail(errno);
+        // File systems without locks (ENOLCK, ENOTSUP) are taken as they are.
+        const bool busy = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (!busy && still_named(fd_, name_)) break;  // otherwise it was replaced or removed meanwhile
+        ::close(std::exchange(fd_, -1));
+        if (busy || attempt == 100) throw Error(Failure::bad_input, "'" + name_ + "': another rsc is at work on this campaign");
+    }
+    try {
+        load(settings);
+        if (base_size_ > 0 && !resume)
+            throw Error(Failure::bad_input,
+                        "'" + name_ +
+                            "' holds the work of an interrupted campaign: go on with it by --resume, or remove that file to "
+                            "start from the beginning");
+        if (base_size_ == 0) create();
+    } catch (...) {
+        ::close(fd_);
+        throw;
+    }
+}
+
+Checkpoint::~Checkpoint() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+void Checkpoint::fail(int error) const {
+    const std::string why = std::error_code(error, std::generic_category()).message();
+    const bool full = error == ENOSPC || error == EDQUOT;
+    throw Error(Failure::file_system,
+                "cannot write '" + name_ + "': " + (full ? "the disk is full (" + why + "); make room there" : why));
+}
+
+void Checkpoint::create() {
+    if (::ftruncate(fd_, 0) != 0) fail(errno);
+    write_frame(fd_, kHeader, header_, base_size_);
+    size_ = base_size_;
+}
+
+void Checkpoint::write_frame(int fd, std::uint32_t kind, const std::string& bytes, std::uint64_t& size) {
+    FrameHead head;
+    head.kind = kind;
+    head.length = bytes.size();
+    head.checksum = checksum_of(head, bytes);
+    int error = put(fd, reinterpret_cast<const char*>(&head), sizeof head, size);
+    if (error == 0) error = put(fd, bytes.data(), bytes.size(), size + sizeof head);
+    if (error != 0) {
+        // What is torn would be ignored; it only must not be followed by anything.
+        if (::ftruncate(fd, static_cast<off_t>(size)) != 0) error = errno;
+        fail(error);
+    }
+    size += sizeof head + bytes.size();
+}
+
+// Leaves base_size_ = 0 when there is nothing: a new file, or one killed before its first frame was whole.
+void Checkpoint::load(const Case& settings) {
+    const std::uint64_t end = file_size(fd_);
+    std::uint64_t offset = 0;
+    std::uint32_t kind = 0;
+    std::string bytes;
+    const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
+    if (!get_frame(fd_, end, offset, kind, bytes)) {
+        FrameHead head;
+        const bool ours = end < sizeof head || (get(fd_, reinterpret_cast<char*>(&head), sizeof head, 0) && head.kind == kHeader);
+        if (!ours) refuse("is not a checkpoint of rsc");
+        return;
+    }
+    if (kind != kHeader) refuse("is not a checkpoint of rsc");
+    if (!bytes.starts_with(header_start()))
+        refuse("was written by another version of rsc (" + bytes.substr(0, bytes.find('\n')) +
+               "), whose numbers may differ in the last bits: finish it with that one, or remove the file to start from the "
+               "beginning");
+    const Reading there = read_namelist(std::string_view(bytes).substr(header_start().size()));
+    if (!there.faults.empty()) refuse("is damaged; remove it to start from the beginning");
+    std::string changed;
+    for (const std::string& line : differences(there.settings, settings)) changed += "\n  " + line;
+    if (!changed.empty())
+        refuse("belongs to another case: it cannot be resumed with" + changed +
+               "\nGive these keys their old values, or remove the file to start from the beginning.");
+    base_size_ = size_ = offset;
+    while (get_frame(fd_, end, offset, kind, bytes)) {
+        if (kind == kSums && size_ == base_size_) {
+            contents_.sums = std::move(bytes);
+            base_size_ = offset;
+        } else if (kind == kRecord) {
+            contents_.records.push_back(std::move(bytes));
+        } else {
+            break;
+        }
+        size_ = offset;
+    }
+    // Sums are written before the file gets its name: torn ones are the disk's doing.
+    FrameHead head;
+    if (size_ == base_size_ && !contents_.sums && end - size_ >= sizeof head &&
+        get(fd_, reinterpret_cast<char*>(&head), sizeof head, size_) && head.kind == kSums)
+        refuse("is damaged: its checksum does not hold; remove it to start from the beginning");
+    if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) fail(errno);
+}
+
+void Checkpoint::append(const std::string& record) {
+    write_frame(fd_, kRecord, record, size_);
+    sync_now_and_then();
+}
+
+bool Checkpoint::wants_rewrite() const { return size_ - base_size_ > std::max({kSmallLog, base_size_, next_rewrite_}); }
+
+void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::string*>& records) {
+    const std::string fresh = name_ + ".new";
+    const int fd = ::open(fresh.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    std::uint64_t base = 0, size = 0;
+    bool good = fd >= 0;
+    if (good) {
+        try {
+            ::flock(fd, LOCK_EX | LOCK_NB);
+            write_frame(fd, kHeader, header_, size);
+            write_frame(fd, kSums, sums, size);
+            base = size;
+            for (const std::string* record : records) write_frame(fd, kRecord, *record, size);
+            good = (::fsync(fd) == 0 || errno == EINVAL || errno == ENOSYS) && std::rename(fresh.c_str(), name_.c_str()) == 0;
+        } catch (const Error&) {
+            good = false;
+        }
+    }
+    if (!good) {
+        if (fd >= 0) ::close(fd);
+        ::unlink(fresh.c_str());
+        next_rewrite_ = 2 * (size_ - base_size_);  // not again at once
+        return;
+    }
+    ::close(std::exchange(fd_, fd));
+    size_ = size;
+    base_size_ = base;
+    next_rewrite_ = 0;
+    last_sync_ = std::chrono::steady_clock::now();
+}
+
+// kill -9 takes nothing from the file: what was written is the system's. Only a machine that dies loses what the disk has not
+// yet.
+void Checkpoint::sync_now_and_then() {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const double since = std::chrono::duration<double>(start - last_sync_).count();
+    if (since < kSyncSeconds || since * kSyncShare < sync_seconds_) return;
+    const int error = ::fdatasync(fd_) != 0 ? errno : 0;
+    last_sync_ = Clock::now();
+    sync_seconds_ = std::chrono::duration<double>(last_sync_ - start).count();
+    if (error == ENOSPC || error == EDQUOT || error == EIO) fail(error);
+}
+
+void Checkpoint::remove() {
+    ::unlink((name_ + ".new").c_str());
+    if (::unlink(name_.c_str()) != 0 && errno != ENOENT) fail(errno);
+}
+
+bool Checkpoint::may_differ(const std::string& key) {
+    // Threads do not change a bit; the others are about where and how the result is written at the end.
+    static const std::string free[] = {"run%threads", "output%file", "output%format", "output%compression"};
+    return std::find(std::begin(free), std::end(free), key) != std::end(free);
+}
+
+std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now) {
+    std::vector<std::string> lines;
+    const auto shown = [](const std::string& value) { return value.empty() ? std::string("unset") : value; };
+    for (const Key& key : registry()) {
+        const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name), b = get_key(now, name);
+        if (a != b && !may_differ(name)) lines.push_back(name + ": " + shown(a) + " there, " + shown(b) + " now");
+    }
+    return lines;
+}
+
+}  // namespace rsc

@@ -1,0 +1,80 @@
+// The state of an interrupted campaign on the disk: a file beside the result file, `<result>.checkpoint`.
+//
+// It is a sequence of frames (kind, length, checksum, bytes): one that names the program and the case, one with the sums over the
+// first realizations, and one for each realization that is finished and not yet in the sums. Frames are appended as realizations
+// finish; when they have outgrown the sums, the file is written anew (sums of all that can be added, the rest) under another name
+// and takes the old one's place. A process killed at any moment leaves at most a torn frame at the end, which reading ignores:
+// what is lost are the realizations that were being computed.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/case.hpp"
+
+namespace rsc {
+
+std::string checkpoint_name(const std::string& result_file);
+
+class Checkpoint {
+public:
+    struct Contents {
+        std::optional<std::string> sums;   // as last written by rewrite()
+        std::vector<std::string> records;  // in the order they were appended
+    };
+
+    // Opens the state of the campaign `settings` and keeps others away from it while it is open.
+    //   resume = false   starts a new one. Throws Error(bad_input) when there is one already, saying what to do: it is not lost
+    //   by
+    //                    accident.
+    //   resume = true    goes on with the one that is there, if any: contents() has what is in it. Throws Error(bad_input) when
+    //   it
+    //                    belongs to another case, naming the keys that differ, to another version, or is damaged.
+    // Throws Error(bad_input) when another process is at work on it, Error(file_system) when it cannot be written.
+    Checkpoint(const std::string& result_file, const Case& settings, bool resume);
+    Checkpoint(const Checkpoint&) = delete;
+    Checkpoint& operator=(const Checkpoint&) = delete;
+    ~Checkpoint();  // leaves the file where it is
+
+    const std::string& name() const { return name_; }
+    Contents take_contents() { return std::move(contents_); }
+
+    // Adds a finished realization. After an error (disk full: Error(file_system)) the file is as it was before the call.
+    void append(const std::string& record);
+
+    // The appended records have outgrown the rest: time to rewrite(). It keeps what is written within three times what is
+    // computed.
+    bool wants_rewrite() const;
+    // All there is, anew. When there is no room for it the file stays as it is, and may grow on.
+    void rewrite(const std::string& sums, const std::vector<const std::string*>& records);
+
+    // The campaign is finished.
+    void remove();
+
+    // Keys a campaign may be resumed with another value of: they do not touch the numbers.
+    static bool may_differ(const std::string& key);
+    // "surface%sigma: 0.01 there, 0.02 now", a line a key that may not differ and does.
+    static std::vector<std::string> differences(const Case& there, const Case& now);
+
+private:
+    void create();
+    void load(const Case& settings);
+    void write_frame(int fd, std::uint32_t kind, const std::string& bytes, std::uint64_t& size);
+    void sync_now_and_then();
+    [[noreturn]] void fail(int error) const;
+
+    std::string name_;
+    std::string header_;  // bytes of the first frame
+    int fd_ = -1;
+    std::uint64_t size_ = 0;       // bytes known to be whole
+    std::uint64_t base_size_ = 0;  // of them before the appended records
+    std::uint64_t next_rewrite_ = 0;
+    Contents contents_;
+    std::chrono::steady_clock::time_point last_sync_;
+    double sync_seconds_ = 0;  // what the last one took
+};
+
+}  // namespace rsc

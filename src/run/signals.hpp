@@ -1,0 +1,31 @@
+// SIGINT and SIGTERM, remembered until the work at hand can be left in order.
+#pragma once
+
+#include <stdexcept>
+
+namespace rsc {
+
+// From now on the first SIGINT or SIGTERM is remembered instead of ending the program; a second one ends it at once. A program
+// calls this; the library never does, and caught_signal() is then 0 for ever.
+void catch_signals();
+
+// SIGINT or SIGTERM once one has come, 0 before.
+int caught_signal() noexcept;
+
+// As if the signal had come to this process: another rank was told to stop.
+void note_signal(int signal) noexcept;
+
+// The work was left in order because of a signal; the text says how to go on. The exit status is 128 + signal.
+class Interrupted : public std::runtime_error {
+public:
+    Interrupted(int signal, const std::string& message) : std::runtime_error(message), signal_(signal) {}
+    int signal() const noexcept { return signal_; }
+
+private:
+    int signal_;
+};
+
+// "SIGINT", "SIGTERM".
+const char* signal_name(int signal) noexcept;
+
+}  // namespace rsc
