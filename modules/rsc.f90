@@ -831,13 +831,19 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     integer(c_int64_t) :: n
+    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
+    real(c_double), allocatable :: x_(:), y_(:), z_(:), radius_(:)
     n = 0
     status = rsc_asperities_count(self%handle, n)
-    if (present(x)) allocate (x(n))
-    if (present(y)) allocate (y(n))
-    if (present(z)) allocate (z(n))
-    if (present(radius)) allocate (radius(n))
-    if (status == rsc_success) status = rsc_asperities_get(self%handle, n, x, y, z, radius)
+    if (present(x)) allocate (x_(n))
+    if (present(y)) allocate (y_(n))
+    if (present(z)) allocate (z_(n))
+    if (present(radius)) allocate (radius_(n))
+    if (status == rsc_success) status = rsc_asperities_get(self%handle, n, x_, y_, z_, radius_)
+    if (present(x)) call move_alloc(x_, x)
+    if (present(y)) call move_alloc(y_, y)
+    if (present(z)) call move_alloc(z_, z)
+    if (present(radius)) call move_alloc(radius_, radius)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -848,12 +854,17 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     integer(c_int64_t) :: n
+    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
+    real(c_double), allocatable :: kappa1_(:), kappa2_(:), angle_(:)
     n = 0
     status = rsc_asperities_count(self%handle, n)
-    if (present(kappa1)) allocate (kappa1(n))
-    if (present(kappa2)) allocate (kappa2(n))
-    if (present(angle)) allocate (angle(n))
-    if (status == rsc_success) status = rsc_asperities_curvatures(self%handle, n, kappa1, kappa2, angle)
+    if (present(kappa1)) allocate (kappa1_(n))
+    if (present(kappa2)) allocate (kappa2_(n))
+    if (present(angle)) allocate (angle_(n))
+    if (status == rsc_success) status = rsc_asperities_curvatures(self%handle, n, kappa1_, kappa2_, angle_)
+    if (present(kappa1)) call move_alloc(kappa1_, kappa1)
+    if (present(kappa2)) call move_alloc(kappa2_, kappa2)
+    if (present(angle)) call move_alloc(angle_, angle)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -1041,14 +1052,19 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     integer(c_int64_t) :: n
+    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
+    real(c_double), allocatable :: force_(:), radius_(:), penetration_(:)
     integer(c_int32_t), allocatable :: which(:)
     n = 0
     status = rsc_contact_result(self%handle, contacts=n)
     allocate (which(n))
-    if (present(force)) allocate (force(n))
-    if (present(radius)) allocate (radius(n))
-    if (present(penetration)) allocate (penetration(n))
-    if (status == rsc_success) status = rsc_contact_spots(self%handle, n, which, force, radius, penetration)
+    if (present(force)) allocate (force_(n))
+    if (present(radius)) allocate (radius_(n))
+    if (present(penetration)) allocate (penetration_(n))
+    if (status == rsc_success) status = rsc_contact_spots(self%handle, n, which, force_, radius_, penetration_)
+    if (present(force)) call move_alloc(force_, force)
+    if (present(radius)) call move_alloc(radius_, radius)
+    if (present(penetration)) call move_alloc(penetration_, penetration)
     if (present(asperity)) asperity = int(which) + 1
     call finish(status, stat, errmsg)
   end subroutine

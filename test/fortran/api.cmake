@@ -1,7 +1,7 @@
 # The Fortran module of the library.
 add_executable(test_api_fortran test_api.f90)
 target_link_libraries(test_api_fortran PRIVATE rsc::fortran)
-target_compile_options(test_api_fortran PRIVATE -fcheck=all -Wall -Wno-compare-reals)
+target_compile_options(test_api_fortran PRIVATE -fcheck=all,no-array-temps -Wall)
 add_test(NAME fortran.api COMMAND test_api_fortran)
 
 add_executable(test_api_stop test_api_stop.f90)

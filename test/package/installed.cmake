@@ -1,0 +1,81 @@
+# Installs the build, moves the installation, then builds and runs consumers in C and Fortran against it. Stops at the first thing that
+# goes wrong.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${status}): ${command}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# Flags from pkg-config as a list.
+function(flags variable)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env "PKG_CONFIG_PATH=${pc}:$ENV{PKG_CONFIG_PATH}" ${PKG_CONFIG} ${ARGN}
+                  RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE error OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "pkg-config ${ARGN}: ${error}")
+  endif()
+  separate_arguments(list UNIX_COMMAND "${text}")
+  set(${variable} "${list}" PARENT_SCOPE)
+endfunction()
+
+function(must_run program)
+  run(${CMAKE_COMMAND} -E env "LD_LIBRARY_PATH=${libraries}" ${program} ${VERSION})
+  if(NOT output MATCHES "consumer: all is well")
+    message(FATAL_ERROR "${program}: ${output}")
+  endif()
+  message(STATUS "${program}: ${output}")
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/first)
+file(RENAME ${FOLDER}/first ${FOLDER}/prefix)  # an installation may be moved
+set(prefix ${FOLDER}/prefix)
+file(GLOB_RECURSE pc_files ${prefix}/*/rsc.pc)
+list(GET pc_files 0 pc)
+get_filename_component(pc ${pc} DIRECTORY)
+get_filename_component(libraries ${pc} DIRECTORY)
+
+# Nothing but the interface can be seen from outside, and a soname tells versions apart.
+file(GLOB shared ${libraries}/librsc.so.*.*.*)
+if(shared)
+  run(${NM} -D --defined-only ${shared})
+  string(REGEX REPLACE "[0-9a-f]+ T rsc_[a-z_]+\n" "" others "${output}")
+  if(NOT output MATCHES " T rsc_contact_indent" OR NOT "${others}" STREQUAL "")
+    message(FATAL_ERROR "symbols of ${shared} that are not of rsc.h, or none at all:\n${others}")
+  endif()
+endif()
+
+# By CMake: the shared library from C, the static one from C, the module from Fortran.
+run(${CMAKE_COMMAND} -S ${SOURCE}/consumer -B ${FOLDER}/consumer "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_C_COMPILER=${C_COMPILER}
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_Fortran_COMPILER=${FORTRAN_COMPILER}" -DRSC_VERSION=${VERSION})
+run(${CMAKE_COMMAND} --build ${FOLDER}/consumer)
+must_run(${FOLDER}/consumer/consumer_c)
+must_run(${FOLDER}/consumer/consumer_static)
+
+# By pkg-config.
+flags(version --modversion rsc)
+if(NOT version STREQUAL VERSION)
+  message(FATAL_ERROR "rsc.pc says version ${version}, not ${VERSION}")
+endif()
+flags(c_flags --cflags --libs rsc)
+run(${C_COMPILER} -Wall -Wextra -Werror ${SOURCE}/consumer/consumer.c -o ${FOLDER}/pc_c ${c_flags} -lm)
+must_run(${FOLDER}/pc_c)
+flags(static_flags --cflags --libs --static rsc)
+list(TRANSFORM static_flags REPLACE "^-lrsc$" "${libraries}/librsc.a")
+run(${C_COMPILER} ${SOURCE}/consumer/consumer.c -o ${FOLDER}/pc_static ${static_flags} -lm)
+must_run(${FOLDER}/pc_static)
+
+if(FORTRAN_COMPILER)
+  must_run(${FOLDER}/consumer/consumer_fortran)
+  flags(fortran_flags --cflags --libs rsc_fortran)
+  run(${FORTRAN_COMPILER} -fcheck=all ${SOURCE}/consumer/consumer.f90 -o ${FOLDER}/pc_fortran ${fortran_flags})
+  must_run(${FOLDER}/pc_fortran)
+  # With a compiler of one's own: the module from its source, which lies beside the .mod.
+  flags(source --variable=fortran_source rsc)
+  flags(c_flags --libs rsc)
+  file(MAKE_DIRECTORY ${FOLDER}/own)
+  run(${FORTRAN_COMPILER} -fcheck=all -J ${FOLDER}/own ${source}/rsc.f90 ${SOURCE}/consumer/consumer.f90 -o ${FOLDER}/own_fortran ${c_flags})
+  must_run(${FOLDER}/own_fortran)
+endif()
