@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "rough/dispatch.hpp"
 #include "rough/vector_math.hpp"
@@ -9,7 +10,7 @@
 namespace rsc {
 namespace {
 
-constexpr int kBatch = 128;
+constexpr int kBatch = Differences::kBatch;
 constexpr int kLanes = 8;  // partial sums, fixed so that the sum has the same bits on every machine
 
 // Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < kBatch; (kx, ky) is nowhere (0, 0).
@@ -25,11 +26,12 @@ RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, int kx, int ky_first, d
 
 struct Lanes {
     double e[kLanes] = {}, y2[kLanes] = {}, y4[kLanes] = {}, a[kLanes] = {};
+    double d2[kLanes] = {}, d4[kLanes] = {};  // with the squares of the differences in the place of ky^2
 };
 
 // Adds up the energies of a batch of coefficients and their moments in ky, lane by lane.
-RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* re, const double* im, int ky_first,
-                                         Lanes& total) {
+RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* re, const double* im, const double* difference,
+                                         int ky_first, Lanes& total) {
     Lanes sums = total;
     for (int i = 0; i < kBatch; i += kLanes)
         for (int l = 0; l < kLanes; ++l) {
@@ -42,6 +44,9 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
             sums.y2[l] += e * y2;
             sums.y4[l] += e * (y2 * y2);
             sums.a[l] += square;
+            const double d2 = difference[k];
+            sums.d2[l] += e * d2;
+            sums.d4[l] += e * (d2 * d2);
         }
     total = sums;
 }
@@ -49,8 +54,8 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
 RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude),
              (s, kx, ky_first, amplitude))
 RSC_DISPATCH(add_energies, add_energies_body,
-             (const double* amplitude, const double* re, const double* im, int ky_first, Lanes& total),
-             (amplitude, re, im, ky_first, total))
+             (const double* amplitude, const double* re, const double* im, const double* difference, int ky_first, Lanes& total),
+             (amplitude, re, im, difference, ky_first, total))
 
 double sum(const double* lanes) {
     double total = 0;
@@ -59,8 +64,8 @@ double sum(const double* lanes) {
 }
 
 // The modes (kx, first..last) into coefficient[0..last-first].
-void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, int kx, int first, int last,
-              std::complex<double>* coefficient, Lanes& lanes) {
+void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, const Differences& differences, int kx, int first,
+              int last, std::complex<double>* coefficient, Lanes& lanes) {
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
     const double x2 = static_cast<double>(kx) * kx;
     for (int ky = first; ky <= last; ky += kBatch) {
@@ -71,7 +76,7 @@ void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, i
             for (int i = 0; i < count; ++i)
                 if (x2 + static_cast<double>(ky + i) * (ky + i) < lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);
-        add_energies(amplitude, re, im, ky, lanes);
+        add_energies(amplitude, re, im, differences.from(ky), ky, lanes);
         for (int i = 0; i < count; ++i) coefficient[i] = {amplitude[i] * re[i], amplitude[i] * im[i]};
         coefficient += count;
     }
@@ -84,18 +89,28 @@ void ModeSums::add(const ModeSums& other) {
     m0 += other.m0;
     m2 += other.m2;
     m4 += other.m4;
+    m2_differences += other.m2_differences;
+    m4_differences += other.m4_differences;
     grid += other.grid;
 }
 
-ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, std::complex<double>* column) {
+Differences::Differences(int most, double h) : most_(most), square_(static_cast<std::size_t>(2 * most + 1 + kBatch)) {
+    for (int k = -most; k <= most; ++k) {
+        const double s = 2.0 * std::sin(std::numbers::pi * k * h);
+        square_[static_cast<std::size_t>(k + most)] = s * s;
+    }
+}
+
+ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, const Differences& differences,
+                     std::complex<double>* column) {
     const Band limits = band(spectrum);
     const int top = limits.highest_ky(kx);
     std::fill(column, column + n, std::complex<double>());
     Lanes lanes;
-    draw_run(spectrum, limits.lowest_q2, key, kx, kx > 0 ? 0 : 1, top, column + (kx > 0 ? 0 : 1), lanes);
+    draw_run(spectrum, limits.lowest_q2, key, differences, kx, kx > 0 ? 0 : 1, top, column + (kx > 0 ? 0 : 1), lanes);
     const double nyquist_energy = 2.0 * std::norm(column[n / 2]);  // of the mode (0, n/2), if there is one
     if (kx > 0) {
-        draw_run(spectrum, limits.lowest_q2, key, kx, -top, -1, column + n - top, lanes);
+        draw_run(spectrum, limits.lowest_q2, key, differences, kx, -top, -1, column + n - top, lanes);
     } else {
         // The column kx = 0 is its own mirror image. The mode at n/2 and its mirror image share one place.
         for (int ky = 1; ky < std::min(top + 1, n / 2); ++ky) column[n - ky] = std::conj(column[ky]);
@@ -109,10 +124,20 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
     sums.m2 = x2 * e + y2;
     sums.m4 = 2.0 * (x2 * x2 * e + y4 + 3.0 * x2 * y2) / 3.0;
     sums.grid = sums.m0;
-    if (kx == 0) sums.grid += std::norm(column[n / 2]) - nyquist_energy;
+    const double dx2 = *differences.from(kx), d2 = sum(lanes.d2), d4 = sum(lanes.d4);
+    sums.m2_differences = dx2 * e + d2;
+    sums.m4_differences = 2.0 * (dx2 * dx2 * e + d4 + 3.0 * dx2 * d2) / 3.0;
+    // Of a mode at the grid's Nyquist limit the points see the real part alone.
+    const auto correct = [&](double more, double k2) {
+        sums.grid += more;
+        sums.m2_differences += 0.5 * more * k2;
+        sums.m4_differences += more * k2 * k2 / 3.0;
+    };
+    if (kx == 0) correct(std::norm(column[n / 2]) - nyquist_energy, *differences.from(std::min(n / 2, limits.highest_kx)));
     if (kx == n / 2) {
         column[0] += std::conj(column[0]);
-        sums.grid = std::norm(column[0]);
+        correct(std::norm(column[0]) - sums.m0, dx2);
+        sums.grid = std::norm(column[0]);  // the column holds no other mode
     }
     return sums;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <vector>
 
 #include "rough/noise.hpp"
 #include "rough/spectrum.hpp"
@@ -15,12 +16,29 @@ struct ModeSums {
     double m0 = 0;        // mean square height, continuous in x and y
     double m2 = 0;        // (m20 + m02)/2
     double m4 = 0;        // (m40 + m04 + 3 m22)/3
+    double m2_differences = 0;  // m2 and m4 from finite differences, in units of the step of the differences
+    double m4_differences = 0;
     double grid = 0;      // mean square height over the n x n points (differs from m0 by the modes at the grid's Nyquist limit)
     void add(const ModeSums& other);
 };
 
+// What a finite difference makes of a mode: the wavevector component k, integer, becomes 2 sin(pi k/n)/h on n steps of h = L/n.
+class Differences {
+public:
+    // For |k| <= most; h in L.
+    Differences(int most, double h);
+    // Squares in h = 1 of the components k, k + 1, ...; `batch` of them may be read from any |k| <= most.
+    const double* from(int k) const { return square_.data() + (k + most_); }
+    static constexpr int kBatch = 128;
+
+private:
+    int most_;
+    std::vector<double> square_;
+};
+
 // Writes the Fourier coefficients of column kx (0 <= kx <= n/2) of an n x n complex-to-real transform to column[0..n), index
 // ky mod n, and zero where there is no mode. The band must fit the grid: highest_kx <= n/2.
-ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, std::complex<double>* column);
+ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, const Differences& differences,
+                     std::complex<double>* column);
 
 }  // namespace rsc

@@ -35,52 +35,17 @@ RSC_DISPATCH(flag_groups, flag_groups_body,
              (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
              (below, z, above, groups, flags))
 
-struct RowScan {
-    const RowPlace& place;
-    const double *below, *z, *above;
-    Curvature curvature;
-    Asperities& found;
-    long saddles = 0;
-
-    // Point i with its neighbours l and r along the row.
-    void test(int l, int i, int r) {
+// Calls keep(l, i, r) for every summit of the row: point i with its neighbours l and r along it.
+template <class Keep>
+void scan_row(const RowPlace& place, const double* below, const double* z, const double* above, Keep keep) {
+    const auto test = [&](int l, int i, int r) {
         const double h = z[i];
         if (h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] && h > above[r])
             keep(l, i, r);
-    }
-
-    // Curvatures of the paper's section 3 (with kappa_a = |a + b|: the paper's factor 1/2 is a slip).
-    void keep(int l, int i, int r) {
-        const double h = z[i];
-        const double a = 0.5 * ((z[l] - h) + (z[r] - h)) / (place.dx * place.dx);
-        const double b = 0.5 * ((below[i] - h) + (above[i] - h)) / (place.dy * place.dy);
-        const double c = 0.125 * ((above[r] - above[l]) - (below[r] - below[l])) / (place.dx * place.dy);
-        const double gauss = 4.0 * (a * b - c * c);  // kappa1 kappa2
-        if (!(gauss > 0.0)) {
-            ++saddles;
-            return;
-        }
-        const double kappa1 = -(a + b) + std::sqrt((a - b) * (a - b) + 4.0 * c * c);
-        found.x.push_back(place.x0 + i * place.dx);
-        found.y.push_back(place.y);
-        found.z.push_back(h);
-        found.radius.push_back(curvature == Curvature::geometric ? 1.0 / std::sqrt(gauss) : -1.0 / (a + b));
-        found.kappa1.push_back(kappa1);
-        // Without the cancellation of -(a + b) - sqrt(...); rounding must not turn a circle inside out.
-        found.kappa2.push_back(std::fmin(gauss / kappa1, kappa1));
-        const double angle = 0.5 * std::atan2(2.0 * c, a - b);
-        found.angle.push_back(angle > -0.5 * std::numbers::pi ? angle : 0.5 * std::numbers::pi);
-    }
-};
-
-}  // namespace
-
-long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
-                    Asperities& found) {
-    RowScan scan{place, below, z, above, curvature, found};
+    };
     const int nx = place.nx;
-    if (nx < 2) return 0;
-    if (place.periodic) scan.test(nx - 1, 0, 1);
+    if (nx < 2) return;
+    if (place.periodic) test(nx - 1, 0, 1);
     constexpr int kBuffer = 256;
     std::uint64_t flags[kBuffer];
     int i = 1;
@@ -90,13 +55,50 @@ long append_summits(const RowPlace& place, const double* below, const double* z,
         for (int g = 0; g < groups; ++g) {
             if (!flags[g]) continue;
             const int first = i + g * kGroup;
-            for (int k = first; k < first + kGroup; ++k) scan.test(k - 1, k, k + 1);
+            for (int k = first; k < first + kGroup; ++k) test(k - 1, k, k + 1);
         }
         i += groups * kGroup;
     }
-    for (; i < nx - 1; ++i) scan.test(i - 1, i, i + 1);
-    if (place.periodic) scan.test(nx - 2, nx - 1, 0);
-    return scan.saddles;
+    for (; i < nx - 1; ++i) test(i - 1, i, i + 1);
+    if (place.periodic) test(nx - 2, nx - 1, 0);
+}
+
+}  // namespace
+
+bool append_summit(double x, double y, double z, const SecondOrder& second, Curvature curvature, Asperities& found) {
+    const auto [a, b, c] = second;
+    const double gauss = 4.0 * (a * b - c * c);  // kappa1 kappa2
+    if (!(gauss > 0.0)) return false;
+    const double kappa1 = -(a + b) + std::sqrt((a - b) * (a - b) + 4.0 * c * c);
+    found.x.push_back(x);
+    found.y.push_back(y);
+    found.z.push_back(z);
+    found.radius.push_back(curvature == Curvature::geometric ? 1.0 / std::sqrt(gauss) : -1.0 / (a + b));
+    found.kappa1.push_back(kappa1);
+    // Without the cancellation of -(a + b) - sqrt(...); rounding must not turn a circle inside out.
+    found.kappa2.push_back(std::fmin(gauss / kappa1, kappa1));
+    const double angle = 0.5 * std::atan2(2.0 * c, a - b);
+    found.angle.push_back(angle > -0.5 * std::numbers::pi ? angle : 0.5 * std::numbers::pi);
+    return true;
+}
+
+long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
+                    Asperities& found) {
+    long saddles = 0;
+    scan_row(place, below, z, above, [&](int l, int i, int r) {
+        const double h = z[i];
+        SecondOrder second;
+        second.a = 0.5 * ((z[l] - h) + (z[r] - h)) / (place.dx * place.dx);
+        second.b = 0.5 * ((below[i] - h) + (above[i] - h)) / (place.dy * place.dy);
+        second.c = 0.125 * ((above[r] - above[l]) - (below[r] - below[l])) / (place.dx * place.dy);
+        if (!append_summit(place.x0 + i * place.dx, place.y, h, second, curvature, found)) ++saddles;
+    });
+    return saddles;
+}
+
+void find_maxima(const RowPlace& place, const double* below, const double* z, const double* above, std::vector<int>& columns) {
+    columns.clear();
+    scan_row(place, below, z, above, [&](int, int i, int) { columns.push_back(i); });
 }
 
 }  // namespace rsc

@@ -20,4 +20,16 @@ struct RowPlace {
 long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
                     Asperities& found);
 
+// The summits of that row by their columns, saddles and all, in `columns`. The row's ends are tested when it is periodic.
+void find_maxima(const RowPlace& place, const double* below, const double* z, const double* above, std::vector<int>& columns);
+
+// Halves of the second derivatives at a summit: a = zxx/2, b = zyy/2, c = zxy/2.
+struct SecondOrder {
+    double a = 0, b = 0, c = 0;
+};
+
+// Appends a summit with the curvatures of the paper's section 3 (with kappa_a = |a + b|: the paper's factor 1/2 is a slip);
+// false, and nothing appended, if it is a saddle.
+bool append_summit(double x, double y, double z, const SecondOrder& second, Curvature curvature, Asperities& found);
+
 }  // namespace rsc

@@ -46,7 +46,7 @@ double* allocate_doubles(std::size_t n, const char* purpose) {
 }
 
 RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                     int threads) {
+                     int threads, double difference_step) {
     validate(spectrum);
     if (n < 2 || n % 2 != 0) throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
     columns_ = band(spectrum).highest_kx + 1;
@@ -58,10 +58,11 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
     columns_data_.reset(allocate_doubles(2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
                                          "the modes of a synthetic surface"));
-    draw(spectrum, normalise, seed, realization, std::max(threads, 1));
+    draw(spectrum, normalise, seed, realization, std::max(threads, 1), difference_step > 0 ? difference_step : spectrum.L / n);
 }
 
-void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads) {
+void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+                     double difference_step) {
     const NoiseKey key{seed, realization};
     auto* const store = reinterpret_cast<std::complex<double>*>(columns_data_.get());
     const auto doubles = static_cast<std::size_t>(2 * column_stride_);
@@ -79,12 +80,13 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     // Nothing in the loop throws. The sums go by column and are added in order, whichever thread drew them.
     std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
     auto& plan = *column_plan;
+    const Differences differences(columns_ - 1, difference_step / spectrum.L);
     // Thread t takes the columns t, t + threads, ...: the low ones hold more modes than the high ones.
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
     for (int t = 0; t < threads; ++t) {
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
         for (int kx = t; kx < columns_; kx += threads) {
-            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, column);
+            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, column);
             fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
         }
     }
@@ -95,6 +97,8 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     const double step = 2.0 * std::numbers::pi / spectrum.L;
     const double f2 = factor_ * factor_, k2 = step * step;
     sampled_ = {f2 * total.m0, f2 * k2 * total.m2, f2 * k2 * k2 * total.m4};
+    const double h2 = difference_step * difference_step;
+    differences_ = {f2 * total.grid, f2 * total.m2_differences / h2, f2 * total.m4_differences / (h2 * h2)};
 }
 
 RowSource::Scratch::Scratch(const RowSource& source)

@@ -20,11 +20,14 @@ double* allocate_doubles(std::size_t n, const char* purpose);
 class RowSource {
 public:
     // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is sound, n even and
-    // L_lambda_s <= n/2, Error(no_memory).
-    RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads);
+    // L_lambda_s <= n/2, Error(no_memory). `difference_step` is the step of the finite differences of differences(), L/n if 0.
+    RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+              double difference_step = 0);
 
     int n() const { return n_; }
     const Moments& sampled() const { return sampled_; }  // exact sums over the modes drawn
+    // What finite differences give on a grid of that step (grid_moments), by exact sums over the modes drawn.
+    const Moments& differences() const { return differences_; }
 
     // Memory a thread needs to make rows.
     class Scratch {
@@ -43,7 +46,8 @@ public:
     static constexpr int kBlock = 16;  // rows at a time for which rows() is efficient
 
 private:
-    void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads);
+    void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+              double difference_step);
 
     int n_ = 0;
     int columns_ = 0;                   // kx = 0 ... columns_ - 1 hold modes
@@ -51,7 +55,7 @@ private:
     std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles
     std::unique_ptr<double[], HeightMap::Free> columns_data_;
     double factor_ = 1;  // from relative amplitudes to lengths
-    Moments sampled_;
+    Moments sampled_, differences_;
     FftwPlan row_plan_;
 };
 

@@ -1,0 +1,101 @@
+#include "rough/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rough/dispatch.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr int kTaps = Stencil::kTaps;
+constexpr int kOrders = Stencil::kOrders;
+constexpr int kLanes = 8;  // partial sums, fixed so that a sum has the same bits on every machine
+
+// derivative[p][q]: orders p in x and q in y (indices into Stencil::kOrder) from the points at `corner`, `points` a side.
+RSC_ALWAYS_INLINE void contract_body(const double* corner, int points, int orders, const double (*wx)[kTaps],
+                                     const double (*wy)[kTaps], double (*derivative)[kOrders]) {
+    for (int q = 0; q < orders; ++q) {
+        double line[kTaps] = {};
+        for (int j = 0; j < points; ++j) {
+            const double* const z = corner + j * Patch::kStride;
+            const double w = wy[q][j];
+            for (int i = 0; i < kTaps; ++i) line[i] += w * z[i];
+        }
+        for (int p = 0; p < orders; ++p) {
+            double lanes[kLanes] = {};
+            for (int i = 0; i < kTaps; i += kLanes)
+                for (int l = 0; l < kLanes; ++l) lanes[l] += wx[p][i + l] * line[i + l];
+            double sum = 0;
+            for (int l = 0; l < kLanes; ++l) sum += lanes[l];
+            derivative[p][q] = sum;
+        }
+    }
+}
+
+RSC_DISPATCH(contract, contract_body,
+             (const double* corner, int points, int orders, const double (*wx)[kTaps], const double (*wy)[kTaps],
+              double (*derivative)[kOrders]),
+             (corner, points, orders, wx, wy, derivative))
+
+struct Step {
+    double x = 0, y = 0;
+    bool peak = false;  // Newton's step, and the surface is curved down in all directions
+};
+
+Step step_to_summit(double zx, double zy, double zxx, double zxy, double zyy) {
+    const double determinant = zxx * zyy - zxy * zxy;
+    Step s;
+    if (determinant > 0 && zxx + zyy < 0) {
+        s = {(zxy * zy - zyy * zx) / determinant, (zxy * zx - zxx * zy) / determinant, true};
+        const double longest = std::max(std::abs(s.x), std::abs(s.y));
+        if (longest > 1) s = {s.x / longest, s.y / longest, true};
+    } else if (const double slope = std::hypot(zx, zy); slope > 0) {
+        s = {0.5 * zx / slope, 0.5 * zy / slope, false};
+    }
+    return s;
+}
+
+// From second differences about the middle point: saves an evaluation or two.
+Step first_step(const Patch& patch) {
+    const auto z = [&](int i, int j) { return patch.z[Patch::kMargin + j][Patch::kMargin + i]; };
+    return step_to_summit(0.5 * (z(1, 0) - z(-1, 0)), 0.5 * (z(0, 1) - z(0, -1)), z(1, 0) - 2 * z(0, 0) + z(-1, 0),
+                          0.25 * (z(1, 1) - z(-1, 1) - z(1, -1) + z(-1, -1)), z(0, 1) - 2 * z(0, 0) + z(0, -1));
+}
+
+}  // namespace
+
+std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch) {
+    constexpr int kMostSteps = 40;  // three or four do; long ways go along ridges
+    // The last step is applied to the position and the height alone; the derivatives stay where they were taken.
+    constexpr double kNear = 1e-4;     // a step so short that the next evaluation is the last: it ends within kNear^2
+    constexpr double kArrived = 1e-7;  // after the last evaluation a step must be no longer than this
+    const Step start = first_step(patch);
+    double x = start.peak ? start.x : 0, y = start.peak ? start.y : 0;
+    bool last = false;
+    for (int k = 0; k < kMostSteps; ++k) {
+        const double rx = std::round(x), ry = std::round(y);
+        if (!(rx >= patch.first_x && rx <= patch.last_x && ry >= patch.first_y && ry <= patch.last_y)) return {};
+        const int orders = last ? kOrders : kOrders - 1;
+        alignas(64) double wx[kOrders][kTaps], wy[kOrders][kTaps];
+        stencil.weights(x - rx, orders, wx);
+        stencil.weights(y - ry, orders, wy);
+        double d[kOrders][kOrders];
+        const int corner = Patch::kMargin - stencil.reach();
+        contract(&patch.z[corner + static_cast<int>(ry)][corner + static_cast<int>(rx)], 2 * stencil.reach() + 1, orders, wx, wy, d);
+        const Step s = step_to_summit(d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]);
+        const double length = std::max(std::abs(s.x), std::abs(s.y));
+        if (last && s.peak && length <= kArrived) {
+            // Half of gradient times step is what is left to the top.
+            return RefinedSummit{x + s.x,  y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2],
+                                 d[3][0], d[2][2], d[0][3]};
+        }
+        last = s.peak && length <= kNear;
+        x += s.x;
+        y += s.y;
+        if (!s.peak && length == 0) return {};  // stationary, and no peak
+    }
+    return {};
+}
+
+}  // namespace rsc

@@ -1,0 +1,41 @@
+// Stencils that give a height map and its derivatives between its points.
+#pragma once
+
+#include <vector>
+
+namespace rsc {
+
+// Weights over the points -reach ... reach of a line, in grid steps. One stencil W_q is made for every derivative q at the middle
+// point; beside it, at |t| <= 1/2, Taylor's series gives those of derivative p: sum over r of t^r/r! W_(p+r).
+class Stencil {
+public:
+    static constexpr int kMostReach = 15;
+    static constexpr int kHalf = kMostReach + 1;     // weights W_q of the points 0 ... reach, padded with zeros
+    static constexpr int kTaps = 2 * kMostReach + 2;  // weights of the points -reach ... reach, padded with zeros
+    static constexpr int kOrders = 4;
+    static constexpr int kOrder[kOrders] = {0, 1, 2, 4};  // the derivatives weights() knows
+
+    // For lines without waves shorter than `points_per_wave` >= 4 steps: the least error over that band, a self-affine surface's
+    // long waves weighing more than its short ones. The reach is the shortest with a relative rms error of the fourth derivative
+    // below 1e-8; lower derivatives are better. Throws Error(bad_input) for fewer points a wave.
+    static Stencil band_limited(double points_per_wave);
+
+    // For lines of which nothing is known: Lagrange's polynomial through the 2 reach + 1 points and its derivatives.
+    static Stencil polynomial(int reach);
+
+    int reach() const { return reach_; }
+
+    // weight[o][reach + i] of point i for derivative kOrder[o] at t, |t| <= 1/2, o < orders; zero after i = reach.
+    void weights(double t, int orders, double (*weight)[kTaps]) const;
+
+private:
+    explicit Stencil(int reach) : reach_(reach) {}
+    double fit(double cutoff);  // of band_limited: the relative error of the fourth derivative
+
+    static constexpr int kDerivatives = 19;  // (pi/4)^15/15! = 2e-14 is left out of the fourth
+    int reach_;
+    int derivatives_ = kDerivatives;
+    double centre_[kDerivatives][kHalf] = {};  // W_q(i), i >= 0; even q are symmetric, odd q antisymmetric
+};
+
+}  // namespace rsc

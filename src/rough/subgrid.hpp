@@ -1,0 +1,50 @@
+// Summits between the points of the grid: what asperity detection does where the law looks closer than Hertz's.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "rough/asperities.hpp"
+#include "rough/refine.hpp"
+#include "rough/summits.hpp"
+
+namespace rsc {
+
+// Summits found in some rows, in the order of their grid maxima.
+struct RefinedSummits {
+    Asperities found;
+    std::vector<int> row;              // of the grid maximum
+    std::vector<double> u, v;          // place in grid steps, x = x0 + u dx, y = y0 + v dy
+    std::vector<double> moved;         // from the grid maximum, the larger of both directions [grid steps]
+    long saddles = 0;                  // grid maxima without a summit in reach
+    void append(const RefinedSummits& other);
+};
+
+// Climbs from the grid's maxima to the summits of the surface, row by row.
+class SummitClimber {
+public:
+    // The map's rows as in `place` (its y is not used), ny of them; y0 is the y of row 0.
+    SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature);
+
+    // Rows on either side of a row that row() must be able to give; a map that is not periodic has none beyond its edges.
+    int margin() const { return stencil_.reach() + Patch::kTravel; }
+
+    // Appends the summits reached from row j; row(d) is the row j + d, null where there is none.
+    void climb(int j, const std::function<const double*(int)>& row, RefinedSummits& to);
+
+private:
+    bool cut_out(int i, int j, const std::function<const double*(int)>& row);
+
+    const Stencil& stencil_;
+    RowPlace place_;
+    int ny_;
+    double y0_;
+    Curvature curvature_;
+    Patch patch_;
+    std::vector<int> columns_;
+};
+
+// Two maxima of the grid may lead to one summit: leaves the one nearer to it; returns how many went.
+long drop_repeated(RefinedSummits& summits, int nx, int ny, bool periodic);
+
+}  // namespace rsc
