@@ -13,7 +13,6 @@ constexpr Unavailable kUnavailable[] = {
     {"asperities", "law", "elliptic"},
     {"asperities", "law", "fourth_order"},
     {"solver", "interaction", "hertz"},
-    {"indentation", "control", "force"},
 };
 
 constexpr double kNoLimit = Case::kInfinity;
