@@ -181,9 +181,8 @@ void Checkpoint::load(const Case& settings) {
     std::string bytes;
     const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
     if (!get_frame(fd_, end, offset, kind, bytes)) {
-        FrameHead head;
-        const bool ours = end < sizeof head || (get(fd_, reinterpret_cast<char*>(&head), sizeof head, 0) && head.kind == kHeader);
-        if (!ours) refuse("is not a checkpoint of rsc");
+        if (end > sizeof(FrameHead) + header_.size())
+            refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
         return;
     }
     if (kind != kHeader) refuse("is not a checkpoint of rsc");

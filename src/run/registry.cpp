@@ -10,8 +10,6 @@ namespace {
 
 // --- edit here when something becomes available ---
 constexpr Unavailable kUnavailable[] = {
-    {"asperities", "law", "elliptic"},
-    {"asperities", "law", "fourth_order"},
     {"solver", "interaction", "hertz"},
 };
 

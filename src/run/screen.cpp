@@ -73,7 +73,8 @@ void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts
         out << format("  %ld of %ld levels: %s - %s\n", found->second, levels, status_name(status), meaning);
     };
     tell(LevelStatus::out_of_validity,
-         "contacts with a > <d>/4, a quarter of the mean spacing of summits: the asperity model is leaving its range.");
+         "contacts with a > <d>/4, a quarter of the mean spacing of summits, or pressed beyond what the law knows of a summit (beyond_law in "
+         "the file): the asperity model is leaving its range.");
     tell(LevelStatus::overlapping,
          "pairs of contact spots nearer than the sum of their radii: asperities that would merge are counted as two.");
     tell(LevelStatus::not_unique,

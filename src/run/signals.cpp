@@ -1,6 +1,7 @@
 #include "run/signals.hpp"
 
 #include <csignal>
+#include <ctime>
 
 #include <atomic>
 
@@ -10,7 +11,25 @@ namespace {
 std::atomic<int> caught{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may store it");
 
-extern "C" void remember(int signal) { note_signal(signal); }
+std::atomic<long> caught_at{0};  // seconds
+
+long seconds_now() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);  // which a signal handler may call
+    return static_cast<long>(now.tv_sec);
+}
+
+// One request to stop often comes twice: to the process and to its group (timeout, mpirun, batch systems). Impatience comes
+// later.
+extern "C" void remember(int signal) {
+    if (caught_signal() == 0) {
+        caught_at = seconds_now();
+        note_signal(signal);
+    } else if (seconds_now() - caught_at > 1) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+}
 
 }  // namespace
 
@@ -18,9 +37,12 @@ void catch_signals() {
     struct sigaction action {};
     action.sa_handler = remember;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;  // the second one finds the default again
-    sigaction(SIGINT, &action, nullptr);
+    action.sa_flags = SA_RESTART;
+    struct sigaction before {};
+    sigaction(SIGINT, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);  // a shell's background jobs ignore the keyboard
     sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond the limit of file sizes is an error of write() then
 }
 
 int caught_signal() noexcept { return caught.load(std::memory_order_relaxed); }

@@ -5,8 +5,9 @@
 
 namespace rsc {
 
-// From now on the first SIGINT or SIGTERM is remembered instead of ending the program; a second one ends it at once. A program
-// calls this; the library never does, and caught_signal() is then 0 for ever.
+// From now on the first SIGINT or SIGTERM is remembered instead of ending the program; a second one, some seconds later, ends it
+// at once. SIGINT stays ignored where it is, and a file beyond the limit of file sizes becomes an error instead of a signal. A
+// program calls this; the library never does, and caught_signal() is then 0 for ever.
 void catch_signals();
 
 // SIGINT or SIGTERM once one has come, 0 before.

@@ -66,8 +66,9 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
             mode_given = true;
-            const std::string word =
-                a.items.size() == 1 && a.items[0].quoted && !a.subscript ? namelist::lower_case(a.items[0].text) : "";
+            std::size_t given = a.items.size();
+            while (given > 1 && a.items[given - 1].null && !a.items[given - 1].counted) --given;  // the end of a line before '/'
+            const std::string word = given == 1 && a.items[0].quoted && !a.subscript ? namelist::lower_case(a.items[0].text) : "";
             if (word == "product")
                 study.mode = StudyMode::product;
             else if (word == "zip")

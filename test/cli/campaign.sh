@@ -1,0 +1,253 @@
+#!/bin/bash
+# Campaigns and studies from outside: bash campaign.sh TEST RSC RSC_MPI FOLDER, RSC_MPI empty where it is not built.
+# Exit status 0: passed, 77: skipped, anything else: failed.
+set -u
+test=$1 rsc=$2 rsc_mpi=$3 folder=$4
+export SOURCE_DATE_EPOCH=1700000000   # files are equal to the last byte then
+umask 022
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
+
+fail() { echo "failed: $*"; exit 1; }
+# expect STATUS command...: the exit status; stdout and stderr go to the file `said`.
+expect() {
+    local wanted=$1 got
+    shift
+    "$@" > said 2>&1
+    got=$?
+    [ $got -eq "$wanted" ] || { cat said; fail "exit status $got instead of $wanted: $*"; }
+}
+says() { grep -q -- "$1" said || { cat said; fail "it does not say: $1"; }; }
+# in_folder NAME command...: in a folder of that name, so that the result file can have one name everywhere.
+in_folder() { mkdir -p "$1" && (cd "$1" && shift && "$@"); }
+same() { cmp "$1" "$2" || fail "$1 and $2 differ"; }
+ranks() {
+    local n=$1
+    shift
+    local root=
+    [ "$(id -u)" -eq 0 ] && root=--allow-run-as-root
+    local run=(timeout 100 mpirun $root --oversubscribe -n "$n" "$rsc_mpi" "$@")
+    if [ "$BASHPID" = $$ ]; then "${run[@]}"; else exec "${run[@]}"; fi
+}
+
+# $1 realizations of a few milliseconds each.
+campaign() {
+    cat > case.nml << END
+&run         realizations = $1  first_realization = 3 /
+&surface     n = 256  L_lambda_l = 8  L_lambda_s = 100  hurst = 0.7 /
+&indentation steps = 20 /
+&output      file = 'out.nc'  map_cells = 20 /
+END
+}
+study() {
+    cat > case.nml << 'END'
+&surface     n = 128  L_lambda_l = 4  L_lambda_s = 32 /
+&indentation steps = 8 /
+&output      file = 'out/rsc.nc'  map_cells = 10 /
+&study       surface%sigma = 0.005, 0.01, 0.02   run%realizations = 1, 5 /
+END
+}
+
+# The same bits whatever the number of threads.
+test_threads() {
+    campaign 40
+    for n in 1 2 3; do
+        expect 0 in_folder "threads$n" "$rsc" -s "run%threads=$n" ../case.nml
+        same threads1/out.nc "threads$n/out.nc"
+        [ "$(ls "threads$n")" = out.nc ] || fail "something is left beside out.nc"
+    done
+}
+
+# The same bits whatever the number of ranks, and an interrupted job is finished by another number of them.
+test_ranks() {
+    [ -n "$rsc_mpi" ] || exit 77
+    campaign 60
+    expect 0 in_folder one "$rsc" -s run%threads=1 ../case.nml
+    for n in 1 2 3; do
+        expect 0 in_folder "ranks$n" ranks $n ../case.nml
+        same one/out.nc "ranks$n/out.nc"
+    done
+    expect 0 in_folder hybrid ranks 2 -s run%threads=2 ../case.nml
+    same one/out.nc hybrid/out.nc
+    campaign 400
+    expect 0 in_folder whole "$rsc" -q ../case.nml
+    mkdir killed && cd killed
+    ranks 3 -q ../case.nml > said 2>&1 &   # a subshell, which leaves its place to the command
+    for _ in $(seq 200); do   # some work must be there to be kept
+        [ "$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)" -gt 20000 ] && break
+        sleep 0.02
+    done
+    kill -TERM %1 2> /dev/null
+    wait
+    expect 0 ranks 2 --resume ../case.nml
+    cd .. && same whole/out.nc killed/out.nc
+    # A refusal is one message, and the exit status of all.
+    expect 2 ranks 2 -s surface%n=101 case.nml
+    [ "$(grep -c "n = 101: must be even" said)" -eq 1 ] || fail "the message should be there once"
+    # A study: members of one realization side by side, a campaign over all ranks.
+    study
+    expect 0 in_folder study1 "$rsc" ../case.nml
+    expect 0 in_folder study3 ranks 3 ../case.nml
+    diff -r study1/out study3/out || fail "the study differs"
+}
+
+# Twenty kills at random moments, half of them -9. What is under the final name is whole at any time, and the same at the end.
+test_kills() {
+    campaign 250
+    expect 0 in_folder whole "$rsc" -q ../case.nml
+    mkdir killed && cd killed
+    RANDOM=${RSC_TEST_SEED:-$$}
+    echo "RSC_TEST_SEED=${RSC_TEST_SEED:-$$}"
+    local kills=0 runs=0 kept=0 signal status size
+    while [ $kills -lt 20 ]; do
+        runs=$((runs + 1))
+        [ $runs -lt 400 ] || fail "it is hardly ever hit"
+        signal=$([ $((RANDOM % 2)) -eq 0 ] && echo KILL || echo TERM)
+        timeout --preserve-status -s $signal "0.$(printf %03d $((20 + RANDOM % 200)))" "$rsc" -q --resume -s run%threads=2 ../case.nml > said 2>&1
+        status=$?
+        [ ! -e out.nc ] || same ../whole/out.nc out.nc
+        case $status in
+            0) rm -f out.nc ;;   # it was faster: from the beginning again
+            137 | 143)
+                kills=$((kills + 1))
+                size=$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)
+                [ "$size" -lt 20000 ] || kept=$((kept + 1))
+                rm -f out.nc ;;  # killed between the end of the work and that of the program
+            *) cat said; fail "exit status $status" ;;
+        esac
+    done
+    expect 0 "$rsc" --resume ../case.nml
+    same ../whole/out.nc out.nc
+    [ "$(ls)" = "$(printf 'out.nc\nsaid')" ] || fail "something is left beside out.nc: $(ls)"
+    [ $kept -ge 5 ] || fail "too few kills left work behind ($kept): the test proves little"
+    echo "$kills kills in $runs runs, $kept with work kept"
+}
+
+# A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing.
+test_signals() {
+    campaign 2000
+    expect 143 timeout --preserve-status -s TERM 0.5 "$rsc" -q case.nml
+    says "stopped by SIGTERM; [0-9]* of 2000 realizations are finished.*--resume"
+    [ -s out.nc.checkpoint ] && [ ! -e out.nc ] || fail "the state is not as it should be"
+    expect 130 timeout --preserve-status -s INT 0.5 "$rsc" -q --resume case.nml
+    says "stopped by SIGINT"
+    campaign 1
+    mkdir one && cd one
+    expect 143 timeout --preserve-status -s TERM 0.5 "$rsc" -s surface%n=4096 -s surface%L_lambda_s=2000 -s indentation%steps=10000 ../case.nml
+    says "nothing is written"
+    rm said
+    [ -z "$(ls)" ] || fail "something is left: $(ls)"
+}
+
+# Nothing is lost by accident, and nothing is mixed up.
+test_refused() {
+    campaign 300
+    sed 's/300/3000/' case.nml > long.nml
+    timeout -s KILL 0.6 "$rsc" -q long.nml
+    cp out.nc.checkpoint before
+    expect 2 "$rsc" long.nml
+    says "out.nc.checkpoint.*--resume"
+    expect 2 "$rsc" --resume -s surface%hurst=0.75 -s run%seed=2 long.nml
+    says "surface%hurst: 0.7 there, 0.75 now"
+    says "run%seed: 1 there, 2 now"
+    expect 2 "$rsc" --resume case.nml
+    says "run%realizations: 3000 there, 300 now"
+    head -c "$(stat -c %s out.nc.checkpoint)" before | cmp - out.nc.checkpoint || fail "a refusal has changed the state"
+    # A torn frame at the end may be cut off, nothing else.
+    [ $(($(stat -c %s before) - $(stat -c %s out.nc.checkpoint))) -lt 20000 ] || fail "a refusal has taken from the state"
+    [ ! -e out.nc ] || fail "a refusal has written"
+    # Two at a time.
+    "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
+    sleep 0.3
+    expect 2 "$rsc" --resume long.nml
+    says "another rsc is at work"
+    kill %1
+    wait
+    # Another number of threads, and another format, are the same case.
+    rm out.nc.checkpoint
+    expect 0 in_folder whole "$rsc" -q -s "output%format='classic'" ../case.nml
+    timeout -s KILL 0.2 "$rsc" -q -s run%threads=1 case.nml
+    expect 0 "$rsc" --resume -s run%threads=3 -s "output%format='classic'" case.nml
+    same whole/out.nc out.nc
+    expect 0 "$rsc" --resume -s "output%format='classic'" case.nml
+    says "is there and whole"
+}
+
+# A study in one go and as an array of jobs: the same files. A bad member is refused before anything runs.
+test_study() {
+    study
+    expect 0 in_folder one "$rsc" ../case.nml
+    expect 0 in_folder one "$rsc" --list ../case.nml
+    [ "$(wc -l < said)" -eq 6 ] || fail "--list has not six lines"
+    says "^5  out/rsc_005.nc  surface%sigma=0.02 run%realizations=1"
+    mkdir array
+    for k in 6 2 4 1 5 3; do (cd array && "$rsc" -q --member $k ../case.nml) & done
+    wait
+    diff -r one array || fail "the array differs"
+    [ "$(ls one/out | wc -l)" -eq 8 ] || fail "six members and two manifests were expected"
+    grep -q "^5	rsc_005.nc	0.02	1$" one/out/rsc_manifest.txt || fail "the manifest"
+
+    expect 2 in_folder bad "$rsc" -s surface%n=60 ../case.nml
+    sed 's/0.005, 0.01/0.005, -0.01/' case.nml > bad.nml
+    expect 2 in_folder bad "$rsc" ../bad.nml
+    says "surface%sigma"
+    sed 's/surface%sigma.*0.02/surface%n = 128, 256, 62/' case.nml > bad.nml
+    expect 2 in_folder bad "$rsc" ../bad.nml
+    says "member 5 (surface%n=62"
+    expect 2 in_folder bad "$rsc" --member 7 ../case.nml
+    [ -z "$(ls bad)" ] || fail "a refused study has written"
+
+    # Finished members are left alone, the others are made.
+    cd array
+    rm out/rsc_003.nc
+    touch -d @1000000000 out/rsc_00*.nc
+    expect 0 "$rsc" --resume ../case.nml
+    says "member 2 .*is there and whole"
+    rm said && cd ..
+    [ "$(find array/out -name 'rsc_00*.nc' -newermt @1000000001 | wc -l)" -eq 1 ] || fail "one member should have been made"
+    diff -r one array || fail "the resumed study differs"
+    # One from another case is made again.
+    cp one/out/rsc_001.nc array/out/rsc_002.nc
+    expect 0 in_folder array "$rsc" --resume ../case.nml
+    diff -r one array || fail "a member of another case was taken"
+}
+
+# No room for the state: the work so far is kept, and goes on once there is room. Here the limit of file sizes stands for the disk.
+test_limit() {
+    campaign 300
+    expect 0 in_folder whole "$rsc" -q ../case.nml
+    expect 1 bash -c 'ulimit -f 256; exec "$0" -q case.nml' "$rsc"
+    says "cannot write 'out.nc.checkpoint'"
+    says "of 300 realizations are finished and kept.*--resume"
+    [ ! -e out.nc ] || fail "there is a file under the final name"
+    [ "$(stat -c %s out.nc.checkpoint)" -gt 200000 ] || fail "the work is lost"
+    expect 0 "$rsc" --resume case.nml
+    same whole/out.nc out.nc
+}
+
+# A disk that is full, where this user may mount one.
+test_full_disk() {
+    mkdir disk
+    mount -t tmpfs -o size=512k none disk 2> /dev/null || exit 77
+    trap 'umount "$folder/disk"' EXIT
+    campaign 300
+    expect 0 in_folder whole "$rsc" -q ../case.nml
+    expect 1 in_folder disk "$rsc" -q ../case.nml
+    says "is full"
+    says "of 300 realizations are finished and kept.*--resume"
+    [ "$(ls disk)" = out.nc.checkpoint ] || fail "found: $(ls disk)"
+    expect 1 in_folder disk "$rsc" -q --resume ../case.nml
+    mount -o remount,size=64m disk || exit 77
+    expect 0 in_folder disk "$rsc" --resume ../case.nml
+    same whole/out.nc disk/out.nc
+    # The result alone finds no room: the work is kept all the same.
+    rm disk/out.nc
+    mount -o remount,size=3m disk
+    dd if=/dev/zero of=disk/ballast bs=1k count=600 2> /dev/null
+    expect 1 in_folder disk "$rsc" -q -s output%map_cells=200 -s output%compression=0 ../case.nml
+    [ ! -e disk/out.nc ] || fail "there is a file under the final name"
+    rm disk/ballast
+    mount -o remount,size=64m disk
+    expect 0 in_folder disk "$rsc" -q --resume -s output%map_cells=200 -s output%compression=0 ../case.nml
+}
+
+"test_$test"

@@ -1,0 +1,306 @@
+// Campaigns: what is written comes back, what is torn is left out, sums over realizations are those of the realizations.
+#include <netcdf.h>
+
+#include <atomic>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "run/campaign_archive.hpp"
+#include "run/campaign_team.hpp"
+#include "run/checkpoint.hpp"
+#include "run/job.hpp"
+#include "run/run.hpp"
+#include "temporary_folder.hpp"
+
+using namespace rsc;
+
+namespace {
+
+Case small_case() {
+    Case c;
+    c.surface.n = 128;
+    c.surface.L_lambda_l = 4;
+    c.surface.L_lambda_s = 40;
+    c.indentation.levels = {3.0, 2.5, 2.0, 1.5};
+    c.output.pdf_levels = {2.0, 1.5};
+    c.output.map_cells = 16;
+    return c;
+}
+
+void test_archive() {
+    const Job job = prepare(small_case());
+    Accumulators sums(job.observe, job.levels.size()), again = sums, restored = sums;
+    for (int k = 1; k <= 6; ++k) {
+        const RealizationRecord record = observe(job, k, realize(job, k, 1));
+        const std::string bytes = to_bytes(record);
+        CHECK(realization_of(bytes) == k);
+        CHECK(to_bytes(record_from_bytes(bytes)) == bytes);
+        CHECK_THROWS(record_from_bytes(bytes + "x"), Error);
+        for (std::size_t length = 0; length < bytes.size(); length += 97)
+            CHECK_THROWS(record_from_bytes(std::string_view(bytes).substr(0, length)), Error);
+        sums.add(record);
+        again.add(record_from_bytes(bytes));
+        if (k <= 3) sums_from_bytes(to_bytes(sums), restored);  // interrupted after three
+        if (k > 3) restored.add(record_from_bytes(bytes));
+    }
+    CHECK(to_bytes(again) == to_bytes(sums));
+    CHECK(to_bytes(restored) == to_bytes(sums));
+    Accumulators other(job.observe, job.levels.size() + 1);
+    CHECK_THROWS(sums_from_bytes(to_bytes(sums), other), Error);
+}
+
+std::vector<std::string> some_records() {
+    std::vector<std::string> records;
+    for (int k = 0; k < 4; ++k) records.push_back(std::string(static_cast<std::size_t>(40 + 13 * k), static_cast<char>('a' + k)));
+    return records;
+}
+
+void write_bytes(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+std::string refusal(const std::string& file, const Case& c, bool resume) {
+    try {
+        Checkpoint checkpoint(file, c, resume);
+    } catch (const Error& error) {
+        return error.kind() == Failure::bad_input ? error.what() : "of another kind";
+    }
+    return {};
+}
+
+void test_torn(const Folder& folder) {
+    const std::string file = folder / "out.nc", state = checkpoint_name(file);
+    const Case c = small_case();
+    const std::vector<std::string> records = some_records();
+    std::vector<std::size_t> ends;  // of the header and of each record
+    {
+        Checkpoint checkpoint(file, c, false);
+        ends.push_back(bytes(state).size());
+        for (const std::string& record : records) {
+            checkpoint.append(record);
+            ends.push_back(bytes(state).size());
+        }
+        CHECK(refusal(file, c, true).find("another rsc is at work") != std::string::npos);
+    }
+    CHECK(refusal(file, c, false).find("--resume") != std::string::npos);
+    const std::string whole = bytes(state);
+    // Killed at any moment: the records that are whole are there, and the next one is taken.
+    for (std::size_t length = 0; length <= whole.size(); ++length) {
+        write_bytes(state, whole.substr(0, length));
+        std::size_t kept = 0;
+        while (kept < records.size() && ends[kept + 1] <= length) ++kept;
+        {
+            Checkpoint checkpoint(file, c, true);
+            const auto contents = checkpoint.take_contents();
+            CHECK(!contents.sums && contents.records.size() == kept);
+            for (std::size_t k = 0; k < contents.records.size(); ++k) CHECK(contents.records[k] == records[k]);
+            checkpoint.append("one more");
+        }
+        Checkpoint checkpoint(file, c, true);
+        const auto contents = checkpoint.take_contents();
+        CHECK(contents.records.size() == kept + 1 && contents.records.back() == "one more");
+    }
+    // A spoilt byte: the records before it are there, and nothing wrong is.
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        std::string spoilt = whole;
+        spoilt[at] = static_cast<char>(spoilt[at] ^ 0x20);
+        write_bytes(state, spoilt);
+        if (at < ends[0]) {
+            CHECK(!refusal(file, c, true).empty());
+            continue;
+        }
+        std::size_t kept = 0;
+        while (ends[kept + 1] <= at) ++kept;
+        Checkpoint checkpoint(file, c, true);
+        const auto contents = checkpoint.take_contents();
+        CHECK(contents.records.size() == kept);
+        for (std::size_t k = 0; k < contents.records.size(); ++k) CHECK(contents.records[k] == records[k]);
+    }
+    write_bytes(state, "something else that has nothing to do with rsc but has this name\n" + whole);
+    CHECK(refusal(file, c, true).find("no checkpoint of rsc") != std::string::npos);
+    std::filesystem::remove(state);
+}
+
+void test_rewrite(const Folder& folder) {
+    const std::string file = folder / "out.nc", state = checkpoint_name(file);
+    const std::vector<std::string> records = some_records();
+    {
+        Checkpoint checkpoint(file, small_case(), false);
+        for (const std::string& record : records) checkpoint.append(record);
+        checkpoint.rewrite("the sums", {&records[3]});
+        CHECK(!checkpoint.wants_rewrite());
+        checkpoint.append("after it");
+    }
+    {
+        Checkpoint checkpoint(file, small_case(), true);
+        const auto contents = checkpoint.take_contents();
+        CHECK(contents.sums && *contents.sums == "the sums");
+        CHECK((contents.records == std::vector<std::string>{records[3], "after it"}));
+        // No room for the new file: the old one goes on.
+        std::filesystem::create_directory(state + ".new");
+        checkpoint.rewrite("newer sums", {});
+        checkpoint.append("and on");
+        std::filesystem::remove(state + ".new");
+    }
+    Checkpoint checkpoint(file, small_case(), true);
+    const auto contents = checkpoint.take_contents();
+    CHECK(contents.sums && *contents.sums == "the sums" && contents.records.size() == 3 && contents.records.back() == "and on");
+    // It outgrows the sums after some 16 MB.
+    const std::string large(std::size_t{1} << 20, 'x');
+    int appended = 0;
+    while (!checkpoint.wants_rewrite() && appended < 40) checkpoint.append(large), ++appended;
+    CHECK(appended > 10 && appended < 40);
+    checkpoint.remove();
+    CHECK(folder.files() == 0);
+}
+
+void test_differences() {
+    const Case there = small_case();
+    Case now = there;
+    now.run.threads = 7;
+    now.output.file = "elsewhere.nc";
+    CHECK(Checkpoint::differences(there, now).empty());
+    now.solids.R[1] = 3;
+    now.run.seed = 5;
+    const auto lines = Checkpoint::differences(there, now);
+    CHECK(lines.size() == 2 && lines[0] == "run%seed: 1 there, 5 now" && lines[1].find("solids%R: ") == 0);
+}
+
+void test_team() {
+    for (int threads : {1, 3}) {
+        std::atomic<int> running{0}, most{0};
+        ThreadTeam team(
+            [&](const Task& task, const std::atomic<bool>&) {
+                const int now = ++running;
+                for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+                }
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                --running;
+                return std::to_string(task.realization);
+            },
+            threads);
+        std::int64_t next = 0;
+        std::set<std::string> answers;
+        std::size_t calls = 0;
+        team.run(
+            [&]() -> std::optional<Task> {
+                return next < 50 ? std::optional<Task>({0, ++next}) : std::nullopt;
+            },
+            [&](const Task& task, std::string&& answer) {
+                CHECK(answer == std::to_string(task.realization));
+                answers.insert(answer);
+                ++calls;
+            },
+            1);
+        CHECK(calls == 50 && answers.size() == 50 && most <= threads);
+    }
+    // A task that fails ends the run, and tells the others.
+    std::atomic<int> abandoned_ones{0};
+    ThreadTeam team(
+        [&](const Task& task, const std::atomic<bool>& abandoned) -> std::string {
+            if (task.realization == 2) throw std::runtime_error("the second");
+            while (!abandoned) std::this_thread::yield();
+            ++abandoned_ones;
+            return {};
+        },
+        2);
+    std::int64_t next = 0;
+    CHECK_THROWS(team.run(
+                     [&]() -> std::optional<Task> {
+                         return Task{0, ++next};
+                     },
+                     [](const Task&, std::string&&) {}, 0),
+                 std::runtime_error);
+    CHECK(abandoned_ones >= 1);
+}
+
+// A variable of a result file.
+std::vector<double> values(const std::string& path, const std::string& name) {
+    int file = -1, variable = -1, dimensions = 0, ids[NC_MAX_VAR_DIMS] = {};
+    std::size_t size = 1;
+    CHECK(nc_open(path.c_str(), NC_NOWRITE, &file) == NC_NOERR && nc_inq_varid(file, name.c_str(), &variable) == NC_NOERR);
+    nc_inq_varndims(file, variable, &dimensions);
+    nc_inq_vardimid(file, variable, ids);
+    for (int d = 0; d < dimensions; ++d) {
+        std::size_t length = 0;
+        nc_inq_dimlen(file, ids[d], &length);
+        size *= length;
+    }
+    std::vector<double> v(size);
+    CHECK(nc_get_var_double(file, variable, v.data()) == NC_NOERR);
+    nc_close(file);
+    return v;
+}
+
+std::vector<double> overflow(const std::string& path, const char* name) {
+    int file = -1, variable = -1;
+    std::vector<double> v(2);
+    CHECK(nc_open(path.c_str(), NC_NOWRITE, &file) == NC_NOERR && nc_inq_varid(file, name, &variable) == NC_NOERR);
+    CHECK(nc_get_att_double(file, variable, "overflow", v.data()) == NC_NOERR);
+    nc_close(file);
+    return v;
+}
+
+void test_sums(const Folder& folder) {
+    constexpr std::size_t M = 7, steps = 4;
+    constexpr int first = 11;
+    Case c = small_case();
+    c.run.realizations = M;
+    c.run.first_realization = first;
+    c.run.threads = 2;
+    c.output.file = folder / "all.nc";
+    CHECK(run_case(c, {}) == 0);
+    CHECK(folder.files() == 1);
+    const auto force = values(c.output.file, "force"), contacts = values(c.output.file, "contacts");
+    CHECK(force.size() == M * steps);
+
+    // The same realizations one by one: the same series, bit for bit, and their means, added in the same order.
+    std::vector<double> sum(steps, 0.0), map(steps * 256, 0.0);
+    for (std::size_t k = 0; k < M; ++k) {
+        Case one = c;
+        one.run.realizations = 1;
+        one.run.first_realization = first + static_cast<int>(k);
+        one.output.file = folder / "one.nc";
+        CHECK(run_case(one, {}) == 0);
+        const auto single = values(one.output.file, "force"), cells = values(one.output.file, "map_pressure");
+        for (std::size_t s = 0; s < steps; ++s) {
+            CHECK(single[s] == force[k * steps + s]);
+            sum[s] += single[s];
+        }
+        for (std::size_t i = 0; i < map.size(); ++i) map[i] += cells[i];
+        // What a single keeps of each contact adds up to it.
+        const auto kept = values(one.output.file, "contact_count");
+        for (std::size_t s = 0; s < steps; ++s) CHECK(kept[s] == contacts[k * steps + s]);
+    }
+    const auto mean = values(c.output.file, "force_mean"), cells = values(c.output.file, "map_pressure");
+    for (std::size_t s = 0; s < steps; ++s) CHECK(mean[s] == sum[s] / M);
+    // Divided by the cell's area before and after summing: a rounding each.
+    for (std::size_t i = 0; i < map.size(); ++i) CHECK_RELATIVE(cells[i], map[i] / M, 1e-14 * static_cast<double>(M));
+
+    // Every contact of the two levels of distributions is in a bin, or beyond them.
+    for (const char* name : {"pressure_mean_count", "spot_area_count"}) {
+        const auto counts = values(c.output.file, name), beyond = overflow(c.output.file, name);
+        for (std::size_t d = 0; d < 2; ++d) {
+            double binned = beyond[d], there = 0;
+            for (std::size_t b = 0; b < counts.size() / 2; ++b) binned += counts[d * counts.size() / 2 + b];
+            for (std::size_t k = 0; k < M; ++k) there += contacts[k * steps + 2 + d];
+            CHECK(binned == there && there > 0);
+        }
+    }
+}
+
+}  // namespace
+
+int main() {
+    const Folder folder;
+    test_archive();
+    test_torn(folder);
+    test_rewrite(folder);
+    test_differences();
+    test_team();
+    test_sums(folder);
+    return check::summary();
+}
