@@ -139,8 +139,8 @@ RSC_API int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* l
 /* Runs the case as the program does, and writes its result file (output%file, relative to the working directory). Prints nothing.
  * a_case: the case; failed_levels (out, may be null): number of levels that did not converge.
  * Errors: -1 null or a case that is refused, an input file that cannot be used included; RSC_NOT_CONVERGED if failed_levels > 0,
- * the file being written all the same; RSC_FILE; RSC_NO_MEMORY. No file is left behind by any other failure than
- * RSC_NOT_CONVERGED. */
+ * the file being written all the same; RSC_FILE; RSC_NO_MEMORY. No other failure leaves a
+ * result file behind; of several realizations, what is done stays beside it for the program's --resume. */
 RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
 
 /* ---- surfaces
