@@ -169,7 +169,7 @@ Asperities lattice(int n) {
             a.x.push_back((i + 0.5 + jitter(random)) * h);
             a.y.push_back((j + 0.5 + jitter(random)) * h);
             a.z.push_back(0.05 * h * normal(random));
-            a.radius.push_back(0.1 * h * std::exp(0.3 * normal(random)));
+            a.radius.push_back(0.25 * h * std::exp(0.3 * normal(random)));
         }
     }
     return a;
@@ -186,7 +186,7 @@ void bench_many() {
         options.method = Method::mesh;
         Level level;
         // The same fraction touches at every n when the mean pressure is the same: the depth grows like the interaction, as sqrt(n).
-        const double depth = -1.5 * sigma - 2.6 * sigma * (std::sqrt(n / 1e4) - 1);
+        const double depth = -2.2 * sigma - 4.2 * sigma * (std::sqrt(n / 1e4) - 1);
         const double time = shortest(1, [&] { level = Contact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(depth); });
         std::printf("  N = %6d: %6zu contacts (%.0f %%), area %.2f %%, %d Newton steps, %ld products, residual %.1e, %s, %.2f s\n", n,
                     level.f.size(), 100.0 * static_cast<double>(level.f.size()) / n, 100 * level.area, level.iterations, level.products,
