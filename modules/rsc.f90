@@ -794,7 +794,7 @@ contains
   subroutine asperities_take(self, x, y, z, radius, kappa1, kappa2, angle, biharmonic, stat, errmsg)
     class(rsc_asperities), intent(inout) :: self
     real(c_double), intent(in) :: x(:), y(:), z(:), radius(:)
-    real(c_double), intent(in), optional :: kappa1(:), kappa2(:), angle(:), biharmonic(:)
+    real(c_double), intent(in), contiguous, optional :: kappa1(:), kappa2(:), angle(:), biharmonic(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
