@@ -9,3 +9,12 @@ foreach(name threads ranks kills signals refused study limit full_disk)
                    ${CMAKE_CURRENT_BINARY_DIR}/campaign_${name}.run)
   set_tests_properties(cli.campaign_${name} PROPERTIES LABELS cli TIMEOUT 300 SKIP_RETURN_CODE 77)
 endforeach()
+
+# Against a real Slurm of one node; ctest -L cluster.
+option(RSC_CLUSTER_TESTS "Test the scripts for Slurm and GNU parallel against a Slurm started for it (root, slurm-wlm, munge)" OFF)
+if(RSC_CLUSTER_TESTS AND RSC_MPI)
+  add_test(NAME cluster.slurm
+           COMMAND bash ${PROJECT_SOURCE_DIR}/test/cluster/slurm.sh $<TARGET_FILE:rsc> $<TARGET_FILE:rsc_mpi> ${PROJECT_SOURCE_DIR}/input
+                   ${CMAKE_CURRENT_BINARY_DIR}/slurm.run)
+  set_tests_properties(cluster.slurm PROPERTIES LABELS cluster TIMEOUT 600 SKIP_RETURN_CODE 77)
+endif()
