@@ -189,10 +189,13 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
 
 /* The summits of a surface: points above their 8 neighbours, with curvatures from second differences.
  * asperities (out): the handle, never empty; surface: the surface; a_case: asperities%curvature decides on the radius; null for
- * the defaults. Errors: -1 null; -2 null, or a surface without summits; RSC_NO_MEMORY. */
+ * the defaults. With another asperities%law than 'hertz' the summits between the points, with curvatures and biharmonic by longer
+ * stencils. Errors: -1 null; -2 null, or a surface without summits, or one synthesized with fewer than 4 points in lambda_s for
+ * such a law (rsc_asperities_make can); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case);
 
 /* The asperities of rsc_surface_synthesize, the very same, found without storing the surface: faster, in half the memory.
+ * With another asperities%law than 'hertz' as rsc_asperities_find says, on any grid.
  * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number.
  * Errors: -1 null; -2 keys of &surface, &asperities or &run that are refused; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization);

@@ -18,6 +18,7 @@ struct rsc_case {
 
 struct rsc_surface {
     rsc::HeightMap map;
+    double points_per_wave = 0;  // grid steps in the shortest wave of a synthetic surface; 0: not known
     std::optional<rsc::Moments> theory;  // of synthetic surfaces
     double sigma = 0;                    // rms height that is meant: the one asked for, or that of the heights
 };

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
+// Hertz asperities are the paper's, on the grid; the other laws want the summits between its points, and the biharmonic.
+Detail detail_of(const Case& settings) { return settings.asperities.law == LawKind::hertz ? Detail::grid : Detail::subgrid; }
+
 Moments theory_of(const Case& settings) { return theoretical_moments(spectrum_of(settings)); }
 
 void copy_to(double* output, const std::vector<double>& values) {
@@ -72,6 +75,7 @@ int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, in
             made->theory = theory_of(settings);
             const rsc::Spectrum spectrum = spectrum_of(settings);
             made->sigma = spectrum.sigma;
+            made->points_per_wave = settings.surface.n / spectrum.L_lambda_s;
             made->map = rsc::synthesize(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization,
                                         nullptr, threads_of(settings));
             return made.release();
@@ -188,7 +192,8 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
             const rsc::Case& settings = settings_of(a_case);
             const rsc::HeightMap& map = surface->map;
             rsc_asperities::Content content;
-            content.asperities = rsc::find_asperities(map, settings.asperities.curvature, nullptr, threads_of(settings));
+            content.asperities = rsc::find_asperities(map, settings.asperities.curvature, nullptr, threads_of(settings), detail_of(settings),
+                                                      surface->points_per_wave);
             if (content.asperities.size() == 0)
                 refuse(2, "surface", "has no summit: no point lies strictly above its 8 neighbours");
             content.sigma = surface->sigma;
@@ -206,13 +211,13 @@ int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
     return guarded(2, [&] {
         construct(asperities, "asperities", [&] {
             const rsc::Case& settings = settings_of(a_case);
-            require_sound(settings, {"surface", "run", "asperities%curvature"});
+            require_sound(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
             const rsc::Spectrum spectrum = spectrum_of(settings);
             rsc_asperities::Content content;
             content.mean_spacing = theory_of(settings).mean_spacing();
             content.asperities =
                 rsc::make_asperities(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization,
-                                     settings.asperities.curvature, nullptr, nullptr, threads_of(settings));
+                                     settings.asperities.curvature, nullptr, nullptr, threads_of(settings), detail_of(settings));
             if (content.asperities.size() == 0) refuse(2, "a_case", "gives a surface without summits");
             content.sigma = spectrum.sigma;
             content.x_middle = content.y_middle = 0.5 * spectrum.L;

@@ -23,6 +23,7 @@ LevelRow row_of(const Level& level) {
     row.status = static_cast<std::int32_t>(level.status);
     row.method = static_cast<std::int32_t>(level.method);
     row.large_contacts = level.large_contacts;
+    row.beyond_law = level.beyond_law;
     return row;
 }
 

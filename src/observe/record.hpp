@@ -39,6 +39,7 @@ struct LevelRow {
     double separation = 0, force = 0, area = 0, residual = 0;
     double stiffness = kAbsent;  // dN/dZ0, negative, if it was computed [force/length]
     std::int64_t products = 0, overlapping_pairs = 0;
+    std::int64_t beyond_law = 0;  // contacts past the range in which the law describes a summit
     std::int32_t contacts = 0, candidates = 0, iterations = 0;
     std::int32_t status = 0, method = 0;  // values of LevelStatus and Method
     std::int32_t large_contacts = 0;      // contacts with a > <d>/4

@@ -149,7 +149,7 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
                            double points_per_wave) {
     const bool refined = detail == Detail::subgrid;
-    const Stencil stencil = refined && map.periodic ? Stencil::band_limited(points_per_wave) : Stencil::polynomial(kMeasuredReach);
+    const Stencil stencil = refined && points_per_wave != 0 ? Stencil::band_limited(points_per_wave) : Stencil::polynomial(kMeasuredReach);
     const int edge = map.periodic ? 0 : 1;
     const int rows = map.ny - 2 * edge;
     threads = std::clamp(threads, 1, std::max(rows, 1));

@@ -48,13 +48,14 @@ struct SummitCount {
 // 1/kappa_a. Neither the result nor the means depend on `threads`, to the last bit.
 //
 // Detail::subgrid: the summits of the surface that Newton's method reaches from those points, in the same order; periodic x, y
-// lie in the map. A periodic map is taken to hold no wave shorter than points_per_wave >= 4 grid steps (Error(bad_input) for
+// lie in the map. points_per_wave >= 4 says that the map holds no wave shorter than so many grid steps (Error(bad_input) for
 // less): errors are then some 1e-8 of the derivatives' rms values, and the summits found are those of the surface, whatever the
-// grid, but for pairs closer than the grid tells apart. Any other map: Lagrange polynomials through kMeasuredReach points on
-// either side, interior points only by as much. Their rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest
-// wave: curvatures some 0.4 %, 9e-5, 5e-6, 3e-9, biharmonic 3 %, 1e-3, 1e-4, 3e-7; noise in the heights comes on top.
+// grid, but for pairs closer than the grid tells apart. 0: nothing is known, as of a measured map; Lagrange polynomials through
+// kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
+// 0.4 %, 9e-5, 5e-6, 3e-9 of the curvatures' and 3 %, 1e-3, 1e-4, 3e-7 of the biharmonic's rms values; noise in the heights comes
+// on top. A map that is not periodic gives interior points only by as much as the stencil reaches.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, double points_per_wave = 4);
+                           Detail detail = Detail::grid, double points_per_wave = 0);
 inline constexpr int kMeasuredReach = 6;
 
 // The asperities of a synthetic surface, found while it is being made: the very same as find_asperities(synthesize(...)), bit

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/equivalent.hpp"
+#include "contact/law.hpp"
 #include "error.hpp"
 #include "run/inputs.hpp"
 
@@ -30,6 +31,9 @@ double rms(const std::vector<double>& values) {
     return std::sqrt(square / static_cast<double>(values.size()));
 }
 
+// Hertz asperities are the paper's, on the grid; the laws that look closer want the summits themselves.
+Detail detail_of(const Case& settings) { return settings.asperities.law == LawKind::hertz ? Detail::grid : Detail::subgrid; }
+
 void make_synthetic(Job& job) {
     const auto& keys = job.settings.surface;
     job.spectrum = Spectrum{keys.L.value_or(1.0), keys.hurst, keys.L_lambda_l, keys.L_lambda_s, keys.plateau, keys.sigma.value_or(0.01)};
@@ -44,9 +48,11 @@ void read_surface(Job& job) {
     HeightMap map = read_heights(keys.file, keys.L);
     const double rms_height = detrend(map, keys.detrend);
     SummitCount count;
-    job.given = find_asperities(map, job.settings.asperities.curvature, &count);
+    const Detail detail = detail_of(job.settings);
+    job.given = find_asperities(map, job.settings.asperities.curvature, &count, 1, detail);
     if (job.given.size() == 0) {
-        throw Error(Failure::bad_input, keys.file + ": no summit inside the map: no point lies strictly above its 8 neighbours");
+        const std::string where = detail == Detail::grid ? "inside the map" : std::to_string(kMeasuredReach) + " or more points inside the map";
+        throw Error(Failure::bad_input, keys.file + ": no summit " + where + ": no point lies strictly above its 8 neighbours");
     }
     const Moments grid = grid_moments(map);
     auto& s = job.given_statistics;
@@ -56,7 +62,7 @@ void read_surface(Job& job) {
     s.mean_kappa_g = count.mean_kappa_g;
     s.mean_kappa_a = count.mean_kappa_a;
     s.summits = count.summits;
-    s.saddles = count.saddles;
+    s.saddles = count.saddles + count.repeated;
     job.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
     job.sigma = keys.sigma.value_or(rms_height);
     if (job.settings.output.heights) job.given_heights = std::move(map);
@@ -65,6 +71,7 @@ void read_surface(Job& job) {
 void read_asperity_list(Job& job) {
     const auto& keys = job.settings.surface;
     job.given = read_asperities(keys.file);
+    make_law(job.settings.asperities.law, job.given, 1);  // refuses asperities that lack what the law needs
     const Extent box = extent(job.given);
     const double side = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
     // A square that holds them; a single asperity has no extent of its own.
@@ -130,21 +137,21 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         SummitCount count;
         Moments sampled;
         const auto& keys = settings.surface;
-        if (settings.output.heights) {
-            r.heights = synthesize(*job.spectrum, keys.n, keys.normalise, settings.run.seed, number, &sampled, threads);
-            r.asperities = find_asperities(*r.heights, settings.asperities.curvature, &count, threads);
-        } else {
-            r.asperities = make_asperities(*job.spectrum, keys.n, keys.normalise, settings.run.seed, number,
-                                           settings.asperities.curvature, &count, &sampled, threads);
-        }
+        Moments differences;
+        if (settings.output.heights)
+            r.heights = synthesize(*job.spectrum, keys.n, keys.normalise, settings.run.seed, number, nullptr, threads);
+        r.asperities = make_asperities(*job.spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature,
+                                       &count, &sampled, threads, detail_of(settings), &differences);
         auto& s = r.statistics;
         s.sigma = std::sqrt(sampled.m0);
         s.m2 = sampled.m2;
         s.m4 = sampled.m4;
+        s.m2_grid = differences.m2;
+        s.m4_grid = differences.m4;
         s.mean_kappa_g = count.mean_kappa_g;
         s.mean_kappa_a = count.mean_kappa_a;
         s.summits = count.summits;
-        s.saddles = count.saddles;
+        s.saddles = count.saddles + count.repeated;
     } else {
         r.asperities = job.given;
         r.statistics = job.given_statistics;

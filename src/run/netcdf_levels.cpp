@@ -70,7 +70,7 @@ void ResultTable::levels() {
              {{"flag_values", std::vector<std::int32_t>{0, 1, 2, 3, 4}},
               {"flag_meanings", "converged out_of_validity overlapping not_unique not_converged"},
               {"comment",
-               "1: contacts with a > <d>/4; 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, not the "
+               "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, not the "
                "only one; "
                "4: do not use. The larger is the more serious and hides the smaller"}});
     integers("method", "solver used", [](const LevelRow& l) { return l.method; },
@@ -82,6 +82,10 @@ void ResultTable::levels() {
     integers(
         "large_contacts", "contacts with a > <d>/4", [](const LevelRow& l) { return l.large_contacts; },
         comment("<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"));
+    integers("beyond_law", "contacts past the range in which the law describes a summit",
+             [](const LevelRow& l) { return clamped(l.beyond_law); },
+             comment("asperities law = 'fourth_order': penetration beyond 3 F2/(32 b R^2), R = 1/sqrt(kappa1 kappa2), b = "
+                     "asperity_biharmonic/64, where the contact radius stays and the stiffness with it; 0 for the other laws"));
     integers(
         "crowded_cells", "cells of the map with an area fraction above pi/16", [](const LevelRow& l) { return l.crowded_cells; },
         comment("19.6 %: beyond it point forces do not describe the interaction well"));
@@ -122,7 +126,9 @@ void ResultTable::surfaces() {
     std::vector<std::int32_t> summits, saddles;
     for (const SurfaceStatistics& s : o_.surface) summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
     add("summits", dims, "1", "number of asperities", summits);
-    add("saddles", dims, "1", "grid maxima that are saddles by their curvatures, not kept", saddles);
+    add("saddles", dims, "1", "grid maxima that are no asperities, not kept", saddles,
+        comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' those that lead to no summit between the grid "
+                "points, or to one already found"));
     add_absent("mean_kappa_g", dims, unit(-1), "mean geometric curvature of the summits",
                of_surfaces([](const auto& s) { return s.mean_kappa_g; }), "1.356 sqrt(m4) in theory");
     add_absent("mean_kappa_a", dims, unit(-1), "mean algebraic curvature of the summits",

@@ -1,0 +1,300 @@
+// Summits between the points of the grid, against the Fourier sum itself and closed forms; the errors on measured maps.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "rough/asperities.hpp"
+#include "rough/modes.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A surface as a list of waves, z = sum of 2 Re[c exp(2 pi i (kx x + ky y)/L)], evaluated without any grid.
+struct Waves {
+    struct Wave {
+        int kx, ky;
+        std::complex<double> c;
+    };
+    std::vector<Wave> waves;
+    double L = 1;
+
+    double derivative(double x, double y, int p, int q) const {
+        const std::complex<double> i(0, 1);
+        double sum = 0;
+        for (const Wave& w : waves) {
+            const double kx = 2 * kPi / L * w.kx, ky = 2 * kPi / L * w.ky;
+            sum += 2 * (w.c * std::pow(i * kx, p) * std::pow(i * ky, q) * std::exp(i * (kx * x + ky * y))).real();
+        }
+        return sum;
+    }
+    double biharmonic(double x, double y) const { return derivative(x, y, 4, 0) + 2 * derivative(x, y, 2, 2) + derivative(x, y, 0, 4); }
+
+    // Moved by (x, y).
+    Waves moved(double x, double y) const {
+        Waves m = *this;
+        for (Wave& w : m.waves) w.c *= std::polar(1.0, -2 * kPi / L * (w.kx * x + w.ky * y));
+        return m;
+    }
+    HeightMap map(int nx, int ny) const {
+        HeightMap map;
+        map.allocate(nx, ny, nx);
+        map.dx = L / nx, map.dy = L / ny, map.periodic = true;
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
+        return map;
+    }
+};
+
+// The modes a synthetic surface is made of, with sigma by the mean square of all of them.
+Waves waves_of(const Spectrum& s, std::int64_t seed, std::int64_t realization) {
+    Waves w;
+    w.L = s.L;
+    double square = 0;
+    const int most = static_cast<int>(s.L_lambda_s);
+    for (int kx = 0; kx <= most; ++kx)
+        for (int ky = kx > 0 ? -most : 1; ky <= most; ++ky) {
+            const double phi = relative_psd(s, static_cast<double>(kx) * kx + static_cast<double>(ky) * ky);
+            if (phi == 0) continue;
+            const std::complex<double> c = std::sqrt(phi) * mode_noise({seed, realization}, kx, ky);
+            w.waves.push_back({kx, ky, c});
+            square += 2 * std::norm(c);
+        }
+    for (auto& wave : w.waves) wave.c *= s.sigma / std::sqrt(square);
+    return w;
+}
+
+Spectrum small_spectrum(double L_lambda_l, double L_lambda_s) {
+    Spectrum s;
+    s.L = 2, s.L_lambda_l = L_lambda_l, s.L_lambda_s = L_lambda_s;
+    return s;
+}
+
+bool same(const Asperities& a, const Asperities& b) {
+    const auto equal = [](const std::vector<double>& x, const std::vector<double>& y) {
+        return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0);
+    };
+    return equal(a.x, b.x) && equal(a.y, b.y) && equal(a.z, b.z) && equal(a.radius, b.radius) && equal(a.kappa1, b.kappa1) &&
+           equal(a.kappa2, b.kappa2) && equal(a.angle, b.angle) && equal(a.biharmonic, b.biharmonic);
+}
+
+double rms(const std::vector<double>& v) {
+    double sum = 0;
+    for (double x : v) sum += x * x;
+    return std::sqrt(sum / static_cast<double>(v.size()));
+}
+
+// Largest distances of each summit from the truth: the gradient there as a way to the top, height, curvatures, biharmonic, the last
+// three over their rms values.
+std::array<double, 4> errors(const Asperities& a, const Waves& w) {
+    std::array<double, 4> worst{};
+    const double z_scale = rms(a.z), kappa = rms(a.kappa1), quartic = rms(a.biharmonic);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const auto d = [&](int p, int q) { return w.derivative(a.x[i], a.y[i], p, q); };
+        const double xx = d(2, 0), yy = d(0, 2), xy = d(1, 1);
+        const double trace = xx + yy, root = std::hypot(xx - yy, 2 * xy);
+        worst[0] = std::max(worst[0], std::hypot(d(1, 0), d(0, 1)) / kappa);
+        worst[1] = std::max(worst[1], std::abs(a.z[i] - d(0, 0)) / z_scale);
+        worst[2] = std::max({worst[2], std::abs(a.kappa1[i] - 0.5 * (root - trace)) / kappa,
+                             std::abs(a.kappa2[i] - 0.5 * (-root - trace)) / kappa});
+        // The surface is least curved along the axis of kappa2.
+        const double c = std::cos(a.angle[i]), s = std::sin(a.angle[i]);
+        worst[2] = std::max(worst[2], std::abs(-(c * c * xx + 2 * c * s * xy + s * s * yy) - a.kappa2[i]) / kappa);
+        worst[3] = std::max(worst[3], std::abs(a.biharmonic[i] - w.biharmonic(a.x[i], a.y[i])) / quartic);
+    }
+    return worst;
+}
+
+void against_the_fourier_sum() {
+    const Spectrum s = small_spectrum(2, 16);
+    const Waves w = waves_of(s, 5, 2);
+    std::size_t fine_summits = 0;
+    for (const int n : {34, 64, 80, 128, 256, 512, 1024}) {  // 34 points are too few: it works on 68
+        SummitCount count;
+        const Asperities a = make_asperities(s, n, Normalise::sample, 5, 2, Curvature::geometric, &count, nullptr, 1, Detail::subgrid);
+        const auto e = errors(a, w);
+        std::printf("n = %4d: %4zu summits, %ld saddles, %ld repeated; errors: place %.1e (grid steps), height %.1e, curvatures %.1e, "
+                    "biharmonic %.1e\n",
+                    n, a.size(), count.saddles, count.repeated, e[0] * n / s.L, e[1], e[2], e[3]);
+        CHECK(e[0] * n / s.L < 1e-7);
+        CHECK(e[1] < 1e-9);
+        CHECK(e[2] < 1e-7);  // the last step is not applied to the derivatives: kNear^2 and the stencil's 1e-9
+        CHECK(e[3] < 2e-7);
+        CHECK(a.size() == a.biharmonic.size() && static_cast<long>(a.size()) == count.summits);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            CHECK(a.x[i] >= 0 && a.x[i] < s.L && a.y[i] >= 0 && a.y[i] < s.L);
+            CHECK_RELATIVE(a.radius[i], 1 / std::sqrt(a.kappa1[i] * a.kappa2[i]), 1e-12);
+        }
+        if (n == 512) fine_summits = a.size();
+        if (n == 1024) CHECK(a.size() == fine_summits);  // nothing is missed any more: 32 points in lambda_s tell all apart
+        // No summit twice.
+        for (std::size_t i = 0; i < a.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const double x = std::remainder(a.x[i] - a.x[j], s.L), y = std::remainder(a.y[i] - a.y[j], s.L);
+                CHECK(std::hypot(x, y) > 1e-3 * s.L / n);
+            }
+    }
+}
+
+// z = A cos(k(x - x0)) + B cos(k(y - y0)): one summit a cell, everything in closed form, on a grid with different steps.
+void closed_form() {
+    Waves w;
+    w.L = 3;
+    const double k = 2 * kPi / w.L * 4, x0 = 0.1234, y0 = 0.3217, A = 0.02, B = 0.05;
+    w.waves = {{4, 0, 0.5 * A * std::polar(1.0, -k * x0)}, {0, 4, 0.5 * B * std::polar(1.0, -k * y0)}};
+    for (const auto [nx, ny] : {std::array{16, 16}, {20, 32}, {50, 24}}) {
+        SummitCount count;
+        const Asperities a = find_asperities(w.map(nx, ny), Curvature::algebraic, &count, 1, Detail::subgrid, 4);
+        CHECK(a.size() == 16 && count.saddles == 0 && count.repeated == 0);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            CHECK_CLOSE(std::remainder(a.x[i] - x0, w.L / 4), 0, 1e-9);
+            CHECK_CLOSE(std::remainder(a.y[i] - y0, w.L / 4), 0, 1e-9);
+            CHECK_RELATIVE(a.z[i], A + B, 1e-9);
+            CHECK_RELATIVE(a.kappa1[i], B * k * k, 1e-8);
+            CHECK_RELATIVE(a.kappa2[i], A * k * k, 1e-8);
+            CHECK_CLOSE(a.angle[i], 0, 1e-8);
+            CHECK_RELATIVE(a.biharmonic[i], (A + B) * k * k * k * k, 1e-7);
+            CHECK_RELATIVE(a.radius[i], 2 / ((A + B) * k * k), 1e-8);
+        }
+    }
+    CHECK_THROWS(find_asperities(w.map(16, 16), Curvature::geometric, nullptr, 1, Detail::subgrid, 3.9), Error);
+}
+
+// Moving a surface by fractions of a grid step moves its summits and changes nothing else.
+void shift() {
+    const Waves w = waves_of(small_spectrum(2, 8), 1, 1);
+    const int n = 256;
+    const Asperities a = find_asperities(w.map(n, n), Curvature::geometric, nullptr, 1, Detail::subgrid, 32);
+    for (const auto [dx, dy] : {std::array{0.31, 0.77}, {0.5, 0.5}, {17.05, 40.9}}) {
+        const double h = w.L / n;
+        const Asperities b = find_asperities(w.moved(dx * h, dy * h).map(n, n), Curvature::geometric, nullptr, 1, Detail::subgrid, 32);
+        CHECK(a.size() > 8 && b.size() == a.size());
+        double worst = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            double nearest = 1e300;
+            std::size_t found = 0;
+            for (std::size_t j = 0; j < b.size(); ++j) {
+                const double d = std::hypot(std::remainder(b.x[j] - a.x[i] - dx * h, w.L), std::remainder(b.y[j] - a.y[i] - dy * h, w.L));
+                if (d < nearest) nearest = d, found = j;
+            }
+            if (b.size() == 0) break;
+            worst = std::max({worst, nearest / h, std::abs(b.z[found] - a.z[i]) / rms(a.z),
+                              std::abs(b.kappa1[found] - a.kappa1[i]) / rms(a.kappa1),
+                              std::abs(b.biharmonic[found] - a.biharmonic[i]) / rms(a.biharmonic)});
+        }
+        CHECK_CLOSE(worst, 0, 2e-7);
+    }
+}
+
+// Bits: whatever the threads, streamed or from a stored map.
+void threads() {
+    const Spectrum s = small_spectrum(4, 32);
+    SummitCount one, more;
+    const Asperities a = make_asperities(s, 160, Normalise::sample, 9, 1, Curvature::geometric, &one, nullptr, 1, Detail::subgrid);
+    const HeightMap map = synthesize(s, 160, Normalise::sample, 9, 1);
+    CHECK(a.size() > 200);
+    for (const int t : {1, 2, 3, 7}) {
+        CHECK(same(a, make_asperities(s, 160, Normalise::sample, 9, 1, Curvature::geometric, &more, nullptr, t, Detail::subgrid)));
+        CHECK(more.mean_kappa_g == one.mean_kappa_g && more.saddles == one.saddles && more.repeated == one.repeated);
+        CHECK(same(a, find_asperities(map, Curvature::geometric, &more, t, Detail::subgrid, 5)));
+    }
+}
+
+// Maps of which nothing is known: rms errors over the rms value, by points in the shortest wave.
+void measured() {
+    const Spectrum s = small_spectrum(2, 32);
+    std::printf("measured maps, rms errors of summits inside (of rms values; place in lambda_s)\n%16s %10s %10s %10s %10s %10s\n",
+                "points/lambda_s", "place", "height", "curvature", "biharmonic", "grid curv.");
+    std::array<double, 4> before{1, 1, 1, 1};
+    for (const int points : {4, 6, 8, 16}) {
+        const int n = 32 * points;
+        HeightMap map = synthesize(s, n, Normalise::sample, 3, 1);
+        const Asperities truth = make_asperities(s, n, Normalise::sample, 3, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
+        const Asperities grid = find_asperities(map, Curvature::geometric);
+        map.periodic = false;
+        const Asperities a = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
+        const double h = map.dx, lambda = s.L / s.L_lambda_s;
+        std::vector<double> place, height, curvature, quartic, second;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            CHECK(a.x[i] > (kMeasuredReach - 1) * h && a.x[i] < s.L - kMeasuredReach * h);
+            std::size_t t = 0;
+            double nearest = 1e300;
+            for (std::size_t k = 0; k < truth.size(); ++k)
+                if (const double d = std::hypot(truth.x[k] - a.x[i], truth.y[k] - a.y[i]); d < nearest) nearest = d, t = k;
+            place.push_back(nearest / lambda);
+            if (nearest > 0.1 * lambda) continue;
+            height.push_back(a.z[i] - truth.z[t]);
+            curvature.push_back(a.kappa1[i] - truth.kappa1[t]);
+            curvature.push_back(a.kappa2[i] - truth.kappa2[t]);
+            quartic.push_back(a.biharmonic[i] - truth.biharmonic[t]);
+            for (std::size_t k = 0; k < grid.size(); ++k)
+                if (std::hypot(grid.x[k] - truth.x[t], grid.y[k] - truth.y[t]) < h) second.push_back(grid.kappa1[k] - truth.kappa1[t]);
+        }
+        CHECK(height.size() > 100);
+        const std::array<double, 4> error{rms(place), rms(height) / rms(truth.z), rms(curvature) / rms(truth.kappa1),
+                                          rms(quartic) / rms(truth.biharmonic)};
+        std::printf("%16d %10.1e %10.1e %10.1e %10.1e %10.1e\n", points, error[0], error[1], error[2], error[3],
+                    rms(second) / rms(truth.kappa1));
+        for (std::size_t k = 0; k < error.size(); ++k) {
+            CHECK(error[k] < before[k]);
+            before[k] = error[k];
+        }
+    }
+    CHECK(before[2] < 1e-7 && before[3] < 1e-5);  // 16 points: a polynomial of degree 12 is all but exact
+}
+
+// A map that is not periodic and holds a polynomial of the stencil's degree: exact, up to its edges less the reach.
+void polynomial() {
+    HeightMap map;
+    map.allocate(25, 21, 25);
+    map.dx = 0.1, map.dy = 0.2, map.x0 = 3, map.y0 = -1;
+    const double x0 = 4.23, y0 = 0.87;
+    for (int j = 0; j < 21; ++j)
+        for (int i = 0; i < 25; ++i) {
+            const double x = 3 + 0.1 * i - x0, y = -1 + 0.2 * j - y0;
+            map.row(j)[i] = 1 - 2 * x * x - y * y - x * y + 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y - 0.125 * y * y * y * y;
+        }
+    const Asperities a = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
+    CHECK(a.size() == 1);
+    if (a.size() != 1) return;
+    CHECK_CLOSE(a.x[0], x0, 1e-10);
+    CHECK_CLOSE(a.y[0], y0, 1e-10);
+    CHECK_CLOSE(a.z[0], 1, 1e-12);
+    CHECK_CLOSE(a.kappa1[0] * a.kappa2[0], 7, 1e-8);  // 4 * 2 - 1
+    CHECK_CLOSE(a.kappa1[0] + a.kappa2[0], 6, 1e-8);
+    CHECK_CLOSE(a.biharmonic[0], -12 - 2 - 3, 1e-6);  // 24*0.5, 2*4*0.25, 24*0.125
+}
+
+// The moments of finite differences summed over the modes are those of the map; n = 2 L_lambda_s has modes at the grid's limit.
+void differences() {
+    for (const int n : {32, 34, 64, 160}) {
+        const Spectrum s = small_spectrum(2, 16);
+        Moments exact;
+        make_asperities(s, n, Normalise::sample, 2, 7, Curvature::geometric, nullptr, nullptr, 1, Detail::grid, &exact);
+        const Moments grid = grid_moments(synthesize(s, n, Normalise::sample, 2, 7));
+        CHECK_RELATIVE(exact.m0, grid.m0, 1e-12);
+        CHECK_RELATIVE(exact.m2, grid.m2, 1e-12);
+        CHECK_RELATIVE(exact.m4, grid.m4, 1e-12);
+    }
+}
+
+}  // namespace
+
+int main() {
+    against_the_fourier_sum();
+    closed_form();
+    shift();
+    threads();
+    measured();
+    polynomial();
+    differences();
+    return check::summary();
+}
