@@ -1,0 +1,61 @@
+#!/bin/sh
+# Everything the paper computed: runs the cases of input/paper, draws the pictures and writes the report.
+# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]
+#   RSC      the program (default ./rsc)
+#   FOLDER   where results, pictures and report.txt go (default output/paper)
+#   --short  few realizations and small grids: shows that all of it works, the numbers are another surface's
+# PYTHON names a Python with numpy, scipy, matplotlib and netCDF4; found by itself when python3 or /usr/bin/python3 has them.
+set -eu
+short=no
+if [ "${1:-}" = --short ]; then
+    short=yes
+    shift
+fi
+here=$(cd "$(dirname "$0")" && pwd)
+rsc=${1:-./rsc}
+folder=${2:-output/paper}
+case $rsc in */*) ;; *) rsc=./$rsc ;; esac
+if [ ! -x "$rsc" ]; then
+    echo "run.sh: no program $rsc; build it first (sh input/setup.sh, or make -f Makefile.legacy)" >&2
+    exit 1
+fi
+if [ -z "${PYTHON:-}" ]; then
+    for PYTHON in python3 /usr/bin/python3 ''; do
+        [ -z "$PYTHON" ] || "$PYTHON" -c 'import numpy, scipy, matplotlib, netCDF4' 2> /dev/null && break
+    done
+fi
+if [ -z "$PYTHON" ]; then
+    echo 'run.sh: Python modules are missing; on Debian: apt install python3-scipy python3-matplotlib python3-netcdf4' >&2
+    exit 77
+fi
+
+# The shortened version: an eighth of the grid and of the waves it carries, and a few realizations.
+shorten() {
+    case $1 in
+        asperities | dgesv) sed -e 's/n = 2048/n = 256/; s/n = 1024/n = 512/; s/L_lambda_s = 512/L_lambda_s = 64/; s/steps = 100/steps = 8/' ;;
+        curvatures) sed -e 's/n = 8192/n = 1024/; s/L_lambda_s = 512/L_lambda_s = 64/; s/2048, 1024, 512/256, 128, 64/' ;;
+        density) sed -e 's/n = 4096/n = 512/; s/L_lambda_s = 25,.*/L_lambda_s = 25, 50, 125 \//; s/hurst = 0.1,.*0.9 /hurst = 0.1, 0.5, 0.9 /; s/realizations = .*/realizations = 3 \//' ;;
+        density_grid) sed -e 's/L_lambda_s = 1000/L_lambda_s = 125/; s/2048,.*/256, 512, 1024 \//; s/realizations = .*/realizations = 3 \//' ;;
+        contacts) sed -e 's/n = 2048/n = 256/; s/L_lambda_s = 512/L_lambda_s = 64/; s/5, 6, .*/5 \//; /^ *21/d' ;;
+        *) sed -e 's/realizations = [0-9]*/realizations = 6/; s/n = 2048, 4096/n = 256, 512/; s/n = 2048/n = 256/; s/256, 512 \/$/32, 64 \//' \
+               -e 's/L_lambda_s = 512/L_lambda_s = 64/; s/L_lambda_l = 24/L_lambda_l = 8/; s/L_lambda_l = 48/L_lambda_l = 16/; s/steps = 100/steps = 16/' ;;
+    esac
+}
+
+mkdir -p "$folder"
+rm -f "$folder"/*.nc "$folder"/*_manifest.txt "$folder"/times.txt
+begin=$(date +%s)
+for name in asperities curvatures density density_grid area area_R5 area_l48 maps maps_plateau contacts trials trials_R5 dgesv; do
+    from=$(date +%s)
+    case=$here/$name.nml
+    if [ $short = yes ]; then
+        shorten $name < "$case" > "$folder/$name.nml"
+        case=$folder/$name.nml
+    fi
+    "$rsc" "$case" --quiet --output "$folder/$name.nc" 2> "$folder/$name.log" || { cat "$folder/$name.log" >&2; exit 1; }
+    echo "$name $(($(date +%s) - from))" >> "$folder/times.txt"
+    echo "$name: $(tail -n 1 "$folder/times.txt" | cut -d ' ' -f 2) s"
+done
+from=$(date +%s)
+"$PYTHON" "$here/../../output/plot/paper.py" "$folder"
+echo "everything: $(($(date +%s) - begin)) s, of which pictures and report $(($(date +%s) - from)) s"
