@@ -49,10 +49,11 @@ struct SummitCount {
 //
 // Detail::subgrid: the summits of the surface that Newton's method reaches from those points, in the same order; periodic x, y
 // lie in the map. points_per_wave >= 4 says that the map holds no wave shorter than so many grid steps (Error(bad_input) for
-// less): errors are then some 1e-8 of the derivatives' rms values, and the summits found are those of the surface, whatever the
-// grid, but for pairs closer than the grid tells apart. 0: nothing is known, as of a measured map; Lagrange polynomials through
+// less): errors are then some 1e-8 of the derivatives' rms values, and a summit is the same on every grid that finds it; one within
+// a step or two of a higher one may be missed (one in seven with 4 points in lambda_s, one in thirty with 8, one in a hundred
+// with 16). 0: nothing is known, as of a measured map; Lagrange polynomials through
 // kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
-// 0.4 %, 9e-5, 5e-6, 3e-9 of the curvatures' and 3 %, 1e-3, 1e-4, 3e-7 of the biharmonic's rms values; noise in the heights comes
+// 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
 // on top. A map that is not periodic gives interior points only by as much as the stencil reaches.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
                            Detail detail = Detail::grid, double points_per_wave = 0);
