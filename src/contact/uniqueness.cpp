@@ -1,5 +1,6 @@
 #include "contact/uniqueness.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -96,10 +97,17 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     constexpr double touch = 1e-300;  // passive points have no radius of their own but are found by the others' reach
     std::vector<double> reach(n), alone(v), high, low(n), f(force), relief(n);
     for (std::size_t i = 0; i < n; ++i) reach[i] = std::max(near * slope[i] / (2 * E_star), touch);
+    // Penetrations of candidates far from touching come from single precision: partners that nearly coincide are beyond its judgement.
+    constexpr double resolved = 1e-6;
+    const double nearest = resolved * std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
+                                               *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
+    bool told_apart = true;
     std::vector<Coupling> close;
     for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) {
+        told_apart = told_apart && d > nearest;
         if (d > 0) close.push_back({i, j, 1 / (std::numbers::pi * E_star * d)});
     });
+    if (!told_apart) return false;
     couple(close, f, relief);
     for (std::size_t i = 0; i < n; ++i) alone[i] += relief[i];
     // Bounds on the penetrations of any other solution: at most those with every close partner gone, hence at least ..., and so on.

@@ -1,0 +1,284 @@
+// The edges of the problem: whatever is asked, the answer is finite and right, or its status says what is wrong with it, or it is
+// refused with a reason.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "check.hpp"
+#include "contact/contact.hpp"
+#include "error.hpp"
+#include "random_asperities.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kE = 94.0e3;
+constexpr double kFlat = std::numeric_limits<double>::infinity();
+const Method kMethods[] = {Method::direct, Method::dgesv, Method::mesh, Method::automatic};
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+SolverOptions options(Method method, double tolerance = 1e-10) {
+    SolverOptions o;
+    o.method = method;
+    o.tolerance = tolerance;
+    o.sigma = 0.01;
+    return o;
+}
+
+Asperities set_of(std::vector<double> x, std::vector<double> y, std::vector<double> z, double radius) {
+    Asperities a;
+    a.radius.assign(x.size(), radius);
+    a.x = std::move(x), a.y = std::move(y), a.z = std::move(z);
+    return a;
+}
+
+// Everything in the level is finite, contacts are contacts, and sums are sums.
+void sane(const Level& level, const char* what) {
+    bool ok = std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual) && level.force >= 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < level.f.size(); ++k) {
+        ok = ok && level.f[k] > 0 && std::isfinite(level.f[k]) && level.a[k] > 0 && std::isfinite(level.a[k]) && level.u[k] > 0;
+        ok = ok && (k == 0 || level.asperity[k] > level.asperity[k - 1]);
+        sum += level.f[k];
+    }
+    ok = ok && std::abs(sum - level.force) <= 1e-12 * level.force;
+    if (!ok) std::printf("%s\n", what);
+    CHECK(ok);
+}
+
+// The residual of every asperity of the surface, written out in long double; the answer must hold whatever the solver left out.
+double residual(const Asperities& a, const Indenter& indenter, double Z0, const Level& level) {
+    std::vector<long double> F(a.size(), 0);
+    for (std::size_t k = 0; k < level.f.size(); ++k) F[at(level.asperity[k])] = level.f[k];
+    long double error2 = 0, force2 = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0, rho2 = dx * dx + dy * dy, R = indenter.R;
+        if (!std::isinf(indenter.R) && rho2 > R * R) continue;
+        long double g = a.z[i] - static_cast<long double>(Z0) - (std::isinf(indenter.R) ? 0 : rho2 / (R + std::sqrt(R * R - rho2)));
+        for (std::size_t j = 0; j < a.size(); ++j) {
+            if (j != i) g -= F[j] / (std::numbers::pi_v<long double> * indenter.E_star *
+                                     std::hypot(static_cast<long double>(a.x[i]) - a.x[j], static_cast<long double>(a.y[i]) - a.y[j]));
+        }
+        const long double f = g > 0 ? 4 / 3.0L * indenter.E_star * std::sqrt(static_cast<long double>(a.radius[i])) * g * std::sqrt(g) : 0;
+        error2 += (f - F[i]) * (f - F[i]);
+        force2 += F[i] * F[i];
+    }
+    return force2 > 0 ? static_cast<double>(std::sqrt(error2 / force2)) : static_cast<double>(std::sqrt(error2));
+}
+
+void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method, const char* what, double tolerance = 1e-10) {
+    const Level level = Contact(a, indenter, options(method, tolerance)).at_separation(Z0);
+    sane(level, what);
+    const double left = residual(a, indenter, Z0, level);
+    const bool told = level.status == LevelStatus::not_converged, right = left <= 2 * tolerance;
+    if (told || !right) std::printf("%s, method %d: status %d, residual %.1e, true residual %.1e\n", what, static_cast<int>(method), static_cast<int>(level.status), level.residual, left);
+    CHECK(!told);
+    CHECK(right);
+}
+
+// Two asperities at one point have an infinite interaction. They are refused where asperities come from outside; the solver itself is
+// never given them, and must not answer with NaN all the same.
+void coincident() {
+    const Asperities a = set_of({0.5, 0.5, 0.6}, {0.5, 0.5, 0.5}, {0.01, 0.012, 0.01}, 1e-3);
+    CHECK_THROWS(validate(a, [](std::size_t i) { return "asperity " + std::to_string(i); }), Error);
+    for (Method method : kMethods) {
+        try {
+            sane(Contact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0), "coincident");
+        } catch (const Error& e) {
+            CHECK(e.kind() == Failure::bad_input);
+        }
+    }
+    // Nearly so: only one of the two can carry, whichever, and the level says that the other might have. Nearer than the coordinates of
+    // the inner products resolve (2^-31 of the surface's extent), the level may be said not to have converged instead.
+    for (double gap : {1.2e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+        const Asperities near = set_of({0.5, 0.5 + gap, 0.6}, {0.5, 0.5, 0.5}, {0.01, 0.012, 0.01}, 1e-3);
+        for (Method method : kMethods) {
+            const Level level = Contact(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
+            sane(level, "nearly coincident");
+            if (gap < 1e-9) {
+                CHECK(level.status >= LevelStatus::not_unique);
+                CHECK(level.status == LevelStatus::not_converged || residual(near, {kE, 2.5, 0.5, 0.5}, 0.0, level) <= 2e-10);
+                continue;
+            }
+            CHECK(level.status == LevelStatus::not_unique);
+            CHECK(level.f.size() == 2);
+            CHECK(residual(near, {kE, 2.5, 0.5, 0.5}, 0.0, level) <= 2e-10);
+        }
+    }
+}
+
+// Spots that overlap: a local minimum of the energy, or close to one in the same sense, and flagged. Between two equal ones the
+// threshold is d = (2/pi) a.
+void overlapping() {
+    const double r = 1e-2, g = 0.01;
+    for (double d : {0.03, 0.015, 0.008, 0.004, 0.001, 1e-4}) {
+        const Asperities a = set_of({0.5 - d / 2, 0.5 + d / 2}, {0.5, 0.5}, {g, g}, r);
+        for (Method method : kMethods) {
+            const Level level = Contact(a, {kE, kFlat, 0.5, 0.5}, options(method)).at_separation(0.0);
+            sane(level, "overlapping");
+            CHECK(residual(a, {kE, kFlat, 0.5, 0.5}, 0.0, level) <= 2e-10);
+            bool overlap = level.f.size() == 2 && d < level.a[0] + level.a[1];
+            CHECK(level.overlapping_pairs == overlap);
+            CHECK(level.status == LevelStatus::not_unique || level.status == (overlap ? LevelStatus::overlapping : LevelStatus::converged));
+            if (level.f.size() == 2) CHECK(d >= 2 / std::numbers::pi * std::sqrt(level.a[0] * level.a[1]) * (1 - 1e-6));
+            else CHECK(level.status == LevelStatus::not_unique);
+        }
+    }
+}
+
+// Asperities beyond the rim of the sphere do not exist for it; a sphere smaller than their spacing sees one or none.
+void small_spheres() {
+    const Asperities a = random_asperities(300, 0.02, 0.01, 1e-3, 0.5, 11);
+    for (double R : {0.2, 0.05, 0.02, 1e-3, 1e-6}) {
+        for (Method method : kMethods) {
+            check_answer(a, {kE, R, 0.5, 0.5}, -0.02, method, "small sphere");
+            const Level level = Contact(a, {kE, R, 0.5, 0.5}, options(method)).at_separation(-10.0);
+            long under = 0;
+            for (std::size_t i = 0; i < a.size(); ++i) under += std::hypot(a.x[i] - 0.5, a.y[i] - 0.5) <= R;
+            CHECK(level.candidates == under);
+        }
+    }
+    // Exactly at the rim, the sphere is at Z0 + R.
+    const Asperities rim = set_of({0.75}, {0.5}, {0.3}, 1e-3);
+    CHECK_RELATIVE(Contact(rim, {kE, 0.25, 0.5, 0.5}, options(Method::direct)).at_separation(0.0).u.at(0), 0.05, 1e-12);
+    // A tip far from the surface: no asperity under it.
+    Contact away(a, {kE, 0.1, 50.0, 0.5}, options(Method::direct));
+    CHECK(away.at_separation(-1.0).candidates == 0);
+    CHECK(away.first_touch() == -std::numeric_limits<double>::infinity());
+    CHECK(away.stiffness() == 0 && away.energy() == 0);
+    CHECK_THROWS(away.at_force(1.0), Error);
+}
+
+// From far above to far below the surface; the deepest has every asperity in contact or pushed out by its neighbours.
+void depths() {
+    const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 12);
+    for (double R : {2.5, 1e6, kFlat}) {
+        double last = 0;
+        for (double Z0 : {1e6, 1.0, 0.04, 0.02, 0.0, -0.05, -0.5, -10.0, -1e3, -1e6}) {
+            for (Method method : kMethods) check_answer(a, {kE, R, 0.5, 0.5}, Z0, method, ("depth " + std::to_string(Z0)).c_str());
+            const double N = Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)).at_separation(Z0).force;
+            CHECK(N >= last);
+            if (Z0 > 0.5) CHECK(N == 0);
+            last = N;
+        }
+        CHECK(last > 0);
+    }
+    // The flat gives what a very large sphere gives.
+    const double flat = Contact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force;
+    CHECK_RELATIVE(Contact(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force, flat, 1e-9);
+}
+
+void counts() {
+    // None: no asperity at all, none reached.
+    Contact none(Asperities{}, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+    for (double Z0 : {0.0, -1.0}) {
+        const Level level = none.at_separation(Z0);
+        sane(level, "none");
+        CHECK(level.force == 0 && level.area == 0 && level.candidates == 0 && level.status == LevelStatus::converged);
+    }
+    CHECK_THROWS(none.at_force(1.0), Error);
+    // One: touching exactly is no contact; the next number below is one.
+    const Asperities one = set_of({0.5}, {0.5}, {0.02}, 1e-3);
+    for (Method method : kMethods) {
+        Contact contact(one, {kE, 2.5, 0.5, 0.5}, options(method));
+        CHECK(contact.first_touch() == 0.02);
+        CHECK(contact.at_separation(0.02).f.empty());
+        const Level least = contact.at_separation(std::nextafter(0.02, 0.0));
+        sane(least, "least contact");
+        CHECK(least.f.size() == 1 && least.status == LevelStatus::converged);
+        CHECK_RELATIVE(contact.at_separation(-1e5).force, 4.0 / 3.0 * kE * std::sqrt(1e-3) * std::pow(1e5 + 0.02, 1.5), 1e-12);
+    }
+    // All, far apart: a sum of Hertz contacts but for an interaction that is small.
+    Asperities all;
+    for (int i = 0; i < 20; ++i) {
+        for (int j = 0; j < 20; ++j) all.x.push_back(i), all.y.push_back(j), all.z.push_back(0.0), all.radius.push_back(1e-3);
+    }
+    for (Method method : kMethods) {
+        const Level level = Contact(all, {kE, kFlat, 9.5, 9.5}, options(method)).at_separation(-1e-3);
+        CHECK(level.f.size() == 400 && level.status == LevelStatus::converged);
+        CHECK(level.force < 400 * 4.0 / 3.0 * kE * std::sqrt(1e-3) * std::pow(1e-3, 1.5));
+        CHECK(*std::max_element(level.f.begin(), level.f.end()) == level.f.front() ||
+              std::abs(*std::max_element(level.f.begin(), level.f.end()) / level.f.front() - 1) < 1e-9);  // the corners carry most
+    }
+}
+
+// Radii over ten decades on one surface; tolerances down to 1e-13; one that cannot be met is said not to be.
+void radii_and_tolerances() {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> uniform(-10, 0);
+    Asperities a = random_asperities(150, 0.04, 0.01, 1.0, 0.0, 13);
+    for (double& r : a.radius) r = 0.01 * std::pow(10.0, uniform(random));
+    for (Method method : kMethods) {
+        for (double tolerance : {1e-2, 1e-6, 1e-10, 1e-13}) check_answer(a, {kE, 2.5, 0.5, 0.5}, -0.01, method, "ten decades", tolerance);
+        const Level impossible = Contact(a, {kE, 2.5, 0.5, 0.5}, options(method, 1e-30)).at_separation(-0.01);
+        sane(impossible, "tolerance 1e-30");
+        CHECK(impossible.status == LevelStatus::not_converged || impossible.residual == 0);
+        for (int most : {1, 2}) {
+            SolverOptions o = options(method, 1e-12);
+            o.max_iterations = most;
+            const Level stopped = Contact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
+            sane(stopped, "stopped early");
+            CHECK((stopped.status == LevelStatus::not_converged) == (stopped.residual > 1e-12));
+        }
+    }
+}
+
+// The same contact in m, nm, light years; E* in any unit. Loads, areas scale; statuses and counts stay.
+void units() {
+    const Asperities a = random_asperities(200, 0.02, 0.01, 5e-4, 0.5, 14);
+    for (Method method : kMethods) {
+        const Level reference = Contact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
+        for (double s : {1e-30, 1e-12, 1e-9, 1e-3, 1e6, 1e9, 1e30}) {
+            for (double e : {1e-20, 1.0, 1e20}) {
+                Asperities scaled = a;
+                for (auto* v : {&scaled.x, &scaled.y, &scaled.z, &scaled.radius}) {
+                    for (double& value : *v) value *= s;
+                }
+                SolverOptions o = options(method);
+                o.sigma *= s;
+                const Level level = Contact(scaled, {kE * e, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.0);
+                sane(level, "units");
+                CHECK(level.status == reference.status);
+                CHECK(level.f.size() == reference.f.size());
+                CHECK_RELATIVE(level.force / e / s / s, reference.force, 1e-8);
+                CHECK_RELATIVE(level.area / s / s, reference.area, 1e-8);
+            }
+        }
+    }
+}
+
+// Loads from that of a touch to far beyond.
+void forces() {
+    const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 15);
+    for (double N : {1e-20, 1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
+        Contact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+        const Level level = contact.at_force(N);
+        sane(level, "force");
+        // Z0 has neighbours only so near, and the force with it: the last term is what one summit of radius 5e-3 or less takes.
+        const double ulp = std::nextafter(std::abs(level.separation), kFlat) - std::abs(level.separation);
+        CHECK(level.status != LevelStatus::not_converged);
+        CHECK_CLOSE(level.force, N, 1e-10 * N + 4 * ulp * std::abs(contact.stiffness()) + kE * 0.1 * std::pow(4 * ulp, 1.5));
+    }
+    Contact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+    for (double N : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(contact.at_force(N), Error);
+    for (double Z0 : {std::nan(""), kFlat, -kFlat}) CHECK_THROWS(contact.at_separation(Z0), Error);
+    for (double E : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(Contact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
+    for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
+}
+
+}  // namespace
+
+int main() {
+    coincident();
+    overlapping();
+    small_spheres();
+    depths();
+    counts();
+    radii_and_tolerances();
+    units();
+    forces();
+    return check::summary();
+}
