@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Pictures and report of the paper's figures from the result files that input/paper/run.sh makes.
+
+    python3 output/plot/paper.py [FOLDER]
+
+reads the result files in FOLDER (default output/paper) and writes paper_*.png and report.txt there.
+Needs numpy, scipy, matplotlib and netCDF4 (Debian: python3-scipy, python3-matplotlib, python3-netcdf4).
+"""
+
+import argparse
+import os
+import sys
+
+from paper_common import Report, Result
+import paper_contact
+import paper_pressure
+import paper_surfaces
+
+FIGURES = [paper_surfaces.asperities, paper_surfaces.curvatures, paper_contact.area, paper_contact.maps, paper_contact.radial, paper_pressure.pressures, paper_pressure.hardness,
+           paper_pressure.full_pressure, paper_pressure.spots, paper_surfaces.density, paper_pressure.paper_method]
+
+
+def preface(report, folder):
+    first = Result(os.path.join(folder, "maps.nc"))
+    report.lines += ["The paper and rsc, number by number", "==================================="]
+    report.note("V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). " + first.file.source + ".")
+    report.note("A row: what is compared, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: the paper states none. "
+                "Nothing is tuned to agree; what the paper leaves open is tried, and what fits is named.")
+    if first.realizations != 2000:
+        report.note("This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers are not to be compared with the paper's.")
+
+
+def times(report, folder):
+    path = os.path.join(folder, "times.txt")
+    if not os.path.exists(path):
+        return
+    report.heading("Time")
+    rows = [line.split() for line in open(path, encoding="utf-8")]
+    report.note(f"Cases {sum(int(t) for _, t in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{name} {t} s" for name, t in rows) + ".")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Pictures and report of the paper's figures.")
+    parser.add_argument("folder", nargs="?", default="output/paper", help="folder with the result files (default output/paper)")
+    folder = parser.parse_args().folder
+    report = Report()
+    try:
+        preface(report, folder)
+        for figure in FIGURES:
+            figure(folder, report)
+        times(report, folder)
+        path = os.path.join(folder, "report.txt")
+        report.write(path)
+    except OSError as error:
+        sys.exit(f"paper.py: {error}; the result files are made by input/paper/run.sh")
+    print(path)
+
+
+if __name__ == "__main__":
+    main()
