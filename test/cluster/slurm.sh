@@ -24,7 +24,7 @@ fail() {
     tail -n 20 slurmctld.log slurmd.log rsc*.log 2> /dev/null
     exit 1
 }
-socket=$(mktemp -d /tmp/rsc-munge-XXXXXX)   # munged wants a path that is safe, and short
+socket=$(mktemp -d --tmpdir rsc-munge-XXXXXX)   # munged wants a path that is safe, and short
 chmod 755 "$socket"
 trap stop EXIT
 
