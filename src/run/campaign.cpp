@@ -145,6 +145,7 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
                     std::string(error.what()) + "\n" + how_far(state, settings) + ": " + kGoesOn);
     }
 
+    if (state.added() != total) throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
     Observations observations = state.sums().finish();
     Result result = make_result(settings, case_text(settings), job->indenter, job->sigma, job->theory, std::move(observations));
     try {
