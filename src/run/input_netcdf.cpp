@@ -11,6 +11,7 @@
 
 #include "error.hpp"
 #include "run/input_classic.hpp"
+#include "run/netcdf_file.hpp"
 
 namespace rsc {
 namespace {
@@ -61,7 +62,7 @@ bool is_netcdf(const std::string& path) {
     return false;
 }
 
-NetcdfInput::NetcdfInput(const std::string& path) : path_(path) {
+NetcdfInput::NetcdfInput(const std::string& path) : alone_(netcdf_mutex()), path_(path) {
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
     if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it whole? (" + nc_strerror(status) + ")");

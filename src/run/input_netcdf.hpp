@@ -1,8 +1,10 @@
-// A NetCDF file open for reading, with errors that name the file and the variable.
+// A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds netcdf_mutex(): the library
+// is not made for several threads.
 #pragma once
 
 #include <netcdf.h>
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +43,7 @@ private:
     void must(int status, const std::string& what) const;
     std::optional<std::vector<double>> numbers_attribute(const Variable& variable, const char* name) const;
 
+    std::unique_lock<std::mutex> alone_;
     std::string path_;
     int id_ = -1;
 };

@@ -1,6 +1,6 @@
 // Surfaces from files: height maps and lists of asperities, NetCDF or text. What a file is, is told by its first bytes, not by
 // its name. Anything wrong is Error(bad_input) naming the file, the line or index, and what was expected.
-// The NetCDF library is not made for several threads: one call at a time.
+// May be called by several threads; NetCDF files are read one at a time.
 #pragma once
 
 #include <optional>
