@@ -84,6 +84,9 @@ int run_program(int argc, char** argv, Job& job) {
         return 0;
     }
     const rsc::ReadCase read = rsc::read_case(options);
+#ifndef RSC_MPI
+    rsc::catch_signals();  // until here there is nothing to be left in order, and waiting for standard input could not be ended
+#endif
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
         if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");
@@ -146,7 +149,6 @@ int main(int argc, char** argv) {
         return status;
     });
 #else
-    rsc::catch_signals();
     Job job;
     return guarded([&] { return run_program(argc, argv, job); });
 #endif

@@ -61,7 +61,7 @@ FarField::FarField(const MeshDesign& design, double length_x, double length_y)
     const int nx = static_cast<int>(period_x_), ny = static_cast<int>(period_y_), many = static_cast<int>(kColumns);
     const FftwArray row = fftw_array(stride()), block = fftw_array(2 * kColumns * period_y_);
     {
-        const std::lock_guard lock(fftw_planner_mutex());
+        const auto lock = fftw_planning();
         row_forward_.reset(fftw_plan_dft_r2c_1d(nx, row.get(), as_complex(row.get()), FFTW_ESTIMATE));
         row_backward_.reset(fftw_plan_dft_c2r_1d(nx, as_complex(row.get()), row.get(), FFTW_ESTIMATE));
         fftw_complex* b = as_complex(block.get());

@@ -4,8 +4,10 @@
 
 #include <fftw3.h>
 
+#include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <type_traits>
 
 namespace rsc {
@@ -13,6 +15,17 @@ namespace rsc {
 inline std::mutex& fftw_planner_mutex() {
     static std::mutex mutex;
     return mutex;
+}
+
+// To be held while plans are made. FFTW ends the program where it is refused memory: some of it is asked for here first. Throws
+// std::bad_alloc.
+inline std::unique_lock<std::mutex> fftw_planning() {
+    constexpr std::size_t most = std::size_t{8} << 20;  // tables of the longest transforms included
+    std::unique_lock lock(fftw_planner_mutex());
+    void* const probe = std::malloc(most);
+    if (!probe) throw std::bad_alloc();
+    std::free(probe);
+    return lock;
 }
 
 struct FftwPlanDestroyer {

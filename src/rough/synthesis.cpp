@@ -71,7 +71,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     Buffer row(allocate_doubles(2 * static_cast<std::size_t>(row_stride_), "a row of a synthetic surface"));
     FftwPlan column_plan;
     {
-        const std::lock_guard lock(fftw_planner_mutex());
+        const auto lock = fftw_planning();
         column_plan.reset(fftw_plan_dft_1d(n_, fftw(drawn[0].get()), fftw(store), FFTW_BACKWARD, FFTW_ESTIMATE));
         row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row.get()), row.get() + row_stride_, FFTW_ESTIMATE));
     }

@@ -52,7 +52,10 @@ void check(int status, const std::string& path) {
         fail(path, "a variable is too large for &output format='classic'", "use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
         throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
-    throw Error(Failure::internal, "result file '" + path + "': " + nc_strerror(status));
+    // The file is put together in memory, where NetCDF and HDF5 have little else to fail for, whatever error they name.
+    throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
+                "'" + path + "' cannot be put together (" + nc_strerror(status) +
+                    "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
 }
 
 // The work in progress beside the file: removed unless it became the file.
@@ -142,7 +145,9 @@ public:
     int id() const { return ncid_; }
     // Ends the writing; the bytes of the file, which live as long as this does.
     std::span<const char> close() {
-        check(nc_close_memio(std::exchange(ncid_, -1), &image_), path_);
+        NC_memio image{};  // after a failure it may name memory that is released already
+        check(nc_close_memio(std::exchange(ncid_, -1), &image), path_);
+        image_ = image;
         return {static_cast<const char*>(image_.memory), file_size()};
     }
 
@@ -160,6 +165,17 @@ private:
     int ncid_ = -1;
     NC_memio image_{};
 };
+
+// HDF5 may crash, now or when the program ends, where it is refused memory: what it is going to need is asked for first.
+// The image of the file is copied when it grows, and once more to be read.
+void require_memory(double bytes, const std::string& path) {
+    const double wanted = 3 * bytes + (32 << 20);
+    void* const probe = wanted < 9e18 ? std::malloc(static_cast<std::size_t>(wanted)) : nullptr;
+    if (probe == nullptr)
+        throw Error(Failure::no_memory, "no memory to put '" + path + "' together (some " + std::to_string(std::lround(wanted / 1e6)) +
+                                            " MB); write less (&output contacts, heights, map_cells)");
+    std::free(probe);
+}
 
 void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAttribute& value, const std::string& path) {
     if (const auto* text = std::get_if<std::string>(&value))
@@ -324,6 +340,7 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
         for (const std::string& d : v.dimensions) size *= static_cast<double>(length(d));
         bytes += size;
     }
+    require_memory(bytes, path);
     int mode = NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL;
     if (format == Format::cdf5) mode = NC_CLOBBER | NC_64BIT_DATA;
     if (format == Format::classic)

@@ -6,6 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
+#include <system_error>
+#include <thread>
 
 #include "error.hpp"
 #include "observe/regimes.hpp"
@@ -58,10 +61,32 @@ void summarise(std::ostream& out, const Job& job, const Realization& r, const Ta
     out << "picture: python3 output/plot/plot.py " << file << '\n';
 }
 
+// Starts as many threads once, because OpenMP ends the program where the machine refuses one.
+void require_threads(int threads) {
+    std::vector<std::thread> started;
+    started.reserve(static_cast<std::size_t>(threads));
+    std::mutex all_there;
+    bool refused = false;
+    {
+        const std::lock_guard wait(all_there);  // they must be there at the same time
+        try {
+            for (int k = 1; k < threads; ++k) started.emplace_back([&] { const std::lock_guard lock(all_there); });
+        } catch (const std::system_error&) {
+            refused = true;
+        }
+    }
+    for (std::thread& thread : started) thread.join();
+    if (refused)
+        throw Error(Failure::no_memory, "the machine refused to start " + std::to_string(threads) + " threads; fewer run%threads need less");
+}
+
 // The OpenMP threads of the caller while this lives.
 class OmpThreads {
 public:
-    explicit OmpThreads(int threads) { omp_set_num_threads(threads); }
+    explicit OmpThreads(int threads) {
+        require_threads(threads);
+        omp_set_num_threads(threads);
+    }
     OmpThreads(const OmpThreads&) = delete;
     OmpThreads& operator=(const OmpThreads&) = delete;
     ~OmpThreads() { omp_set_num_threads(before_); }
