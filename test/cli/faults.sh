@@ -1,0 +1,280 @@
+#!/bin/bash
+# Faults from outside: bash faults.sh TEST RSC FOLDER. Each must end in the right exit status and a message that says what to do, with
+# nothing under the final name and no work in progress left behind.
+# Exit status 0: passed, 77: skipped, anything else: failed.
+set -u
+test=$1 rsc=$2 folder=$3
+umask 022
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
+
+fail() { echo "failed: $*"; exit 1; }
+# expect STATUS command...: the exit status; stdout and stderr go to the file `said`.
+expect() {
+    local wanted=$1 got
+    shift
+    "$@" > "$folder/said" 2>&1
+    got=$?
+    [ $got -eq "$wanted" ] || { cat "$folder/said"; fail "exit status $got instead of $wanted: $*"; }
+}
+says() { grep -q -- "$1" "$folder/said" || { cat "$folder/said"; fail "it does not say: $1"; }; }
+# left FOLDER NAMES: what is there, and nothing else.
+left() { [ "$(ls -A "$1" | tr '\n' ' ')" = "${2:+$2 }" ] || fail "left in $1: $(ls -A "$1"); expected: $2"; }
+
+# A map of heights is written, too: it fills disks.
+cat > case.nml << 'END'
+&surface     n = 128  L_lambda_l = 4  L_lambda_s = 32 /
+&indentation steps = 8 /
+&output      file = 'out.nc'  map_cells = 20  heights = .true.  compression = 0 /
+END
+# A surface, or levels, or a file, that take their time.
+slow() {
+    cat > case.nml << END
+&run         threads = 1 /
+&surface     n = 2048  L_lambda_l = 8  L_lambda_s = 512 /
+&indentation $1 /
+&output      file = 'work/out.nc'  $2 /
+END
+    mkdir -p work
+}
+
+# Where this user may mount one.
+test_full_disk() {
+    mkdir disk
+    mount -t tmpfs -o size=64k none disk 2> /dev/null || exit 77
+    trap 'umount "$folder/disk"' EXIT
+    for format in netcdf4 cdf5 classic; do
+        expect 1 "$rsc" -s "output%format='$format'" -o disk/out.nc case.nml
+        says "cannot write 'disk/out.nc': the disk that holds folder 'disk' is full; make room there"
+        left disk ""
+    done
+    # A file that was there stays as it was.
+    expect 0 "$rsc" -s output%heights=F -s output%map_cells=1 -s indentation%steps=1 -s "output%contacts='none'" -s output%radial_bins=1 \
+        -s output%pdf_bins=1 -s "output%format='classic'" -o disk/out.nc case.nml
+    cp disk/out.nc before.nc
+    expect 1 "$rsc" -o disk/out.nc case.nml
+    cmp before.nc disk/out.nc || fail "the file that was there is not what it was"
+    left disk out.nc
+    # No room for a folder: not one block, or not one inode.
+    mount -o remount,nr_inodes=2 disk
+    expect 1 "$rsc" -o disk/new/out.nc case.nml
+    says "disk/new"
+    left disk out.nc
+}
+
+test_file_limit() {
+    mkdir work
+    expect 1 bash -c 'ulimit -f 16; exec "$0" -o work/out.nc case.nml' "$rsc"
+    says "cannot write 'work/out.nc': the file grows beyond the limit of file sizes (see ulimit -f); raise the limit, or write less"
+    left work ""
+}
+
+test_read_only() {
+    mkdir work
+    chmod 0555 work
+    if [ "$(id -u)" -eq 0 ]; then
+        setpriv --version > /dev/null 2>&1 || exit 77
+        # Nobody may go everywhere that root's build is.
+        open=$(mktemp -d) && trap 'rm -rf "$open"; chmod 0755 "$folder/work"' EXIT
+        cp "$rsc" case.nml "$open" && chmod 0755 "$open" && mkdir "$open/work" && chmod 0555 "$open/work"
+        nobody() { (cd "$open" && setpriv --reuid=65534 --regid=65534 --clear-groups ./rsc "$@" case.nml < /dev/null); }
+        at=$open
+    else
+        nobody() { "$rsc" "$@" case.nml; }
+        at=$folder
+        trap 'chmod 0755 "$folder/work"' EXIT
+    fi
+    expect 2 nobody -o work/out.nc
+    says "file='work/out.nc': folder 'work' cannot be written to: Permission denied"
+    left "$at/work" ""
+    expect 2 nobody -o work/new/out.nc
+    says "folder 'work' cannot be written to: Permission denied"
+    # What may not be read.
+    chmod 0777 "$at"
+    echo "1 2 3" > "$at/secret" && chmod 0000 "$at/secret"
+    expect 2 nobody -s "surface%source='heights'" -s "surface%file='secret'" -s surface%L=1 -o "$at/secret.nc"
+    says "secret: Permission denied"
+}
+
+test_folder() {
+    mkdir -p work/out.nc
+    expect 2 "$rsc" -o work/out.nc case.nml
+    says "file='work/out.nc': this is a folder; name a file in it, such as 'work/out.nc/rsc.nc'"
+    expect 2 "$rsc" -o work/ case.nml
+    expect 2 "$rsc" -o work/out.nc/ case.nml
+    expect 2 "$rsc" -o case.nml/out.nc case.nml
+    says "'case.nml' is not a folder"
+    expect 2 "$rsc" -o /dev/full case.nml
+    says "something that is not a plain file has this name"
+    expect 2 "$rsc" -s "surface%source='heights'" -s "surface%file='work'" -s surface%L=1 case.nml
+    says "work: is a directory"
+    left work out.nc
+    left work/out.nc ""
+}
+
+test_cut_input() {
+    mkdir work
+    for format in netcdf4 cdf5 classic; do
+        expect 0 "$rsc" -s "output%format='$format'" -o whole.nc case.nml
+        size=$(stat -c %s whole.nc)
+        for keep in $((size / 2)) $((size - 1)) $((size / 50)) 100 9; do
+            head -c "$keep" whole.nc > cut.nc
+            for source in heights asperities; do
+                expect 2 "$rsc" -s "surface%source='$source'" -s "surface%file='cut.nc'" -o work/out.nc case.nml
+                says "cut.nc: .*\(whole\|cut off\)"
+                left work ""
+            done
+        done
+    done
+    : > cut.nc
+    expect 2 "$rsc" -s "surface%source='heights'" -s "surface%file='cut.nc'" -o work/out.nc case.nml
+    says "cut.nc: is empty"
+    # Text that ends in the middle of a row, and in the middle of asperities.
+    printf '1 2 3\n4 5 6\n7 8' > cut.txt
+    expect 2 "$rsc" -s "surface%source='heights'" -s "surface%file='cut.txt'" -s surface%L=1 -o work/out.nc case.nml
+    says "cut.txt:3: 2 values where 3 as in line 1 were expected"
+    printf '0 0 1 1\n1 0 1' > cut.txt
+    expect 2 "$rsc" -s "surface%source='asperities'" -s "surface%file='cut.txt'" -o work/out.nc case.nml
+    says "cut.txt:2: 3 values where 4 were expected"
+    left work ""
+}
+
+# refused SOURCE FILE WORDS: the case on that file.
+refused() {
+    expect 2 "$rsc" -s "surface%source='$1'" -s "surface%file='$2'" -s surface%L=1 -o work/out.nc case.nml
+    says "$3"
+    left work ""
+}
+
+test_wrong_shape() {
+    command -v ncgen > /dev/null || exit 77
+    mkdir work
+    printf '1 2 3\n4 5 6\n' > t; refused heights t "a height map of 3 x 2 points; at least 3 x 3 are needed"
+    printf '1 2 3\n4 5 6 7\n1 2 3\n' > t; refused heights t "t:2: 4 values where 3 as in line 1"
+    printf '1 2 3 4 5\n' > t; refused asperities t "t:1: 5 values where 4 were expected"
+    printf '1 2 3 0\n' > t; refused asperities t "t:1.*radius"
+    printf '1 2 3 1\n1 2 4 1\n' > t; refused asperities t "t:2.*same"
+    printf '1 2\n3 4 four\n' > t; refused heights t "t:2: 'four' in column 3 is not a number"
+    cdl() { printf 'netcdf t {\n%s\n}\n' "$1" > t.cdl && ncgen -o t.nc t.cdl; }
+    cdl 'dimensions: t=2; y=3; x=3; variables: double height(t,y,x);'; refused heights t.nc "height(y, x), numeric, was expected, not height(t = 2, y = 3, x = 3)"
+    cdl 'dimensions: y=3; x=3; variables: char height(y,x);'; refused heights t.nc "numeric"
+    cdl 'dimensions: y=3; x=3; variables: double a(y,x), b(y,x);'; refused heights t.nc "it cannot be told which is meant: a(y = 3, x = 3), b(y = 3, x = 3)"
+    cdl 'dimensions: a=3; b=2; variables: double asperity_x(a), asperity_y(b); data: asperity_x=1,2,3; asperity_y=1,2;'; refused asperities t.nc "asperity_y(b = 2)"
+    cdl 'dimensions: a=3; variables: double asperity_x(a); data: asperity_x=1,2,3;'; refused asperities t.nc "there is no variable asperity_y"
+    # All levels and the sphere, but nothing to touch: a flat map has no summits.
+    printf '1 1 1\n1 1 1\n1 1 1\n' > t; refused heights t "no summit inside the map"
+}
+
+test_missing_values() {
+    command -v ncgen > /dev/null || exit 77
+    mkdir work
+    for word in nan NaN inf -Infinity 1e999 -- _; do
+        printf '1 2 3\n4 %s 6\n7 8 9\n' "$word" > t; refused heights t "t:2: '$word' in column 2 is not"
+    done
+    # Missing is what _FillValue or missing_value say, or what was never written.
+    for attribute in "" "height:_FillValue = -99.;" "height:missing_value = -99.;"; do
+        for value in _ NaN Infinity -99; do
+            [ "$value$attribute" != -99 ] || continue
+            [ "$value" != _ ] || [ "$attribute" != "height:missing_value = -99.;" ] || continue
+            printf 'netcdf t { dimensions: y=3; x=3; variables: double height(y,x); %s data: height = 1,2,3, 4,5,%s, 7,8,9; }\n' \
+                "$attribute" "$value" > t.cdl
+            ncgen -k nc4 -o t.nc t.cdl || fail "ncgen"
+            refused heights t.nc "height(y = 1, x = 2), counted from 0, is \(missing\|not finite\).*every value must be known"
+        done
+    done
+}
+
+test_memory() {
+    # Sanitizers reserve address space without end.
+    bash -c 'ulimit -v 4000000; exec "$0" --version' "$rsc" > /dev/null 2>&1 || exit 77
+    mkdir work
+    for threads in 1 2; do
+        # What the program needs to exist, in KiB: its libraries.
+        local least=20000
+        until bash -c 'ulimit -v "$1"; OPENBLAS_NUM_THREADS=1 exec "$0" --version' "$rsc" $least > /dev/null 2>&1; do
+            least=$((least + 4000))
+            [ $least -lt 2000000 ] || exit 77
+        done
+        local refused=0 done=0
+        for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 384000; do
+            rm -f work/out.nc
+            bash -c 'ulimit -v "$1"; OPENBLAS_NUM_THREADS=1 exec "$0" -s run%threads="$2" -s surface%n=1024 -o work/out.nc case.nml' \
+                "$rsc" $((least + more)) $threads > said 2>&1
+            got=$?
+            case $got in
+                0) left work out.nc; done=$((done + 1)) ;;
+                1) left work ""; refused=$((refused + 1)); says "memory\|[Tt]hread" ;;
+                *) cat said; fail "exit status $got with $((least + more)) KiB" ;;
+            esac
+        done
+        [ $refused -ge 3 ] && [ $done -ge 1 ] || fail "$threads threads: refused $refused times, done $done times"
+        echo "$threads threads: refused $refused times, done $done times, from $least KiB on"
+    done
+}
+
+running() { kill -0 "$1" 2> /dev/null && [ "$(cut -d' ' -f3 "/proc/$1/stat" 2> /dev/null)" != Z ]; }
+# Whether the process is this program by now, and its handler of signals in place.
+handles() { [ $((0x$(sed -n 's/^SigCgt:\t//p' "/proc/$1/status" 2> /dev/null || echo 0) & 0x4000)) -ne 0 ]; }
+
+# stopped SIGNAL WHEN command...: the signal comes as soon as `WHEN` succeeds; the command ends by it.
+stopped() {
+    local signal=$1 when=$2 number
+    shift 2
+    "$@" > said 2>&1 &
+    local process=$!
+    until eval "$when"; do
+        running $process || { cat said; fail "ended before the signal could be sent: $when"; }
+        sleep 0.01
+    done
+    kill -s "$signal" $process
+    wait $process
+    got=$?
+}
+
+status_of() { [ "$1" = INT ] && echo 130 || echo 143; }
+
+# Waiting for a case that does not come.
+test_signal_reading() {
+    mkdir work
+    mkfifo pipe
+    exec 3<> pipe
+    for signal in TERM INT; do
+        stopped $signal 'grep -q rsc "/proc/$process/cmdline" && sleep 0.2' env --default-signal=INT \
+            bash -c 'exec "$0" -o work/out.nc < pipe' "$rsc"
+        [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
+        left work ""
+    done
+}
+
+test_signal_surface() {
+    slow "steps = 2" ""
+    for signal in TERM INT; do
+        stopped $signal 'handles $process && sleep 0.1' env --default-signal=INT "$rsc" -s surface%n=4096 case.nml
+        [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
+        says "stopped by SIG$signal; nothing is written"
+        left work ""
+    done
+}
+
+test_signal_levels() {
+    slow "steps = 4000" ""
+    for signal in TERM INT; do
+        stopped $signal 'grep -q "^ *9 .*converged" said' env --default-signal=INT "$rsc" case.nml
+        [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
+        says "stopped by SIG$signal; nothing is written"
+        left work ""
+    done
+}
+
+# The file that is being written is finished: it is a matter of a moment, and nothing is lost.
+test_signal_writing() {
+    slow "steps = 2" "heights = .true.  compression = 9"
+    for signal in TERM INT; do
+        rm -f work/*
+        stopped $signal 'ls work | grep -q part' env --default-signal=INT "$rsc" case.nml
+        [ $got -eq 0 ] || { cat said; fail "exit status $got"; }
+        left work out.nc
+        ncdump -h work/out.nc > /dev/null || fail "the file is not whole"
+    done
+}
+
+"test_$test"
