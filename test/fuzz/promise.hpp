@@ -1,0 +1,14 @@
+// What a fuzzer asserts: a broken promise ends the process, and libFuzzer keeps the input.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#define PROMISE(condition, what)                                                                                         \
+    do {                                                                                                                 \
+        if (!(condition)) {                                                                                              \
+            std::fprintf(stderr, "%s:%d: broken: %s\n%s\n", __FILE__, __LINE__, #condition, std::string(what).c_str()); \
+            std::abort();                                                                                                \
+        }                                                                                                                \
+    } while (0)
