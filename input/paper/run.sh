@@ -37,7 +37,7 @@ shorten() {
         density) sed -e 's/n = 4096/n = 512/; s/L_lambda_s = 25,.*/L_lambda_s = 25, 50, 125 \//; s/hurst = 0.1,.*0.9 /hurst = 0.1, 0.5, 0.9 /; s/realizations = .*/realizations = 3 \//' ;;
         density_grid) sed -e 's/L_lambda_s = 1000/L_lambda_s = 125/; s/2048,.*/256, 512, 1024 \//; s/realizations = .*/realizations = 3 \//' ;;
         contacts) sed -e 's/n = 2048/n = 256/; s/L_lambda_s = 512/L_lambda_s = 64/; s/5, 6, .*/5 \//; /^ *21/d' ;;
-        *) sed -e 's/realizations = [0-9]*/realizations = 6/; s/n = 2048, 4096/n = 256, 512/; s/n = 2048/n = 256/; s/256, 512 \/$/32, 64 \//' \
+        *) sed -e 's/realizations = [0-9]*/realizations = 6/; s/n = 2048, 4096/n = 256, 512/; s/n = 2048/n = 256/; s/256, 512 \/$/32, 64 \//; s/L_lambda_s = 256/L_lambda_s = 32/' \
                -e 's/L_lambda_s = 512/L_lambda_s = 64/; s/L_lambda_l = 24/L_lambda_l = 8/; s/L_lambda_l = 48/L_lambda_l = 16/; s/steps = 100/steps = 16/' ;;
     esac
 }

@@ -89,7 +89,7 @@ def text(value, digits=4):
         return "-"
     if isinstance(value, str):
         return value
-    if value != 0 and abs(value) >= 1e5:
+    if value != 0 and abs(value) >= 1e4:
         return f"{value:,.0f}".replace(",", " ")
     return f"{value:.{digits}g}"
 
