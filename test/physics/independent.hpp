@@ -3,9 +3,9 @@
 //
 // The unknown is the contact radius a_i of the summit with curvature kappa_i and quartic coefficient b_i: with
 //     delta(a) = kappa a^2 - (8/3) b a^4,    P(a) = E* [(4/3) kappa a^3 - (64/15) b a^5]
-// the equation of asperity i, all others held, is delta(a_i) F2_i = g0_i - sum_j P(a_j)/(pi E* d_ij), from which E* drops out. It is
-// solved by bisection in a_i, sweep after sweep (Gauss-Seidel). Each such step minimises the energy over one force, so the sweeps
-// go down to a minimum.
+// the equation of asperity i, all others held, is delta(a_i) F2_i = g0_i - sum_j P(a_j)/(pi E* d_ij), from which E* drops out. It
+// is solved by bisection in a_i, sweep after sweep (Gauss-Seidel). Each such step minimises the energy over one force, so the
+// sweeps go down to a minimum.
 #pragma once
 
 #include <cmath>
@@ -21,8 +21,8 @@ inline constexpr Real kPi = std::numbers::pi_v<Real>;
 
 struct Summit {
     Real x = 0, y = 0, z = 0;
-    Real kappa = 1, b = 0;              // 1/R_e, quartic coefficient
-    Real F1_squared = 1, per_F2 = 1;    // elliptic summits
+    Real kappa = 1, b = 0;            // 1/R_e, quartic coefficient
+    Real F1_squared = 1, per_F2 = 1;  // elliptic summits
 };
 
 // Complete elliptic integrals K and E of the complementary modulus k' by the arithmetic-geometric mean.
@@ -94,8 +94,10 @@ inline Answer press(const std::vector<Summit>& summits, Real R, Real x0, Real y0
     for (std::size_t i = 0; i < n; ++i) {
         const Summit& s = summits[i];
         const Real rho2 = (s.x - x0) * (s.x - x0) + (s.y - y0) * (s.y - y0);
-        if (std::isinf(R)) g0[i] = s.z - Z0;
-        else g0[i] = rho2 <= R * R ? s.z + std::sqrt(R * R - rho2) - R - Z0 : -1;
+        if (std::isinf(R))
+            g0[i] = s.z - Z0;
+        else
+            g0[i] = rho2 <= R * R ? s.z + std::sqrt(R * R - rho2) - R - Z0 : -1;
         for (std::size_t j = 0; j < n; ++j) {
             const Real dx = s.x - summits[j].x, dy = s.y - summits[j].y;
             nearness[i * n + j] = i == j ? 0 : 1 / (kPi * std::sqrt(dx * dx + dy * dy));

@@ -1,5 +1,5 @@
-// Hundreds of random systems against the independent slow solver (independent.hpp); how fast Newton converges; and what follows from
-// an energy: the symmetry of the response, dW/dg = F, a minimum.
+// Hundreds of random systems against the independent slow solver (independent.hpp); how fast Newton converges; and what follows
+// from an energy: the symmetry of the response, dW/dg = F, a minimum.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kE = 94.0e3;
 constexpr double kFlat = std::numeric_limits<double>::infinity();
-// Of the total load, a force or the load itself: the solver is asked for residuals of 1e-13, and errors are larger than residuals by the
-// condition of I + S B S, below 100 where the solution is unique by the solver's own proof.
+// Of the total load, a force or the load itself: the solver is asked for residuals of 1e-13, and errors are larger than residuals
+// by the condition of I + S B S, below 100 where the solution is unique by the solver's own proof.
 constexpr double kTolerance = 1e-10;
 
 SolverOptions options(Method method, LawKind law = LawKind::hertz) {
@@ -30,8 +30,8 @@ SolverOptions options(Method method, LawKind law = LawKind::hertz) {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Principal curvatures and biharmonics for asperities that have only radii: ratios up to 10; flatter summits than paraboloids, mostly,
-// as those of rough surfaces are, within the range of the law down to `deepest`.
+// Principal curvatures and biharmonics for asperities that have only radii: ratios up to 10; flatter summits than paraboloids,
+// mostly, as those of rough surfaces are, within the range of the law down to `deepest`.
 void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -87,7 +87,8 @@ void against_slow_solver() {
         int unique = 0, contacts = 0, sweeps = 0;
         for (int k = 0; k < family.systems; ++k) {
             const unsigned seed = 1000u + static_cast<unsigned>(k);
-            Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing, 0.01, family.radius, family.spread, seed);
+            Asperities a =
+                random_asperities(1 + (k * family.n) / family.systems, family.spacing, 0.01, family.radius, family.spread, seed);
             if (family.law != LawKind::hertz) shape(a, family.law, 0.06, seed);
             const double Z0 = 0.01 - 0.02 * (k % 5);  // down to where every summit under the sphere is pressed
             const auto reference = independent::press(summits_of(a, family.law), family.R, 0.5, 0.5, Z0, 1e-15L);
@@ -121,16 +122,17 @@ void against_slow_solver() {
         // The comparison is worth something only where most systems have one solution, and many contacts.
         CHECK(unique >= 9 * family.systems / 10);
         systems += unique;
-        std::printf("%-12s %3d of %3d systems unique, up to %d contacts, %d sweeps: load %.1e, area %.1e, a force %.1e of the load\n",
-                    family.name, unique, family.systems, contacts, sweeps, worst_load, worst_area, worst_force);
+        std::printf(
+            "%-12s %3d of %3d systems unique, up to %d contacts, %d sweeps: load %.1e, area %.1e, a force %.1e of the load\n",
+            family.name, unique, family.systems, contacts, sweeps, worst_load, worst_area, worst_force);
     }
     CHECK(systems >= 450);
 }
 
 // Residuals e of a cold start stopped after 1, 2, 3, ... steps. Steps are solved to sqrt(e), so that order 1.5 is what to expect:
-// e' <= C e^1.5 with one C over eight decades, whatever the system (its largest value is printed; C = 3 is asserted). The slope of ln e' over
-// ln e tells it from a linearly convergent method, whose slope is 1; it is blurred by C, which varies from step to step.
-// Pairs count once the iteration has come near (e < 0.1), as long as rounding plays no part (e' > 1e-13).
+// e' <= C e^1.5 with one C over eight decades, whatever the system (its largest value is printed; C = 3 is asserted). The slope
+// of ln e' over ln e tells it from a linearly convergent method, whose slope is 1; it is blurred by C, which varies from step to
+// step. Pairs count once the iteration has come near (e < 0.1), as long as rounding plays no part (e' > 1e-13).
 void newton_order() {
     std::vector<double> from, to;
     int most_steps = 0;
@@ -168,16 +170,17 @@ void newton_order() {
     const double order = covariance / variance;
     double C = 0;
     for (std::size_t k = 0; k < from.size(); ++k) C = std::max(C, std::exp(to[k] - 1.5 * from[k]));
-    std::printf("e' <= %.2f e^1.5 in %zu pairs of residuals, slope of ln e' over ln e %.2f; at most %d steps\n", C, from.size(), order,
-                most_steps);
+    std::printf("e' <= %.2f e^1.5 in %zu pairs of residuals, slope of ln e' over ln e %.2f; at most %d steps\n", C, from.size(),
+                order, most_steps);
     CHECK(from.size() >= 40);
     CHECK(C <= 3);
     CHECK(order >= 1.35);
     CHECK(most_steps <= 15);
 }
 
-// dF_i/dg_j = dF_j/dg_i (reciprocity), and dW/dg_i = F_i (the forces come from an energy), by central differences in the height of
-// single asperities, of second order in h/u; asperities that are nearly out of touch are left out, where the slope is not smooth.
+// dF_i/dg_j = dF_j/dg_i (reciprocity), and dW/dg_i = F_i (the forces come from an energy), by central differences in the height
+// of single asperities, of second order in h/u; asperities that are nearly out of touch are left out, where the slope is not
+// smooth.
 void reciprocity() {
     for (unsigned seed = 0; seed < 6; ++seed) {
         Asperities a = random_asperities(80, 0.03, 0.01, 1e-3, 0.5, 400 + seed);
@@ -223,8 +226,8 @@ void reciprocity() {
     }
 }
 
-// The energy as a function of forces, written out: sum (3/5) c^(-2/3) f^(5/3) + F'BF/2 - g0'F. At the answer it is minus energy(), and
-// no feasible change of the forces, of few or of all, lowers it; W(Z0) and N(Z0) fall as the sphere is raised.
+// The energy as a function of forces, written out: sum (3/5) c^(-2/3) f^(5/3) + F'BF/2 - g0'F. At the answer it is minus
+// energy(), and no feasible change of the forces, of few or of all, lowers it; W(Z0) and N(Z0) fall as the sphere is raised.
 void energy_is_minimal() {
     std::mt19937_64 random(5);
     std::normal_distribution<double> normal(0, 1);
@@ -242,7 +245,8 @@ void energy_is_minimal() {
                 const long double c = 4 / 3.0L * kE * std::sqrt(static_cast<long double>(a.radius[i])), f = F[i];
                 E += 0.6L * std::pow(c, -2 / 3.0L) * std::pow(f, 5 / 3.0L) - f * (static_cast<long double>(a.z[i]) - Z0);
                 for (std::size_t j = 0; j < i; ++j) {
-                    E += f * F[j] / (independent::kPi * kE * std::hypot(static_cast<long double>(a.x[i] - a.x[j]), a.y[i] - a.y[j]));
+                    E += f * F[j] /
+                         (independent::kPi * kE * std::hypot(static_cast<long double>(a.x[i] - a.x[j]), a.y[i] - a.y[j]));
                 }
             }
             return E;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Boundary elements on the very surfaces rsc makes: load and contact area of a sphere at given separations.
 
-    compare.py RSC OUTPUT [--cases 64:1,128:1] [--finest 2048,4096] [--work DIR]
+    compare.py RSC OUTPUT [--cases 64:1,128:1] [--finest 4096,4096] [--work DIR]
 
 RSC is the program, which makes the heights; OUTPUT receives a row a case, grid and level. Every surface is solved on the grid
 `finest` (per L/lambda_s) and on the one twice as coarse, where the pressures also give the finer grid its start.
@@ -60,7 +60,7 @@ def main():
     parser.add_argument("rsc")
     parser.add_argument("output")
     parser.add_argument("--cases", default="64:1,128:1")
-    parser.add_argument("--finest", default="2048,4096", help="grid for L/lambda_s = 64, 128")
+    parser.add_argument("--finest", default="4096,4096", help="grid for L/lambda_s = 64, 128")
     parser.add_argument("--work")
     options = parser.parse_args()
     finest = dict(zip((64, 128), map(int, options.finest.split(","))))
