@@ -25,7 +25,8 @@ ranks() {
     shift
     local root=
     [ "$(id -u)" -eq 0 ] && root=--allow-run-as-root
-    local run=(timeout 100 mpirun $root --oversubscribe -n "$n" "$rsc_mpi" "$@")
+    # --foreground: a signal comes once. Told twice, mpirun leaves at once and its ranks behind, at work.
+    local run=(timeout --foreground 100 mpirun $root --oversubscribe -n "$n" "$rsc_mpi" "$@")
     if [ "$BASHPID" = $$ ]; then "${run[@]}"; else exec "${run[@]}"; fi
 }
 
@@ -138,11 +139,23 @@ test_signals() {
     [ -z "$(ls)" ] || fail "something is left: $(ls)"
 }
 
+# Starts the command and kills it as soon as its state is on the disk, however slow the machine is.
+kill_with_state() {
+    "$@" &
+    for _ in $(seq 1200); do
+        [ -s out.nc.checkpoint ] && break
+        sleep 0.05
+    done
+    sleep 0.1
+    kill -s KILL $! && wait $!
+    [ -s out.nc.checkpoint ] || fail "no state was left by $*"
+}
+
 # Nothing is lost by accident, and nothing is mixed up.
 test_refused() {
     campaign 300
-    sed 's/300/3000/' case.nml > long.nml
-    timeout -s KILL 0.6 "$rsc" -q long.nml
+    sed 's/300/30000/' case.nml > long.nml
+    kill_with_state "$rsc" -q long.nml
     cp out.nc.checkpoint before
     expect 2 "$rsc" long.nml
     says "out.nc.checkpoint.*--resume"
@@ -150,14 +163,18 @@ test_refused() {
     says "surface%hurst: 0.7 there, 0.75 now"
     says "run%seed: 1 there, 2 now"
     expect 2 "$rsc" --resume case.nml
-    says "run%realizations: 3000 there, 300 now"
+    says "run%realizations: 30000 there, 300 now"
     head -c "$(stat -c %s out.nc.checkpoint)" before | cmp - out.nc.checkpoint || fail "a refusal has changed the state"
     # A torn frame at the end may be cut off, nothing else.
     [ $(($(stat -c %s before) - $(stat -c %s out.nc.checkpoint))) -lt 20000 ] || fail "a refusal has taken from the state"
     [ ! -e out.nc ] || fail "a refusal has written"
     # Two at a time.
     "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
-    sleep 0.3
+    size=$(stat -c %s out.nc.checkpoint)
+    for _ in $(seq 1200); do
+        [ "$(stat -c %s out.nc.checkpoint)" != "$size" ] && break
+        sleep 0.05
+    done
     expect 2 "$rsc" --resume long.nml
     says "another rsc is at work"
     kill %1
@@ -165,7 +182,7 @@ test_refused() {
     # Another number of threads, and another format, are the same case.
     rm out.nc.checkpoint
     expect 0 in_folder whole "$rsc" -q -s "output%format='classic'" ../case.nml
-    timeout -s KILL 0.2 "$rsc" -q -s run%threads=1 case.nml
+    kill_with_state "$rsc" -q -s run%threads=1 case.nml
     expect 0 "$rsc" --resume -s run%threads=3 -s "output%format='classic'" case.nml
     same whole/out.nc out.nc
     expect 0 "$rsc" --resume -s "output%format='classic'" case.nml
