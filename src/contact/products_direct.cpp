@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,6 +33,10 @@ public:
 
     void inner(const double* f, double* phi) override {
         ++count_;
+        if (scale_ == 0) {
+            std::fill(phi, phi + active_.size(), 0.0);
+            return;
+        }
         if (precise_) {
             active_full(f, phi);
             return;
@@ -49,18 +54,30 @@ public:
     }
 
     void inner_passive(const double* f, double* phi) override {
+        if (scale_ == 0) {
+            std::fill(phi, phi + passive_.size(), 0.0);
+            return;
+        }
         const auto sums = precise_ ? pair_potential : pair_potential_single;
         sums(passive_.size(), xp_.data(), yp_.data(), active_.size(), xa_.data(), ya_.data(), f, phi);
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[k] *= scale_;
     }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
+        if (scale_ == 0) {
+            std::fill(phi, phi + n, 0.0);
+            return;
+        }
         pair_potential_single(static_cast<std::size_t>(n), x, y, active_.size(), xa_.data(), ya_.data(), f, phi);
         for (int k = 0; k < n; ++k) phi[k] *= scale_;
     }
 
     void full(const double* f, double* phi) override {
         ++count_;
+        if (scale_ == 0) {
+            std::fill(phi, phi + x_.size(), 0.0);
+            return;
+        }
         active_phi_.resize(active_.size());
         active_full(f, active_phi_.data());
         pair_potential(passive_.size(), xp_.data(), yp_.data(), active_.size(), xa_.data(), ya_.data(), f, passive_phi_.data());
@@ -86,7 +103,7 @@ private:
         for (std::size_t k = 0; k < active_.size(); ++k) phi[k] *= scale_;
     }
 
-    double scale_;
+    double scale_;  // 1/(pi E*); 0: no interaction
     bool precise_ = false;
     bool fresh_ = true;  // the active list belongs to earlier points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
