@@ -1,0 +1,13 @@
+# The Fortran programs under valgrind: no invalid access, no use of what was never set, nothing lost.
+find_program(RSC_VALGRIND valgrind)
+if(NOT RSC_VALGRIND OR RSC_SANITIZE)
+  return()
+endif()
+set(valgrind ${RSC_VALGRIND} --quiet --error-exitcode=9 --leak-check=full --show-leak-kinds=definite,indirect
+             --errors-for-leak-kinds=definite,indirect)
+add_test(NAME valgrind.api COMMAND ${valgrind} $<TARGET_FILE:test_api_fortran>)
+add_test(NAME valgrind.read_results COMMAND ${valgrind} $<TARGET_FILE:test_results> sample_one.nc sample_many.nc
+                                            ${CMAKE_CURRENT_SOURCE_DIR}/test_results.f90)
+set_tests_properties(valgrind.api valgrind.read_results PROPERTIES LABELS valgrind TIMEOUT 300 ENVIRONMENT
+                     "OMP_NUM_THREADS=1;OPENBLAS_NUM_THREADS=1")
+set_tests_properties(valgrind.read_results PROPERTIES FIXTURES_REQUIRED result_files)
