@@ -1,6 +1,7 @@
 #include "contact/uniqueness.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -62,26 +63,32 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
         overlap.push_back({i, j, overlap_of(i, j, d)});
         parent[root(i)] = root(j);
     });
-    std::vector<std::size_t> doubtful;
+    struct Cluster {
+        std::size_t members = 0;
+        std::vector<Coupling> overlap;
+    };
+    constexpr std::size_t none = static_cast<std::size_t>(-1), largest_cluster = 400;
+    std::vector<std::size_t> cluster_of(n, none), place(n);  // of a root; of a point in its cluster
+    std::vector<Cluster> doubtful;
     for (std::size_t i = 0; i < n; ++i) {
-        if (!(row[i] < diagonal)) doubtful.push_back(root(i));
+        if (row[i] < diagonal || cluster_of[root(i)] != none) continue;
+        cluster_of[root(i)] = doubtful.size();
+        doubtful.emplace_back();
     }
-    std::sort(doubtful.begin(), doubtful.end());
-    doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
-    constexpr std::size_t largest_cluster = 400;
-    std::vector<std::size_t> place(n);
-    for (std::size_t cluster : doubtful) {
-        std::size_t m = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (root(i) == cluster) place[i] = m++;
-        }
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t c = cluster_of[root(i)];
+        if (c != none) place[i] = doubtful[c].members++;
+    }
+    for (const auto& pair : overlap) {
+        const std::size_t c = cluster_of[root(pair.i)];
+        if (c != none) doubtful[c].overlap.push_back({place[pair.i], place[pair.j], pair.value});
+    }
+    for (const Cluster& cluster : doubtful) {
+        const std::size_t m = cluster.members;
         if (m > largest_cluster) return false;
         std::vector<double> matrix(m * m, 0.0);
         for (std::size_t i = 0; i < m; ++i) matrix[i * m + i] = diagonal;
-        for (const auto& c : overlap) {
-            if (root(c.i) != cluster) continue;
-            matrix[place[c.i] * m + place[c.j]] = matrix[place[c.j] * m + place[c.i]] = c.value;
-        }
+        for (const auto& pair : cluster.overlap) matrix[pair.i * m + pair.j] = matrix[pair.j * m + pair.i] = pair.value;
         if (!lapack::is_positive_definite(static_cast<int>(m), matrix.data())) return false;
     }
     return true;
@@ -114,7 +121,12 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     constexpr int narrowings = 6;
     high = alone;
     std::vector<double> secant(n);
+    double room = std::numeric_limits<double>::infinity();  // sum of what the bounds leave above the solution
     for (int k = 0; k < narrowings; ++k) {
+        double left = 0;
+        for (std::size_t i = 0; i < n; ++i) left += std::max(high[i], 0.0) - std::max(v[i], 0.0);
+        if (left > 0.98 * room) return false;  // the bounds no longer close in
+        room = left;
         for (std::size_t i = 0; i < n; ++i) {
             secant[i] = 0;
             if (high[i] <= 0) continue;

@@ -1,5 +1,5 @@
 // What rsc costs, as ratios of times measured in one run. `rsc_bench` runs everything (a few minutes); `rsc_bench NAME...` only the
-// parts named: solve, realization, rough, pairs, many, largest.
+// parts named: pairs, realization, solve, laws, rough, largest, many.
 #include <fftw3.h>
 #include <sys/resource.h>
 
@@ -51,8 +51,9 @@ Asperities surface(double sigma, std::int64_t realization) {
     return make_asperities(spectrum, 2048, Normalise::sample, 1, realization, Curvature::geometric);
 }
 
-std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps) {
+std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps, LawKind law = LawKind::hertz) {
     SolverOptions options;
+    options.law = law;
     options.method = method;
     options.sigma = sigma;
     Contact contact(asperities, kGold, options);
@@ -90,6 +91,18 @@ void bench_solve() {
         all_dgesv += t_dgesv;
     }
     std::printf("  mean ratio %.0f (wanted: 200)\n", all_dgesv / all_direct);
+}
+
+void bench_laws() {
+    std::printf("\nlaws: 100 levels on the same sub-grid summits, solving only, one core (law / hertz)\n");
+    double hertz = 0, fourth = 0;
+    for (int realization = 1; realization <= 4; ++realization) {
+        const Asperities a = make_asperities(Spectrum{}, 2048, Normalise::sample, 1, realization, Curvature::geometric, nullptr, nullptr, 1,
+                                             Detail::subgrid);
+        hertz += shortest(10, [&] { indent(a, 0.01, Method::direct, 100); });
+        fourth += shortest(10, [&] { indent(a, 0.01, Method::direct, 100, LawKind::fourth_order); });
+    }
+    std::printf("  hertz %.1f ms, fourth_order %.1f ms, ratio %.2f (wanted: 1.3)\n", 250 * hertz, 250 * fourth, fourth / hertz);
 }
 
 double bare_transform(int n) {
@@ -226,7 +239,7 @@ void bench_largest() {
 int main(int argc, char** argv) {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     const std::pair<const char*, void (*)()> parts[] = {{"pairs", bench_pairs},     {"realization", bench_realization},
-                                                        {"solve", bench_solve},     {"rough", bench_rough},
+                                                        {"solve", bench_solve},     {"laws", bench_laws},   {"rough", bench_rough},
                                                         {"largest", bench_largest}, {"many", bench_many}};
     for (const auto& [name, part] : parts) {
         const bool wanted = argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, name) == 0; });
