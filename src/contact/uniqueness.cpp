@@ -118,7 +118,7 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     couple(close, f, relief);
     for (std::size_t i = 0; i < n; ++i) alone[i] += relief[i];
     // Bounds on the penetrations of any other solution: at most those with every close partner gone, hence at least ..., and so on.
-    constexpr int narrowings = 6;
+    constexpr int narrowings = 3;
     high = alone;
     std::vector<double> secant(n);
     double room = std::numeric_limits<double>::infinity();  // sum of what the bounds leave above the solution
