@@ -3,6 +3,8 @@
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
-sh input/setup.sh -DRSC_TESTS=ON
+# rsc_mpi is tested where there is an MPI; rsc itself needs none.
+if command -v mpicc > /dev/null 2>&1 && command -v mpirun > /dev/null 2>&1; then mpi=ON; else mpi=OFF; fi
+sh input/setup.sh -DRSC_TESTS=ON -DRSC_MPI=$mpi
 cd build
 ctest --output-on-failure --parallel "$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)" "$@"
