@@ -70,7 +70,7 @@ void ResultTable::levels() {
              {{"flag_values", std::vector<std::int32_t>{0, 1, 2, 3, 4}},
               {"flag_meanings", "converged out_of_validity overlapping not_unique not_converged"},
               {"comment",
-               "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, not the "
+               "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, perhaps not the "
                "only one; "
                "4: do not use. The larger is the more serious and hides the smaller"}});
     integers("method", "solver used", [](const LevelRow& l) { return l.method; },
