@@ -23,6 +23,9 @@
  *     from, and share nothing you could change: a surface or a case may be destroyed while the things made from it are still in
  * use. Threads Different handles may be used by different threads at the same time. One handle may be read by several threads at
  * once: all functions that take it as pointer to const. Nothing is global, except that the writing of result files takes turns.
+ * Numbers
+ *     of arrays, and what describes a grid, a sphere or a material, must be finite and at most 1e50, positive ones at least 1e-50:
+ * beyond that, squares and powers of them would overflow. "Not finite" and "not positive" below include that.
  * Arrays
  *     come from the caller with their length; indices count from 0. "May be null" says that an output that is not wanted may be
  *     NULL. Two-dimensional arrays are stored with x running fastest: z[j*nx + i] is the height at (x0 + i dx, y0 + j dy).

@@ -6,6 +6,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "contact/equivalent.hpp"
+#include "rough/magnitude.hpp"
 
 namespace rsc::api {
 namespace {
@@ -67,8 +68,8 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
     return guarded(7, [&] {
         construct(contact, "contact", [&] {
             require(asperities, 2, "asperities");
-            if (!(E_star > 0) || !std::isfinite(E_star)) refuse(3, "E_star", "must be positive and finite");
-            if (!(R > 0)) refuse(4, "R", "must be positive");
+            if (!rsc::usable_positive(E_star)) refuse(3, "E_star", rsc::kPositiveBounds);
+            if (!rsc::usable_positive(R) && !(R > 0 && std::isinf(R))) refuse(4, "R", "must be from 1e-50 to 1e50, or Infinity");
             require_finite(x0, 5, "x0");
             require_finite(y0, 6, "y0");
             const rsc::Case& settings = settings_of(a_case);

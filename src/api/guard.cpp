@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "rough/magnitude.hpp"
 #include "version.h"
 
 namespace rsc::api {
@@ -56,7 +57,8 @@ void refuse(int argument, const char* name, const char* why) {
 void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {
-        if (!std::isfinite(values[k])) refuse(argument, name, ("must be finite: entry " + std::to_string(k) + " is not").c_str());
+        if (!usable(values[k]))
+            refuse(argument, name, (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
+#include "rough/magnitude.hpp"
 #include "run/inputs.hpp"
 
 namespace rsc::api {
@@ -38,7 +39,8 @@ double rms(const std::vector<double>& values) {
 
 void require_positive(const std::vector<double>& values, int argument, const char* name) {
     for (std::size_t k = 0; k < values.size(); ++k) {
-        if (!(values[k] > 0)) refuse(argument, name, ("must be positive: entry " + std::to_string(k) + " is not").c_str());
+        if (!usable_positive(values[k]))
+            refuse(argument, name, (std::string(kPositiveBounds) + ": entry " + std::to_string(k) + " is not").c_str());
     }
 }
 
@@ -89,8 +91,8 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
         construct(surface, "surface", [&] {
             if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
             if (ny < 3 || ny > kMost) refuse(3, "ny", "must be from 3 to 2147483647");
-            if (!(dx > 0) || !std::isfinite(dx)) refuse(4, "dx", "must be positive and finite");
-            if (!(dy > 0) || !std::isfinite(dy)) refuse(5, "dy", "must be positive and finite");
+            if (!rsc::usable_positive(dx)) refuse(4, "dx", rsc::kPositiveBounds);
+            if (!rsc::usable_positive(dy)) refuse(5, "dy", rsc::kPositiveBounds);
             require_finite(x0, 6, "x0");
             require_finite(y0, 7, "y0");
             if (periodic != 0 && periodic != 1) refuse(8, "periodic", "must be 0 or 1");

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "error.hpp"
+#include "rough/magnitude.hpp"
 #include "rough/subgrid.hpp"
 #include "rough/summits.hpp"
 #include "rough/synthesis.hpp"
@@ -126,13 +127,16 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
             refuse(std::string("asperities: ") + std::to_string(field.values.size()) + " values of " + field.name + " for " +
                    std::to_string(n) + " asperities");
         for (std::size_t i = 0; i < n; ++i)
-            if (!std::isfinite(field.values[i])) refuse(name(i) + ": " + field.name + " is not finite");
+            if (!usable(field.values[i]))
+                refuse(name(i) + ": " + field.name +
+                       (std::isfinite(field.values[i]) ? " = " + text(field.values[i]) + ": " + kNumberBounds : " is not finite"));
     }
     if (a.kappa1.size() != a.kappa2.size() || a.kappa1.size() != a.angle.size())
         refuse("asperities: kappa1, kappa2 and angle must be given together");
     for (std::size_t i = 0; i < n; ++i) {
-        if (!(a.radius[i] > 0)) refuse(name(i) + ": the radius must be positive, not " + text(a.radius[i]));
-        if (!a.kappa1.empty() && !(a.kappa1[i] >= a.kappa2[i] && a.kappa2[i] > 0))
+        if (!usable_positive(a.radius[i]))
+            refuse(name(i) + ": the radius " + (a.radius[i] > 0 ? kPositiveBounds : "must be positive") + ", not " + text(a.radius[i]));
+        if (!a.kappa1.empty() && !(a.kappa1[i] >= a.kappa2[i] && usable_positive(a.kappa2[i])))
             refuse(name(i) + ": kappa1 >= kappa2 > 0 was expected, not " + text(a.kappa1[i]) + " and " + text(a.kappa2[i]));
     }
     std::vector<std::size_t> order(n);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "error.hpp"
+#include "rough/magnitude.hpp"
 #include "run/input_netcdf.hpp"
 #include "run/input_text.hpp"
 
@@ -217,7 +218,17 @@ Asperities read_text_asperities(const std::string& path) {
 }  // namespace
 
 HeightMap read_heights(const std::string& path, std::optional<double> L) {
-    return is_netcdf(path) ? read_netcdf_heights(path, L) : read_text_heights(path, L);
+    HeightMap map = is_netcdf(path) ? read_netcdf_heights(path, L) : read_text_heights(path, L);
+    for (const double step : {map.dx, map.dy})
+        if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text(step));
+    for (const double origin : {map.x0, map.y0})
+        if (!usable(origin)) refuse(path + ": the first coordinate " + kNumberBounds + ", not " + text(origin));
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            if (!usable(map(i, j)))
+                refuse(path + ": a height " + kNumberBounds + ", not " + text(map(i, j)) + " as in column " + std::to_string(i) +
+                       " of row " + std::to_string(j) + ", counted from 0");
+    return map;
 }
 
 Asperities read_asperities(const std::string& path) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "error.hpp"
+#include "rough/magnitude.hpp"
 #include "run/namelist_value.hpp"
 #include "run/registry.hpp"
 
@@ -40,8 +41,10 @@ private:
         // A slot is a way to write, too; here it only reads.
         const Slot slot = key.slot(const_cast<Case&>(c_));
         const auto number = [&](double value, long element) {
-            if (key.bounds.hold(value)) return;
-            const std::string bounds = key.bounds.text();
+            const bool overflows = std::isfinite(value) && !usable(value);
+            const bool vanishes = value > 0 && key.bounds.low == 0 && key.bounds.open && !usable_positive(value) && std::isfinite(value);
+            if (key.bounds.hold(value) && !overflows && !vanishes) return;
+            const std::string bounds = overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
             problems_.push_back({{&key},
                                  element,
                                  std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") + " = " +

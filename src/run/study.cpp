@@ -114,6 +114,12 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
 std::vector<Fault> check_study(const Case& base, const Study& study) {
     std::vector<Fault> faults;
     if (study.axes.empty()) return {{study.at, "&study: no lists of values"}};
+    // Every member holds a copy of the list of levels: little text could ask for much memory.
+    const std::size_t held = member_count(study) * base.indentation.levels.size();
+    if (held > kMostLevels)
+        return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
+                               std::to_string(base.indentation.levels.size()) + " explicit levels each: more than " +
+                               std::to_string(kMostLevels) + " levels in all; indentation%start, stop and steps need no room"}};
     for (const Study::Axis& axis : study.axes)
         for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults; ++i) {
             Case trial = base;

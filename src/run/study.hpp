@@ -30,6 +30,7 @@ struct Member {
 };
 
 inline constexpr std::size_t kMostMembers = 10'000;
+inline constexpr std::size_t kMostLevels = 10'000'000;  // of indentation%levels, over all members
 
 // Reads a &study group; faults name the place.
 Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& faults);

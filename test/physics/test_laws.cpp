@@ -104,7 +104,8 @@ void limits_are_hertz() {
         CHECK(ask(*law, -1.0).force == 0 && ask(*law, 0.0).slope == 0);
     }
     // b -> 0 continuously, from both sides.
-    const auto elliptic = make_law(LawKind::elliptic, summit(9000, 4000, 0), kE);
+    const Asperities oval = summit(9000, 4000, 0);  // a law refers to its asperities
+    const auto elliptic = make_law(LawKind::elliptic, oval, kE);
     for (double b : {1e-3, -1e-3}) {
         const Asperities s = summit(9000, 4000, b);
         CHECK_RELATIVE(ask(*make_law(LawKind::fourth_order, s, kE), 1e-3).force, ask(*elliptic, 1e-3).force, 1e-9);

@@ -266,6 +266,8 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n-inf 5 3\n"), 1.0), "'-inf' in column 1 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
+    REFUSED(read_heights(write("t", "1 2 3\n1 1e60 3\n1 2 3\n"), 1.0), "a height must be finite, 1e50 at most, not 1e+60 as in column 1 of row 1");
+    REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n1 2 3\n"), 1e-60), "the spacing must be from 1e-50 to 1e50");
     REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
     REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n"), 1.0), "at least 3 x 3");
     REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "holds no numbers");
