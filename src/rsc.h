@@ -1,3 +1,4 @@
+/* clang-format off */
 /* rsc: the elastic contact of rough spheres by a deterministic multi-asperity model (V. A. Yastrebov, "The Elastic Contact of
  * Rough Spheres Investigated Using a Deterministic Multi-Asperity Model", J. Multiscale Modelling, 2018). The whole of the C
  * interface.
@@ -5,35 +6,37 @@
  * Way through it
  *     rsc_surface (heights)  ->  rsc_asperities (its summits)  ->  rsc_contact (a sphere pressed on them)
  *     rsc_case (every option, by the names of the program's namelist) goes along wherever there is something to choose.
- * Each step may begin with data of your own: rsc_surface_take, rsc_asperities_take.
+ *     Each step may begin with data of your own: rsc_surface_take, rsc_asperities_take.
  *
  * Units are yours, as long as they are consistent: lengths, forces, moduli in force/length^2, energies in force length.
  *
  * Status
  *     Every function returns an int32_t: 0 is success; -i says that argument number i (counted from 1) is wrong; a positive value
- * is one of RSC_STATUS_LIST. rsc_message gives the reason in words. No function ends the program, prints, or lets a C++ exception
- *     out. Errors found in an option of a case carry the number of the case argument.
+ *     is one of RSC_STATUS_LIST. rsc_message gives the reason in words. No function ends the program, prints, or lets a C++
+ *     exception out. Errors found in an option of a case carry the number of the case argument.
  * After a failure
  *     Output arguments hold what they held before, except that a constructor sets its handle to null, and except for
  *     RSC_NOT_CONVERGED, where all outputs are written (see rsc_contact_indent). Handles stay valid and usable.
  * Handles
  *     are made by the functions ending in _create, _copy, _synthesize, _find, _make, _take and released by _destroy, which takes
- * the address of the handle, releases what it names and sets it to null; a null handle is released without complaint. A
+ *     the address of the handle, releases what it names and sets it to null; a null handle is released without complaint. A
  *     constructor overwrites the handle it is given: destroy what it held before. Handles own copies of all arrays they were made
- *     from, and share nothing you could change: a surface or a case may be destroyed while the things made from it are still in
- * use. Threads Different handles may be used by different threads at the same time. One handle may be read by several threads at
- * once: all functions that take it as pointer to const. Nothing is global, except that the writing of result files takes turns.
+ *     from, and share nothing you could change: a surface or a case may be destroyed while the things made from it are in use.
+ * Threads
+ *     Different handles may be used by different threads at the same time. One handle may be read by several threads at once: all
+ *     functions that take it as pointer to const. Nothing is global, except that the writing of result files takes turns.
  * Numbers
  *     of arrays, and what describes a grid, a sphere or a material, must be finite and at most 1e50, positive ones at least 1e-50:
- * beyond that, squares and powers of them would overflow. "Not finite" and "not positive" below include that.
+ *     beyond that, squares and powers of them would overflow. "Not finite" and "not positive" below include that.
  * Arrays
  *     come from the caller with their length; indices count from 0. "May be null" says that an output that is not wanted may be
  *     NULL. Two-dimensional arrays are stored with x running fastest: z[j*nx + i] is the height at (x0 + i dx, y0 + j dy).
  * Text
  *     goes in as a null-terminated string, and comes out into a caller's buffer: at most size-1 characters are written, always
  *     followed by a null character, and *length receives the full length without it: length >= size tells that the text was cut.
- * The buffer may be null if size is 0; length may be null.
+ *     The buffer may be null if size is 0; length may be null.
  */
+/* clang-format on */
 #ifndef RSC_H
 #define RSC_H
 
