@@ -4,6 +4,7 @@
 #include <netcdf.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "check.hpp"
@@ -339,6 +341,19 @@ void asperities() {
     REFUSED(read_asperities(in_folder("absent")), "No such file");
 }
 
+// The libraries are not made for it: without turns this breaks within some readings.
+void several_threads() {
+    const std::string path = heights_file("shared", NC_NETCDF4, ramp(5, 0, 1), ramp(3, 0, 1));
+    std::atomic<int> right{0};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&] {
+            for (int k = 0; k < 50; ++k) right += read_heights(path, std::nullopt)(3, 2) == 23 ? 1 : 0;
+        });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(right == 200);
+}
+
 }  // namespace
 
 int main() {
@@ -348,6 +363,7 @@ int main() {
     cut_files();
     heights_from_text();
     asperities();
+    several_threads();
     std::filesystem::remove_all(folder);
     return check::summary();
 }
