@@ -32,7 +32,7 @@ for kind in "$@"; do
         thread)
             # libgomp is not instrumented, its barriers are not seen: parallel regions run on one thread. What rsc starts itself (campaigns,
             # handles on several threads) runs as always.
-            export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+            export OMP_NUM_THREADS=1 OMP_THREAD_LIMIT=1 OPENBLAS_NUM_THREADS=1
             export TSAN_OPTIONS=suppressions=$top/test/threads.supp:halt_on_error=1:second_deadlock_stack=1
             fortran=OFF suite thread thread -LE package
             ;;
