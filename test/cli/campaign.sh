@@ -48,6 +48,11 @@ study() {
 END
 }
 
+# until_state SIZE PROCESS: until the state is larger, or the process has ended.
+until_state() {
+    while kill -0 "$2" 2> /dev/null && [ "$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)" -le "$1" ]; do sleep 0.01; done
+}
+
 # The same bits whatever the number of threads.
 test_threads() {
     campaign 40
@@ -73,10 +78,7 @@ test_ranks() {
     expect 0 in_folder whole "$rsc" -q ../case.nml
     mkdir killed && cd killed
     ranks 3 -q ../case.nml > said 2>&1 &   # a subshell, which leaves its place to the command
-    for _ in $(seq 200); do   # some work must be there to be kept
-        [ "$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)" -gt 20000 ] && break
-        sleep 0.02
-    done
+    until_state 20000 $!   # some work must be there to be kept
     kill -TERM %1 2> /dev/null
     wait
     expect 0 ranks 2 --resume ../case.nml
@@ -91,31 +93,30 @@ test_ranks() {
     diff -r study1/out study3/out || fail "the study differs"
 }
 
-# Twenty kills at random moments, half of them -9. What is under the final name is whole at any time, and the same at the end.
+# Twenty kills, half of them -9, half at random moments, half when some more work is in the state.
+# What is under the final name is whole at any time, and the same at the end.
 test_kills() {
     campaign 250
-    local start span
-    start=$(date +%s%N)
     expect 0 in_folder whole "$rsc" -q ../case.nml
-    span=$((($(date +%s%N) - start) / 2000000))   # half of what it takes here, in ms: slow builds are killed later
-    [ $span -ge 200 ] || span=200
     mkdir killed && cd killed
     RANDOM=${RSC_TEST_SEED:-$$}
     echo "RSC_TEST_SEED=${RSC_TEST_SEED:-$$}"
-    local kills=0 runs=0 kept=0 signal delay status size
+    local kills=0 runs=0 kept=0 signal status size=0
     while [ $kills -lt 20 ]; do
         runs=$((runs + 1))
         [ $runs -lt 400 ] || fail "it is hardly ever hit"
         signal=$([ $((RANDOM % 2)) -eq 0 ] && echo KILL || echo TERM)
-        delay=$((20 + RANDOM % span))
-        timeout --preserve-status -s $signal "$((delay / 1000)).$(printf %03d $((delay % 1000)))" "$rsc" -q --resume -s run%threads=2 ../case.nml > said 2>&1
+        "$rsc" -q --resume -s run%threads=2 ../case.nml > said 2>&1 &
+        if [ $((runs % 2)) -eq 0 ]; then sleep 0.$(printf %03d $((20 + RANDOM % 300))); else until_state $((size + 10000 + RANDOM)) $!; fi
+        kill -s $signal $! 2> /dev/null
+        wait $!
         status=$?
         [ ! -e out.nc ] || same ../whole/out.nc out.nc
+        size=$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)
         case $status in
             0) rm -f out.nc ;;   # it was faster: from the beginning again
             137 | 143)
                 kills=$((kills + 1))
-                size=$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)
                 [ "$size" -lt 20000 ] || kept=$((kept + 1))
                 rm -f out.nc ;;  # killed between the end of the work and that of the program
             *)
@@ -131,30 +132,24 @@ test_kills() {
     echo "$kills kills in $runs runs, $kept with work kept"
 }
 
-# A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing.
+# A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing (faults.sh).
 test_signals() {
-    campaign 2000
-    expect 143 timeout --preserve-status -s TERM 0.5 "$rsc" -q case.nml
-    says "stopped by SIGTERM; [0-9]* of 2000 realizations are finished.*--resume"
-    [ -s out.nc.checkpoint ] && [ ! -e out.nc ] || fail "the state is not as it should be"
-    expect 130 timeout --preserve-status -s INT 0.5 "$rsc" -q --resume case.nml
-    says "stopped by SIGINT"
-    campaign 1
-    mkdir one && cd one
-    expect 143 timeout --preserve-status -s TERM 0.5 "$rsc" -s surface%n=4096 -s surface%L_lambda_s=2000 -s indentation%steps=10000 ../case.nml
-    says "nothing is written"
-    rm said
-    [ -z "$(ls)" ] || fail "something is left: $(ls)"
+    campaign 20000
+    for signal in TERM INT; do
+        env --default-signal=INT "$rsc" -q --resume case.nml > said 2>&1 &
+        until_state "$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)" $!
+        kill -s $signal $!
+        wait $!
+        [ $? -eq $([ $signal = INT ] && echo 130 || echo 143) ] || fail "exit status"
+        says "stopped by SIG$signal; [0-9]* of 20000 realizations are finished.*--resume"
+        [ -s out.nc.checkpoint ] && [ ! -e out.nc ] || fail "the state is not as it should be"
+    done
 }
 
-# Starts the command and kills it as soon as its state is on the disk, however slow the machine is.
+# Starts the command and kills it as soon as some work is in its state, however slow the machine is.
 kill_with_state() {
     "$@" &
-    for _ in $(seq 1200); do
-        [ -s out.nc.checkpoint ] && break
-        sleep 0.05
-    done
-    sleep 0.1
+    until_state 20000 $!
     kill -s KILL $! && wait $!
     [ -s out.nc.checkpoint ] || fail "no state was left by $*"
 }
@@ -178,11 +173,7 @@ test_refused() {
     [ ! -e out.nc ] || fail "a refusal has written"
     # Two at a time.
     "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
-    size=$(stat -c %s out.nc.checkpoint)
-    for _ in $(seq 1200); do
-        [ "$(stat -c %s out.nc.checkpoint)" != "$size" ] && break
-        sleep 0.05
-    done
+    until_state "$(stat -c %s out.nc.checkpoint)" $!
     expect 2 "$rsc" --resume long.nml
     says "another rsc is at work"
     kill %1

@@ -212,8 +212,8 @@ test_memory() {
 }
 
 running() { kill -0 "$1" 2> /dev/null && [ "$(cut -d' ' -f3 "/proc/$1/stat" 2> /dev/null)" != Z ]; }
-# Whether the process is this program by now, and its handler of signals in place.
-handles() { [ $((0x$(sed -n 's/^SigCgt:\t//p' "/proc/$1/status" 2> /dev/null || echo 0) & 0x4000)) -ne 0 ]; }
+# Memory the process has, in KiB.
+has() { sed -n 's/^VmRSS:[ \t]*\([0-9]*\) kB/\1/p' "/proc/$1/status" 2> /dev/null || echo 0; }
 
 # stopped SIGNAL WHEN command...: the signal comes as soon as `WHEN` succeeds; the command ends by it.
 stopped() {
@@ -245,10 +245,11 @@ test_signal_reading() {
     done
 }
 
+# The surface, 512 MiB of it, is being filled.
 test_signal_surface() {
     slow "steps = 2" ""
     for signal in TERM INT; do
-        stopped $signal 'handles $process && sleep 0.1' env --default-signal=INT "$rsc" -s surface%n=4096 case.nml
+        stopped $signal '[ "$(has $process)" -gt 150000 ]' env --default-signal=INT "$rsc" -s surface%n=8192 case.nml
         [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
         says "stopped by SIG$signal; nothing is written"
         left work ""
