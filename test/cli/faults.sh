@@ -245,11 +245,11 @@ test_signal_reading() {
     done
 }
 
-# The surface, 512 MiB of it, is being filled.
+# The surface, some 400 MiB of it, is being made.
 test_signal_surface() {
     slow "steps = 2" ""
     for signal in TERM INT; do
-        stopped $signal '[ "$(has $process)" -gt 150000 ]' env --default-signal=INT "$rsc" -s surface%n=8192 case.nml
+        stopped $signal '[ "$(has $process)" -gt 150000 ]' env --default-signal=INT "$rsc" -s surface%n=8192 -s surface%L_lambda_s=3000 case.nml
         [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
         says "stopped by SIG$signal; nothing is written"
         left work ""
