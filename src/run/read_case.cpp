@@ -34,6 +34,16 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     });
 }
 
+// Does the study give another value to a key that a problem is about? Then the members, each checked as a whole, have a word on it;
+// the base is only what they start from.
+bool varied(const Study& study, const Problem& problem) {
+    return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
+        const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
+        return std::any_of(problem.keys.begin(), problem.keys.end(),
+                           [&](const Key* key) { return name == std::string(key->group) + "%" + key->name; });
+    });
+}
+
 std::string known_groups_text() {
     std::string text;
     for (const std::string_view group : group_names()) text += (text.empty() ? "&" : ", &") + std::string(group);
@@ -116,7 +126,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     if (options.output) settings.output.file = *options.output;
 
     for (const Problem& problem : check_case(settings))
-        if (!concerns_faulty(reading.ledger, problem))
+        if (!concerns_faulty(reading.ledger, problem) && !(reading.study && varied(*reading.study, problem)))
             faults.push_back(
                 {place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
     if (reading.study) {

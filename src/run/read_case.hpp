@@ -16,13 +16,14 @@ namespace rsc {
 
 struct ReadCase {
     Case settings;
-    std::optional<Study> study;         // already tried out: expand_study(settings, *study) gives its members
+    std::optional<Study> study;         // its values tried one by one; expand_study(settings, *study) gives its members, checked
     std::vector<std::string> warnings;  // "case.nml:3:9: ...", a line each
 };
 
 // Reads a case from the file options.case_path or from standard input, applies --set and --output, and checks it all. Throws one
 // Error(bad_input) whose text has a line for everything that is wrong: "case.nml:12:5: &surface: unknown key 'simga'; did you
-// mean 'sigma'?".
+// mean 'sigma'?". With a &study, `settings` is what the members start from: what it has wrong in a key that the study varies is
+// the members' matter.
 ReadCase read_case(const Options& options);
 // The same from any stream; `name` is what messages call it.
 ReadCase read_case(std::istream& in, const std::string& name, const Options& options = {});
