@@ -4,6 +4,8 @@
 #   RSC      the program (default ./rsc)
 #   FOLDER   where results, pictures and report.txt go (default output/paper)
 #   --short  few realizations and small grids: shows that all of it works, the numbers are another surface's
+# Interrupted, it goes on from there when the same command is given again, with the same program and cases: finished cases are kept, and
+# of the one that was interrupted all finished realizations. Once it is through, the next run starts anew.
 # PYTHON names a Python with numpy, scipy, matplotlib and netCDF4; found by itself when python3 or /usr/bin/python3 has them.
 set -eu
 short=no
@@ -36,26 +38,60 @@ shorten() {
         curvatures) sed -e 's/n = 8192/n = 1024/; s/L_lambda_s = 512/L_lambda_s = 64/; s/2048, 1024, 512/256, 128, 64/' ;;
         density) sed -e 's/n = 4096/n = 512/; s/L_lambda_s = 25,.*/L_lambda_s = 25, 50, 125 \//; s/hurst = 0.1,.*0.9 /hurst = 0.1, 0.5, 0.9 /; s/realizations = .*/realizations = 3 \//' ;;
         density_grid) sed -e 's/L_lambda_s = 1000/L_lambda_s = 125/; s/2048,.*/256, 512, 1024 \//; s/realizations = .*/realizations = 3 \//' ;;
+        laws) sed -e 's/n = 2048/n = 256/; s/L_lambda_l = 24/L_lambda_l = 8/; s/6\*512, 3\*256/6*64, 3*32/; s/3\*2048, 3\*4096, 3\*2048/3*256, 3*512, 3*256/; s/realizations = [0-9]*/realizations = 4/' ;;
+        laws_elements) cat ;;
         contacts) sed -e 's/n = 2048/n = 256/; s/L_lambda_s = 512/L_lambda_s = 64/; s/5, 6, .*/5 \//; /^ *21/d' ;;
         *) sed -e 's/realizations = [0-9]*/realizations = 6/; s/n = 2048, 4096/n = 256, 512/; s/n = 2048/n = 256/; s/256, 512 \/$/32, 64 \//; s/L_lambda_s = 256/L_lambda_s = 32/' \
                -e 's/L_lambda_s = 512/L_lambda_s = 64/; s/L_lambda_l = 24/L_lambda_l = 8/; s/L_lambda_l = 48/L_lambda_l = 16/; s/steps = 100/steps = 16/' ;;
     esac
 }
 
+cases='asperities curvatures density density_grid area area_R5 area_l48 maps maps_plateau contacts trials trials_R5 laws laws_elements dgesv'
+of=$(echo $cases | wc -w)
+
+# What an interrupted run of the same program on the same cases has left is kept, everything else goes.
 mkdir -p "$folder"
-rm -f "$folder"/*.nc "$folder"/*_manifest.txt "$folder"/times.txt
+this="$short $(cat "$rsc" "$here"/*.nml "$here/run.sh" | cksum)"
+if [ "$(cat "$folder/unfinished.txt" 2> /dev/null)" = "$this" ]; then
+    echo 'going on with the run that was interrupted'
+else
+    rm -f "$folder"/*.nc "$folder"/*.checkpoint* "$folder"/*.part-* "$folder"/*_manifest.txt "$folder"/times.txt "$folder"/begun.txt "$folder"/report.txt "$folder"/paper_*.png
+    echo "$this" > "$folder/unfinished.txt"
+fi
+touch "$folder/times.txt" "$folder/begun.txt"
+stopped() {
+    echo "run.sh: stopped; the same command goes on from here ($(wc -l < "$folder/times.txt") of $of cases are finished)" >&2
+    exit "$1"
+}
+trap 'stopped 130' INT
+trap 'stopped 143' TERM
+
 begin=$(date +%s)
-for name in asperities curvatures density density_grid area area_R5 area_l48 maps maps_plateau contacts trials trials_R5 dgesv; do
-    from=$(date +%s)
+number=0
+for name in $cases; do
+    number=$((number + 1))
+    if grep -q "^$name " "$folder/times.txt"; then
+        echo "$number of $of, $name: is there"
+        continue
+    fi
     case=$here/$name.nml
     if [ $short = yes ]; then
         shorten $name < "$case" > "$folder/$name.nml"
         case=$folder/$name.nml
     fi
-    "$rsc" "$case" --quiet --output "$folder/$name.nc" 2> "$folder/$name.log" || { cat "$folder/$name.log" >&2; exit 1; }
-    echo "$name $(($(date +%s) - from))" >> "$folder/times.txt"
-    echo "$name: $(tail -n 1 "$folder/times.txt" | cut -d ' ' -f 2) s"
+    again=$(grep -x "$name" "$folder/begun.txt" | sed 's/.*/ resumed/;q')
+    echo "$name" >> "$folder/begun.txt"
+    echo "$number of $of, $name: $(sed -n "s/^&run *title = '\([^']*\)'.*/\1/p" "$case")"
+    from=$(date +%s)
+    status=0
+    "$rsc" "$case" --quiet --resume --progress always --output "$folder/$name.nc" || status=$?
+    [ $status -eq 0 ] || stopped $status
+    echo "$name $(($(date +%s) - from))$again" >> "$folder/times.txt"
+    echo "    $(sed -n "s/^$name \([0-9]*\).*/\1/p" "$folder/times.txt") s"
 done
 from=$(date +%s)
+echo 'pictures and report'
 "$PYTHON" "$here/../../output/plot/paper.py" "$folder"
+rm -f "$folder/unfinished.txt" "$folder/begun.txt"
 echo "everything: $(($(date +%s) - begin)) s, of which pictures and report $(($(date +%s) - from)) s"
+echo "the report: $folder/report.txt"

@@ -13,20 +13,23 @@ import sys
 
 from paper_common import Report, Result
 import paper_contact
+import paper_laws
 import paper_pressure
 import paper_surfaces
 
 FIGURES = [paper_surfaces.asperities, paper_surfaces.curvatures, paper_contact.area, paper_contact.maps, paper_contact.radial, paper_pressure.pressures, paper_pressure.hardness,
-           paper_pressure.full_pressure, paper_pressure.spots, paper_surfaces.density, paper_pressure.paper_method]
+           paper_pressure.full_pressure, paper_pressure.spots, paper_surfaces.density, paper_pressure.paper_method, paper_laws.laws]
 
 
 def preface(report, folder):
     first = Result(os.path.join(folder, "maps.nc"))
     report.lines += ["The paper and rsc, number by number", "==================================="]
     report.note("V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). " + first.file.source + ".")
-    report.note("A row: what is compared, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: the paper states none. "
+    report.note("A row: what is compared, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: the paper states none; '-' in the "
+                "third: no sampling is in it. "
                 "Nothing is tuned to agree; what the paper leaves open is tried, and what fits is named.")
-    if first.realizations != 2000:
+    report.full = first.realizations == 2000
+    if not report.full:
         report.note("This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers are not to be compared with the paper's.")
 
 
@@ -36,7 +39,9 @@ def times(report, folder):
         return
     report.heading("Time")
     rows = [line.split() for line in open(path, encoding="utf-8")]
-    report.note(f"Cases {sum(int(t) for _, t in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{name} {t} s" for name, t in rows) + ".")
+    again = [row[0] for row in rows if "resumed" in row]
+    report.note(f"Cases {sum(int(row[1]) for row in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{row[0]} {row[1]} s" for row in rows) + "."
+                + (f" Interrupted, the time is that of the last go: {', '.join(again)}." if again else ""))
 
 
 def main():

@@ -99,25 +99,31 @@ class Report:
 
     def __init__(self):
         self.lines = []
+        self.full = True  # not the shortened version
 
     def heading(self, title):
         self.lines += ["", title, "-" * len(title)]
 
     def columns(self):
-        self.lines.append(f"  {'':50s} {'paper':>12s} {'ours':>12s} {'+-':>10s} {'difference':>18s}")
+        self.lines.append(f"  {'':56s} {'paper':>12s} {'ours':>12s} {'+-':>10s} {'difference':>18s}")
 
     def row(self, what, paper, ours, error=np.nan, remark=None):
         difference = ""
         if isinstance(paper, (int, float)) and isinstance(ours, (int, float, np.floating)) and np.isfinite(ours):
             d = float(ours) - paper
             difference = f"{text(d, 3)} ({100 * d / paper:+.1f} %)" if paper else text(d, 3)
-        self.lines.append(f"  {what:50s} {text(paper):>12s} {text(float(ours) if not isinstance(ours, str) else ours):>12s} "
+        self.lines.append(f"  {what:56s} {text(paper):>12s} {text(float(ours) if not isinstance(ours, str) else ours):>12s} "
                           f"{text(float(error), 2):>10s} {difference:>18s}".rstrip())
         if remark:
             self.note(remark, indent=6)
 
     def note(self, words, indent=2):
         self.lines += textwrap.wrap(re.sub(r"\s+", " ", words.strip()), width=110, initial_indent=" " * indent, subsequent_indent=" " * indent)
+
+    def finding(self, words):
+        """A note on what the full numbers say; of the shortened version's nobody has looked whether they say the same."""
+        if self.full:
+            self.note(words)
 
     def raw(self, line):
         self.lines.append("  " + line)

@@ -68,23 +68,39 @@ def area(folder, report):
     betas = np.array([m.beta for m in base])
     report.row("beta, mean of the six members", 0.2, betas.mean(), betas.std(ddof=1) / np.sqrt(6), "A = beta sqrt(2 pi) N/(sqrt(2 m2) E*), fitted to the ratio of the means at the levels with "
                "N > 10 N* of the fitted beta. The error is the scatter of the members; each by itself:")
-    report.raw(f"    {'sigma':>6s} {'L/ls':>5s} {'L/ll':>5s} {'R':>4s} {'beta':>8s} {'+-':>7s}  {'sqrt(2m2) E* A/N from .. to':28s} {'N*/unit: formula r_g':>22s} {'lone contacts':>16s} {'N* [N]':>9s}")
+    report.raw(f"    {'sigma':>6s} {'L/ls':>5s} {'L/ll':>5s} {'R':>4s} {'beta':>8s} {'+-':>7s}  {'sqrt(2m2) E* A/N from .. to':28s} {'N*/unit: formula r_g':>22s} {'lone contacts':>16s} {'N* [N]':>9s} {'paper [N]':>10s}")
     for m in everything:
         kappa = (m.A * m.slope * m.E / np.where(m.N > 0, m.N, np.nan))[m.range]
         formula, data = m.crossing_formula(), m.crossing_data()
         report.raw(f"    {m.sigma:6g} {m.waves:5.0f} {m.low:5.0f} {m.R:4.1f} {m.beta:8.4f} {m.beta_error:7.4f}  {kappa[0]:8.3f} .. {kappa[-1]:6.3f}{'':12s} "
-                   f"{formula[0]:13.2f} +- {formula[1]:5.2f} " + (f"{data[0]:8.2f} +- {data[1]:4.2f} {data[0] * m.unit:9.3g}" if np.isfinite(data[0]) else f"{'-':>8s}    {'-':>4s} {'-':>9s}"))
-    report.note("beta does not come out 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is where full boundary-element solutions of rough contact lie, too (about 2, falling with "
+                   f"{formula[0]:13.2f} +- {formula[1]:5.2f} " + (f"{data[0]:8.2f} +- {data[1]:4.2f} {data[0] * m.unit:9.3g}" if np.isfinite(data[0]) else f"{'-':>8s}    {'-':>4s} {'-':>9s}")
+                   + f" {212.66 * m.unit:10.4g}")
+    report.finding("beta does not come out 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is where full boundary-element solutions of rough contact lie, too (about 2, falling with "
                 "the load), and the asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 lies far below all of them.")
     c = [m.crossing_formula()[0] for m in base]
     d = [m.crossing_data()[0] for m in base if np.isfinite(m.crossing_data()[0])]
     report.row("N*/(m2^(3/2) E*/m4), A_I by r_g = 0.737/sqrt(m4)", 212.66, np.mean(c), np.std(c, ddof=1) / np.sqrt(len(c)),
-               "212.66 = 1.7013/beta^3 with beta = 0.2: the formula is right and carries beta cubed. With the beta of the data the transition lies some 80 times lower.")
+               "212.66 = 1.7013/beta^3 with beta = 0.2: the formula is right and carries beta cubed. With the beta of the data the transition lies "
+               f"{212.66 / np.mean(c):.0f} times lower.")
     if d:
         report.row("the same, A_I by the lone contacts of the data", 212.66, np.mean(d), np.std(d, ddof=1) / np.sqrt(len(d)),
                    "Lone contacts are the highest summits, sharper than the mean one: their radius, not r_g, sets the first regime, and the mean over realizations of A(N) never follows it far: "
                    "with the load the chance of a contact grows, too.")
     normalisations(base, report)
+    surfaces_tried(folder, report)
+
+
+def surfaces_tried(folder, report):
+    """beta with plateau, finer grid, other mean curvature, larger sphere."""
+    report.note("Surfaces tried, beta at Z0/sigma = 2 and 1.43 (A/N of the means):")
+    for t in members(folder, "trials") + members(folder, "trials_R5"):
+        if t.case["surface%normalise"] != "'sample'":
+            continue
+        steps = [t.level(2.0), t.level(10 / 7)]
+        scale = np.sqrt(2 * float(t["m2_theory"])) * float(t["e_star"]) / ROOT
+        beta, error = jackknife(t.realizations, lambda keep: np.array([scale * t["contact_area"][keep, s].mean() / t["force"][keep, s].mean() for s in steps]))
+        report.raw(f"    plateau {t.case['surface%plateau']:8s} n = {t.number('surface%n'):5.0f} curvature {t.case['asperities%curvature']:12s} R = {t.number('solids%R'):3g} "
+                   f"{beta[0]:8.4f} +- {error[0]:.4f} {beta[1]:8.4f} +- {error[1]:.4f}")
 
 
 def normalisations(base, report):
@@ -116,7 +132,7 @@ def normalisations(base, report):
         report.raw(f"    {name:40s} {values.min():8.4f} .. {values.max():8.4f}{'   near 0.2 for all' if good else ''}")
     report.raw(f"    {'A and N over the same nominal area':40s}  leaves beta as it is")
     if "no gradient at all" not in fits:
-        report.note("Without the gradient the members with sigma = 0.01 mm, the paper's surface, do lie near 0.2, but those with ten times less or more do not: a coincidence of the unit.")
+        report.finding("Without the gradient the members with sigma = 0.01 mm, the paper's surface, do lie near 0.2, but those with ten times less or more do not: a coincidence of the unit.")
     if any(f.startswith("a quarter") for f in fits):
         report.note("Only a quarter of the area comes near: as if a contact's radius had been taken for its diameter, pi a^2/4. But then lone contacts would lie four times below A_I, and nothing in the "
                     "paper says so. It is named, not adopted: no normalisation that is more than a guess was found.")
@@ -125,23 +141,25 @@ def normalisations(base, report):
 
 
 def picture_area(folder, base):
-    figure, axes = plt.subplots(1, 2, figsize=(11.2, 4.8), constrained_layout=True, sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(11.2, 4.8), constrained_layout=True, sharex=True, sharey=True)
     for axis, waves in zip(axes, sorted({m.waves for m in base})):
         for m, (marker, line, colour) in zip([m for m in base if m.waves == waves], STYLES):
-            shown = (m.N > 0) & (m.A > 0)
+            shown = m.contacts.sum(axis=0) >= 5  # a mean over fewer contacts says nothing
             few = np.flatnonzero(shown)[::3]  # every third level: bars would hide each other
             N, A, dN, dA = m.N[few], m.A[few], m.result["force_std"][few], m.result["contact_area_std"][few]
-            axis.errorbar(N, A, yerr=[np.minimum(dA, 0.9 * A), dA], xerr=[np.minimum(dN, 0.9 * N), dN], fmt=marker, ms=3, mfc="none", color=colour, elinewidth=0.5,
-                          label=rf"$\sigma$ = {m.sigma:g} mm")
+            axis.errorbar(N, A, yerr=[np.minimum(dA, 0.9 * A), dA], xerr=[np.minimum(dN, 0.9 * N), dN], fmt=marker, ms=3, mfc="none", color=colour, elinewidth=0.5)
             ends = np.array([N.min(), N.max()])
             r = 0.737 / np.sqrt(m.m4)
             axis.plot(ends, np.pi * (3 * r * ends / (4 * m.E)) ** (2 / 3), ":", color=colour, lw=1.4)
-            axis.plot(ends, m.beta * ROOT * ends / (m.slope * m.E), "-", color=colour, lw=1, label=rf"   $A_{{II}}$, fitted $\beta$ = {m.beta:.3f}")
+            axis.plot(ends, m.beta * ROOT * ends / (m.slope * m.E), "-", color=colour, lw=1)
+            axis.plot([], [], marker + "-", ms=3, mfc="none", color=colour, lw=1, label=rf"$\sigma$ = {m.sigma:g} mm; $A_{{II}}$, fitted $\beta$ = {m.beta:.3f}")
             axis.plot(ends, 0.2 * ROOT * ends / (m.slope * m.E), "--", color=colour, lw=0.8)
-        axis.set(xscale="log", yscale="log", xlabel="force $N$ [N]", title=rf"$L/\lambda_s$ = {waves:.0f}; dotted: $A_I$; dashed: $A_{{II}}$, $\beta$ = 0.2")
+        axis.set(xscale="log", yscale="log", xlabel="force $N$ [N]", title=rf"$L/\lambda_s$ = {waves:.0f}")
+        axis.plot([], [], "k:", lw=1.4, label="$A_I$")
+        axis.plot([], [], "k--", lw=0.8, label=r"$A_{II}$, $\beta$ = 0.2 (paper)")
         axis.legend()
-    smallest = min(m.A[m.A > 0].min() for m in base)
-    axes[0].set(ylabel="contact area $A$ [mm$^2$]", ylim=(max(smallest, 1e-10) / 3, None))
+    smallest = min(m.A[m.contacts.sum(axis=0) >= 5].min() for m in base)
+    axes[0].set(ylabel="contact area $A$ [mm$^2$]", ylim=(smallest / 5, None))
     figure.suptitle(f"Mean and standard deviation of {base[0].result.realizations} realizations, every third level", fontsize=9)
     save(figure, folder, "paper_area")
 
@@ -154,12 +172,12 @@ def picture_slope(folder, everything):
             x = m.N / (m.E * m.slope)
             shown = (m.N > 0) & (m.contacts.mean(axis=0) >= 1)
             label = rf"$R$ = {R:g} mm, $L/\lambda_l$ = {low:.0f}, $L/\lambda_s$ = {waves:.0f}" if n == 0 else None
-            axes[0].plot(x[shown], m.A[shown], marker, ms=3, mfc="none", color=colour, label=label)
+            axes[0].plot(x[shown][::3], m.A[shown][::3], marker, ms=3, mfc="none", color=colour, label=label)
             shown &= m.contacts.mean(axis=0) >= 3
-            axes[1].plot(m.N[shown] / m.unit, (m.A / np.where(m.N > 0, m.N, 1) * m.E * m.slope / ROOT)[shown], marker, ms=3, mfc="none", color=colour, label=label)
+            axes[1].plot((m.N[shown] / m.unit)[::3], (m.A / np.where(m.N > 0, m.N, 1) * m.E * m.slope / ROOT)[shown][::3], marker, ms=3, mfc="none", color=colour, label=label)
     x = np.array(axes[0].get_xlim())
     x = np.array([max(x[0], 1e-9), x[1]])
-    axes[0].set(xscale="log", yscale="log", xlabel=r"$N/(E^*\sqrt{2m_2})$ [mm$^2$]", ylabel="contact area $A$ [mm$^2$]", title="force normalised by the rms gradient, levels with a contact or more")
+    axes[0].set(xscale="log", yscale="log", xlabel=r"$N/(E^*\sqrt{2m_2})$ [mm$^2$]", ylabel="contact area $A$ [mm$^2$]", title="force normalised by the rms gradient; every third level with a contact or more")
     x = np.array([1e-9, 1e-2])
     limits = axes[0].get_xlim(), axes[0].get_ylim()
     beta = np.mean([m.beta for m in everything])
@@ -169,10 +187,10 @@ def picture_slope(folder, everything):
     axes[1].axhline(0.2, color="k", ls="--", lw=0.8)
     axes[1].axvline(212.66, color="0.5", lw=0.8)
     axes[1].annotate("paper: $N^*$ = 212.66", (212.66, 0.5), rotation=90, ha="right", va="center", fontsize=7.5)
-    axes[1].annotate(r"paper: $\beta$ = 0.2", (0.05, 0.2), xycoords=("axes fraction", "data"), va="bottom", fontsize=7.5)
+    axes[1].annotate(r"paper: $\beta$ = 0.2", (0.97, 0.2), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=7.5)
     axes[1].axvline(1.7013 / beta**3, color="0.5", ls=":", lw=1)
     axes[1].annotate("1.7013/$\\beta^3$, fitted", (1.7013 / beta**3, 0.5), rotation=90, ha="right", va="center", fontsize=7.5)
-    axes[1].set(xscale="log", ylim=(0, None), xlabel=r"force $N/(m_2^{3/2}E^*/m_4)$ [1]", ylabel=r"$\beta = \sqrt{2m_2}\,E^*A/(\sqrt{2\pi}\,N)$ [1]", title="the factor of the second regime, levels with 3 contacts or more")
+    axes[1].set(xscale="log", ylim=(0, None), xlabel=r"force $N/(m_2^{3/2}E^*/m_4)$ [1]", ylabel=r"$\beta = \sqrt{2m_2}\,E^*A/(\sqrt{2\pi}\,N)$ [1]", title="the factor of the second regime; every third level with 3 contacts or more")
     axes[0].legend()
     save(figure, folder, "paper_area_slope")
 
@@ -207,7 +225,7 @@ def maps(folder, report):
     runs = [Result(f"{folder}/maps.nc"), Result(f"{folder}/maps_plateau.nc")]
     result = runs[0]
     matrix = bezier_matrix(result["x"].size, 8)
-    figure, axes = plt.subplots(2, 3, figsize=(11.2, 7.2), constrained_layout=True, sharex=True, sharey=True)
+    figure, axes = plt.subplots(2, 3, figsize=(11.6, 6.6), constrained_layout=True, sharex=True, sharey=True)
     for axis, z in zip(axes.flat, MAP_LEVELS):
         step = result.level(z)
         image = axis.imshow(np.maximum(matrix @ result["map_pressure"][step] @ matrix.T, 0), extent=[0, 1, 0, 1], cmap="cividis", vmin=0)
@@ -215,7 +233,7 @@ def maps(folder, report):
         angle = np.linspace(0, 2 * np.pi, 200)
         for style in ({"color": "k", "lw": 2.2}, {"color": "w", "lw": 1.1, "ls": "--"}):
             axis.plot(0.5 + hertz_radius(result, step) * np.cos(angle), 0.5 + hertz_radius(result, step) * np.sin(angle), **style)
-        axis.set(title=rf"$Z_0/\sigma$ = {z:.2f}, mean force {result['force_mean'][step]:.3g} N", xlim=(0, 1), ylim=(0, 1))
+        axis.set(title=rf"$Z_0/\sigma$ = {z:.2f}, mean force {result['force_mean'][step]:#.3g} N", xlim=(0, 1), ylim=(0, 1))
     for axis in axes[1]:
         axis.set_xlabel("$x$ [mm]")
     for axis in axes[:, 0]:
@@ -239,7 +257,7 @@ def maps(folder, report):
         change, change_error = mean_and_error(trial["force"][:common, trial.level(10 / 7)] - reference[:common])
         report.raw(f"    plateau {trial.case['surface%plateau']:8s} n = {trial.number('surface%n'):5.0f} curvature {trial.case['asperities%curvature']:12s} sigma by {trial.case['surface%normalise']:12s} "
                    f"{mean + change:8.2f} +- {np.hypot(error, change_error):.2f}")
-    report.note("With the plateau the paper's force comes out to one or two per cent, nearest with sigma in expectation and n = 4096; without it is far off. So its force points to a plateau, while its r_g and its rms slope (below) are "
+    report.finding("With the plateau the paper's force comes out to one or two per cent, nearest with sigma in expectation and n = 4096; without it is far off. So its force points to a plateau, while its r_g and its rms slope (below) are "
                 "those of a surface without: no single surface tried gives all three.")
     report.row("area fraction beyond which spots would merge [%]", 19.6, 100 * np.pi / 16, 0.0, "pi/16.")
 
@@ -247,7 +265,7 @@ def maps(folder, report):
 def radial(folder, report):
     result = Result(f"{folder}/maps.nc")
     r = result["radius"]
-    figure, axes = plt.subplots(1, 2, figsize=(11.2, 4.6), constrained_layout=True)
+    figure, axes = plt.subplots(1, 3, figsize=(14.4, 4.6), constrained_layout=True)
     report.heading("Radial pressure (paper_radial.png)")
     report.note("The paper states no number of these fits. Least squares of the radial means, no plateau: p = p0 sqrt(1 - r^2/a^2) and p = pg exp(-r^2/(2 s^2)); the Hertz contact of the smooth "
                 "sphere under the same force beside; d is the rms deviation from the data over the largest pressure.")
@@ -272,17 +290,22 @@ def radial(folder, report):
         deviation = [np.sqrt(np.mean((f - p) ** 2)) / middle for f in (hertz(r, p0, a), gauss(r, pg, s))]
         report.raw(f"    {z:8.2f} {N:9.4g} | {a0:12.4f} {1.5 * N / (np.pi * a0**2):9.4g} | {a:8.4f} {p0:9.4g} {deviation[0]:6.3f} | {abs(s):12.4f} {pg:9.4g} {deviation[1]:6.3f}")
         fine = np.linspace(0, r[-1], 400)
-        for axis in axes:
-            shown = p > 0
+        shown = p > 0
+        for axis in axes[:2]:
             axis.plot(r[shown], p[shown], marker, ms=3, mfc="none", color=colour, label=rf"$Z_0/\sigma$ = {z:.2f}")
             axis.plot(fine, gauss(fine, pg, s), "-", color=colour, lw=1)
-            inside = fine < a0
-            axis.plot(fine[inside], 1.5 * N / (np.pi * a0**2) * np.sqrt(1 - (fine[inside] / a0) ** 2), ":", color=colour, lw=1.3)
-    for axis in axes:
+            within = np.linspace(0, abs(a), 400)
+            axis.plot(within, hertz(within, p0, a), "--", color=colour, lw=0.9)
+        axes[2].plot(r / a0, p / (1.5 * N / (np.pi * a0**2)), marker, ms=3, mfc="none", color=colour)
+    for axis in axes[:2]:
         axis.set(xlabel="distance from the tip $r$ [mm]", ylabel="pressure $p$ [N mm$^{-2}$]", xlim=(0, 0.5))
+    x = np.linspace(0, 1, 300)
+    axes[2].plot(x, np.sqrt(1 - x**2), "k-", lw=1, label="Hertz, smooth sphere")
+    axes[2].set(xlabel=r"$r/a$ [1], $a$ of the smooth sphere", ylabel=r"$p/p_0$ [1], $p_0$ of the smooth sphere", xlim=(0, 4), ylim=(0, 1.05), title="beside the smooth sphere under the same force")
+    axes[2].legend()
     axes[0].set_ylim(0, None)
     top = result["radial_pressure"].max()
     axes[1].set(yscale="log", ylim=(top * 1e-6, top * 5))
-    axes[0].legend(title="solid: Gaussian fit, dotted: Hertz at the same force")
+    axes[0].legend(title="solid: Gaussian fit, dashed: Hertz fit")
     figure.suptitle(f"Radial mean of the pressure, {result.realizations} realizations", fontsize=9)
     save(figure, folder, "paper_radial")

@@ -44,22 +44,26 @@ def pressures(folder, report):
             full = run.realizations == 2000
             report.row(f"contacts at Z0/sigma = {z:g}, {run.realizations} real., {name}", paper if full else None, c.sum(), c.std(ddof=1) * np.sqrt(c.size))
     ratio = lambda v: ", ".join(f"{x:.3f}" for x in np.asarray(v) / v[0])
-    report.note(f"The counts depend on the number of realizations, which the paper states for the maps only; their ratios do not: paper 1, {157 / 320:.3f}, {39 / 320:.3f}. Trials:")
+    needed = lambda v: ", ".join(f"{n / x:.0f}" if x > 0 else "-" for n, x in zip(PAPER_COUNTS.values(), v))
+    report.note(f"The counts depend on the number of realizations, which the paper states for the maps only; their ratios do not: paper 1, {157 / 320:.3f}, {39 / 320:.3f}. Trials, contacts a surface; "
+                "ratios; how many realizations would give the paper's three counts (one number thrice, if the surface is the paper's):")
     trials = [(f"plateau {t.case['surface%plateau']}, n = {t.number('surface%n'):.0f}, {t.case['asperities%curvature']}, R = {t.number('solids%R'):g}", t)
               for t in members(folder, "trials") + members(folder, "trials_R5") if t.case["surface%normalise"] == "'sample'"]
+    trials = [(f"{run.realizations} realizations, {name}", run) for run, name in ((result, "no plateau"), (plateau, "plateau"))] + trials
     trials += [(f"area: sigma = {m.number('surface%sigma'):g}, L/lambda_s = {m.number('surface%L_lambda_s'):.0f}", m) for m in members(folder, "area")]
     for name, t in trials:
         c = [t["contacts"][:, t.level(z)].mean() for z in PAPER_COUNTS]
-        report.raw(f"    {name:50s} {ratio(c):24s} for 2 000 realizations {', '.join(f'{2000 * x:.0f}' for x in c)}")
+        report.raw(f"    {name:50s} {', '.join(f'{x:.2f}' for x in c):24s} {ratio(c):24s} {needed(c)}")
     between = []
     for run in (result, plateau):
         # The level at which our 2 000 surfaces would have the paper's numbers.
         order = np.argsort(run["separation_sigma"])
         mean = np.log(np.maximum(run["contacts"].mean(axis=0), 1e-9))[order]
         between.append(", ".join(f"{np.interp(-np.log(n / 2000), -mean, run['separation_sigma'][order]):.2f}" for n in PAPER_COUNTS.values()))
-    report.note(f"2 000 surfaces would have the paper's three numbers at Z0/sigma = {between[0]} without and {between[1]} with the plateau. Neither plateau, grid, curvature, sphere, sigma nor a shift of "
-                "the level fits all three: n = 4096 without the plateau gives the number at 2, but not those at 2.5 and 3; a larger sphere or a larger "
-                "sigma raises all three. No reason was found.")
+    report.note(f"2 000 surfaces would have the paper's three numbers at Z0/sigma = {between[0]} without and {between[1]} with the plateau.")
+    report.finding("Neither plateau, grid, curvature, sphere, sigma nor a shift of the level fits all three. The numbers at 2.5 and 3 fit each other on the paper's surface, whatever else: they are those of some "
+                   "2 900 realizations without and 4 100 with the plateau. The number at 2 does not belong to them: it is that of two thirds to three quarters as many (of 2 000 with n = 4096 and no plateau). "
+                   "Ensembles of different sizes would explain all three; the paper does not say so, and no other reason was found.")
     for k, z, _ in levels_of(result):
         scale, error, ks = (result.attribute("pressure_mean_pdf", a)[k] for a in ("rayleigh_scale", "rayleigh_scale_error", "ks_distance"))
         total = counts[k].sum()
@@ -85,7 +89,7 @@ def hardness(folder, report):
     for name, r in (("no plateau", run), ("plateau", plateau)):
         value, error = mean_and_error(1e3 / r["mean_kappa_g"])
         report.row(f"r_g = 1/<kappa_g> [um], {name}, of the grid", 0.18, value, error, f"0.737/sqrt(m4) of the formulas is {737 / np.sqrt(float(r['m4_theory'])):.4f} um.")
-    report.note("The paper's 0.18 um is that of summits found on 2048 x 2048 points without a plateau; four points to the shortest wave make curvatures 9 % too small.")
+    report.finding("The paper's 0.18 um is that of summits found on 2048 x 2048 points without a plateau; four points to the shortest wave make curvatures 9 % too small.")
     for k, z in enumerate(results[0]["separation_sigma"]):
         share = {"r of the spot": [], "r of the asperity": [], "550 N/mm2": [], "1200 N/mm2": []}
         total = 0
@@ -101,7 +105,7 @@ def hardness(folder, report):
             q, n = np.sum(hits) / max(total, 1), max(total, 1)
             report.row(f"beyond it at Z0/sigma = {z:.3g}, {name} [%]", None, f"{100 * q:.3f}", 100 * np.sqrt(max(q * (1 - q), 1 / n) / n))
         report.raw(f"      {total} contacts; errors are at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2")
-    report.note("Mean pressures are some 100 times the hardness: elastic contact of a surface with an rms slope of 4.6 is not what gold would do. All but a vanishing share is beyond it, with "
+    report.finding("Mean pressures are some 100 times the hardness: elastic contact of a surface with an rms slope of 4.6 is not what gold would do. All but a vanishing share is beyond it, with "
                 "any of the readings of r.")
     value, error = mean_and_error(run["rms_slope"])
     report.row("rms slope of the gold surface", 4.7, value, error, f"Formula {np.sqrt(2 * float(run['m2_theory'])):.3f} without, {np.sqrt(2 * float(plateau['m2_theory'])):.3f} with the plateau: "
@@ -171,7 +175,7 @@ def full_pressure(folder, report):
     axes[1].set(yscale="log", ylim=(1e-9, 0.05))
     axes[0].legend(title=r"solid: fitted; dashed: $p^{2/3}\exp(-(p/\delta)^{3/2})$, $\delta$ by the mean")
     save(figure, folder, "paper_pressure_full")
-    report.note("The fits are maximum likelihood over all bins; alpha and beta are strongly anticorrelated, and errors are those of as many independent draws as the areas stand for. By area the "
+    report.finding("The fits are maximum likelihood over all bins; alpha and beta are strongly anticorrelated, and errors are those of as many independent draws as the areas stand for. By area the "
                 "density starts in proportion to p, as every Hertz contact does, so alpha lies near 1, and beta near the paper's 3/2. Counting each contact once, whatever its area, gives more weight to the "
                 "small and lightly pressed and brings alpha down to 0.6, near the paper's 2/3, with beta below 3/2. The paper's alpha thus looks like that of contacts counted once, rounded; no reading was "
                 "found that gives both exponents.")
@@ -200,6 +204,7 @@ def spots(folder, report):
     axis.set(yscale="log", xlabel=r"area of a contact $\pi a^2$ [$\mu$m$^2$]", ylabel=r"probability density [$\mu$m$^{-2}$]", xlim=(0, None), ylim=(1e-6, 30), title="points: contacts, lines: exponential of the same mean")
     inset.set(xscale="log", yscale="log", ylim=(1e-6, 3))
     inset.tick_params(labelsize=7)
+    inset.annotate("the same, both axes logarithmic", (0.04, 0.06), xycoords="axes fraction", fontsize=7)
     axis.legend(loc="upper right")
     save(figure, folder, "paper_spots")
     report.note("The paper states the exponential form, no number. A ratio above 1 says that there are more very large spots than the exponential has: summits that are nearly saddles, kappa2 near 0, "
