@@ -35,30 +35,32 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
         const auto cy = std::min(ny - 1, static_cast<std::size_t>((y[i] - y_low) / width));
         return cy * nx + cx;
     };
-    std::vector<std::size_t> first(nx * ny + 1, 0), sorted(points.size());
+    // Points in the order of their cells, row by row: the cells to be searched are two runs of them.
+    std::vector<std::size_t> first(nx * ny + 1, 0);
     for (std::size_t i : points) ++first[cell(i) + 1];
     for (std::size_t c = 0; c < nx * ny; ++c) first[c + 1] += first[c];
+    struct Point {
+        double x, y, reach;
+        std::size_t index;
+    };
+    std::vector<Point> sorted(points.size());
     auto next = first;
-    for (std::size_t i : points) sorted[next[cell(i)]++] = i;
+    for (std::size_t i : points) sorted[next[cell(i)]++] = {x[i], y[i], reach[i], i};
 
-    const auto meet = [&](std::size_t i, std::size_t j) {
-        const double limit = reach[i] + reach[j], dx = x[i] - x[j], dy = y[i] - y[j];
-        const double d2 = dx * dx + dy * dy;
-        if (d2 < limit * limit) visit(std::min(i, j), std::max(i, j), std::sqrt(d2));
+    const auto search = [&](const Point& p, std::size_t from, std::size_t to) {
+        for (std::size_t b = from; b < to; ++b) {
+            const Point& q = sorted[b];
+            const double limit = p.reach + q.reach, dx = p.x - q.x, dy = p.y - q.y;
+            const double d2 = dx * dx + dy * dy;
+            if (d2 < limit * limit) visit(std::min(p.index, q.index), std::max(p.index, q.index), std::sqrt(d2));
+        }
     };
     for (std::size_t cy = 0; cy < ny; ++cy) {
         for (std::size_t cx = 0; cx < nx; ++cx) {
-            const std::size_t c = cy * nx + cx;
+            const std::size_t c = cy * nx + cx, left = cx > 0, right = cx + 1 < nx;
             for (std::size_t a = first[c]; a < first[c + 1]; ++a) {
-                const auto with = [&](std::size_t other, std::size_t from) {
-                    for (std::size_t b = from; b < first[other + 1]; ++b) meet(sorted[a], sorted[b]);
-                };
-                with(c, a + 1);
-                if (cx + 1 < nx) with(c + 1, first[c + 1]);
-                if (cy + 1 == ny) continue;
-                if (cx > 0) with(c + nx - 1, first[c + nx - 1]);
-                with(c + nx, first[c + nx]);
-                if (cx + 1 < nx) with(c + nx + 1, first[c + nx + 1]);
+                search(sorted[a], a + 1, first[c + 1 + right]);
+                if (cy + 1 < ny) search(sorted[a], first[c + nx - left], first[c + nx + 1 + right]);
             }
         }
     }

@@ -180,7 +180,7 @@ Vector Contact::Impl::cold_start() {
 
 // From a start over the candidates to the solution v, force, slope over the candidates. Candidates far from touching are left out
 // of the working set, checked at the end, and taken in where they do touch after all. After a rough start the set is drawn anew as
-// soon as the solution is known to some ten per cent.
+// soon as the solution is known to some ten per cent, and what is found is a minimum; after another start only uniqueness tells.
 NewtonOutcome Contact::Impl::solve_from(const Vector& start, bool rough_start) {
     const std::size_t n = at(candidates.size());
     std::vector<char> in(n);
@@ -213,7 +213,7 @@ NewtonOutcome Contact::Impl::solve_from(const Vector& start, bool rough_start) {
         }
         products->set_points(working.size(), working.x.data(), working.y.data());
         const double tolerance = settle ? options.tolerance : std::max(options.tolerance, 0.1);
-        const auto outcome = newton.solve(working, tolerance, options.max_iterations - total.iterations, working_v, settle);
+        const auto outcome = newton.solve(working, tolerance, options.max_iterations - total.iterations, working_v, settle && rough_start);
         total.iterations += outcome.iterations;
         total.converged = outcome.converged;
         total.minimum = outcome.minimum;

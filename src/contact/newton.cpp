@@ -143,7 +143,7 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
     }
 }
 
-NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v, bool settle) {
+NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v, bool ask_minimum) {
     NewtonOutcome outcome;
     now_.v = v;
     evaluate(set, now_, !rough_will_do(1.0));
@@ -153,7 +153,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
         outcome.residual = now_.residual;
         if (now_.residual <= tolerance) {
             Vector lowest;
-            outcome.minimum = !settle || positive_definite(set, now_, lowest);
+            outcome.minimum = !ask_minimum || positive_definite(set, now_, lowest);
             if (outcome.minimum || outcome.iterations >= max_iterations) {
                 outcome.converged = outcome.minimum;
                 break;

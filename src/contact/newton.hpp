@@ -38,9 +38,9 @@ public:
     // How products with B are taken from now on; they must outlive their use here.
     void use(Products& products) { products_ = &products; }
 
-    // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points. Unless it is to
-    // settle, an approximation is all that is wanted: whether it is a minimum is not asked.
-    NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v, bool settle = true);
+    // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points. Whether it is a
+    // minimum is asked unless an approximation is all that is wanted, or uniqueness, which says more, is asked afterwards.
+    NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v, bool ask_minimum = true);
 
     // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
     void take(const WorkingSet& set, const std::vector<double>& v);

@@ -20,7 +20,10 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
 
 // Whether no other solution can be near a given one, for all candidates: penetrations v (negative: no contact), forces and slopes.
 // A second solution differs by dF with dF'(B + 1/D')dF = 0, D' the secant slope of the law between the two, and its penetrations
-// cannot exceed those left when every close partner lets go. The shells test with these secants proves that there is none.
+// cannot exceed those left when every close partner lets go. The shells test with these secants proves that there is none; where it
+// does not, the box of the penetrations a doubtful cluster may have is bisected, each part narrowed by the equation until it is empty
+// or passes the test with its own, smaller secants. The field of what lies further away is taken as that of the given solution, give
+// or take a tenth of what the cluster's own may change.
 bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asperity, const std::vector<double>& x,
                       const std::vector<double>& y, const std::vector<double>& v, const std::vector<double>& force,
                       const std::vector<double>& slope);

@@ -7,6 +7,7 @@
 #include "check.hpp"
 #include "contact/lanczos.hpp"
 #include "contact/lapack.hpp"
+#include "contact/law.hpp"
 
 using namespace rsc;
 
@@ -69,6 +70,75 @@ void pair_is_nearly_sharp() {
     CHECK(positive_definite_by_shells({}, {}, {}));
 }
 
+// All solutions that are minima along every force, from all 2^n subsets at work at first: coordinate descent on the energy, which is
+// convex in each force alone.
+std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& p, const Vector& g0) {
+    const std::size_t n = g0.size();
+    std::vector<Vector> minima;
+    for (unsigned subset = 0; subset < 1u << n; ++subset) {
+        Vector F(n), v(n);
+        for (std::size_t i = 0; i < n; ++i) F[i] = subset >> i & 1 ? law.force(static_cast<int>(i), g0[i]) : 0;
+        double change = 1;
+        for (int sweep = 0; sweep < 100000 && change > 1e-12; ++sweep) {
+            change = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                v[i] = g0[i];
+                for (std::size_t j = 0; j < n; ++j) {
+                    if (j != i) v[i] -= F[j] / (std::numbers::pi * E_star * std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
+                }
+                const double f = law.force(static_cast<int>(i), v[i]);
+                change = std::max(change, std::abs(f - F[i]));
+                F[i] = f;
+            }
+        }
+        const auto same = [&](const Vector& other) {
+            for (std::size_t i = 0; i < n; ++i) {
+                if (std::abs(other[i] - v[i]) > 1e-6) return false;
+            }
+            return true;
+        };
+        if (std::none_of(minima.begin(), minima.end(), same)) minima.push_back(v);
+    }
+    return minima;
+}
+
+// Where a second solution exists, uniqueness is never told; where none does, nearly always.
+void told_only_where_it_is_so() {
+    constexpr double E_star = 1 / std::numbers::pi;
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int unique = 0, several = 0, told = 0;
+    for (int set = 0; set < 4000; ++set) {
+        const std::size_t n = 2 + static_cast<std::size_t>(set) % 5;
+        const double side = std::sqrt(static_cast<double>(n)) * (0.3 + 1.2 * uniform(random));  // contact radii are up to 1
+        Asperities p;
+        Vector g0;
+        std::vector<int> all;
+        for (std::size_t i = 0; i < n; ++i) {
+            p.x.push_back(side * uniform(random));
+            p.y.push_back(side * uniform(random));
+            p.z.push_back(0);
+            p.radius.push_back(0.3 + uniform(random));
+            g0.push_back(uniform(random));
+            all.push_back(static_cast<int>(i));
+        }
+        const auto law = make_law(LawKind::hertz, p, E_star);
+        law->prepare(all);
+        const auto minima = all_minima(*law, E_star, p, g0);
+        (minima.size() == 1 ? unique : several) += 1;
+        for (const Vector& v : minima) {
+            Vector force(n), slope(n), work(n);
+            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(), work.data());
+            const bool one = has_one_solution(*law, E_star, all, p.x, p.y, v, force, slope);
+            CHECK(!one || minima.size() == 1);
+            told += one;
+        }
+    }
+    std::printf("4000 sets: %d with several solutions, %d with one, of which %d are told\n", several, unique, told);
+    CHECK(several > 200);
+    CHECK(told > 0.8 * unique);
+}
+
 void close_pairs_are_all_found() {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const Points p = random_points(200, 0.01, seed % 3, seed);
@@ -113,6 +183,7 @@ void lanczos_finds_the_lowest() {
 int main() {
     proofs_are_true();
     pair_is_nearly_sharp();
+    told_only_where_it_is_so();
     close_pairs_are_all_found();
     lanczos_finds_the_lowest();
     return check::summary();
