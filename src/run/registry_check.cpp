@@ -93,9 +93,10 @@ private:
 
     void check_available() {
         for (const Unavailable& u : unavailable()) {
-            const std::string name = std::string(u.group) + "%" + u.name;
-            if (get_key(c_, name) == namelist::from_string(u.choice))
-                complain({name.c_str()}, std::string(u.name) + " = '" + u.choice + "' is not available yet");
+            const Key& key = *find_key(u.group, u.name);
+            const ChoiceSlot chosen = std::get<ChoiceSlot>(key.slot(const_cast<Case&>(c_)));
+            if (std::string_view(u.choice) == key.choices.at(static_cast<std::size_t>(chosen.get(chosen.object))))
+                problems_.push_back({{&key}, 0, std::string(u.name) + " = '" + u.choice + "' is not available yet"});
         }
         if (c_.run.realizations > 1 && !kCampaignsAvailable)
             complain({"run%realizations"},
