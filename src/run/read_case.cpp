@@ -34,8 +34,8 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     });
 }
 
-// Does the study give another value to a key that a problem is about? Then the members, each checked as a whole, have a word on it;
-// the base is only what they start from.
+// Does the study give another value to a key that a problem is about? Then the members, each checked as a whole, have a word on
+// it; the base is only what they start from.
 bool varied(const Study& study, const Problem& problem) {
     return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
         const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
