@@ -122,6 +122,7 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
                                std::to_string(kMostLevels) + " levels in all; indentation%start, stop and steps need no room"}};
     for (const Study::Axis& axis : study.axes)
         for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults; ++i) {
+            if (i > 0 && axis.values[i] == axis.values[i - 1]) continue;  // 10000*0.1 is tried once, and told once
             Case trial = base;
             try {
                 set_key(trial, axis.key, axis.values[i]);
