@@ -35,6 +35,7 @@ module rsc_results
     real(real64), allocatable :: stiffness(:,:)                          !< size zero if it was not computed
     integer(int32), allocatable :: contacts(:,:), candidates(:,:), iterations(:,:), status(:,:), method(:,:)
     integer(int32), allocatable :: products(:,:), overlapping_pairs(:,:), large_contacts(:,:), crowded_cells(:,:)
+    integer(int32), allocatable :: beyond_law(:,:)                       !< contacts past the range of the asperity law
     real(real64), allocatable :: force_mean(:), force_std(:), contact_area_mean(:), contact_area_std(:)
     real(real64), allocatable :: area_I(:), area_II(:), area_hertz(:)
 
@@ -191,6 +192,7 @@ contains
     call get(r, 'products', a%products)
     call get(r, 'overlapping_pairs', a%overlapping_pairs)
     call get(r, 'large_contacts', a%large_contacts)
+    call get(r, 'beyond_law', a%beyond_law)
     call get(r, 'crowded_cells', a%crowded_cells)
     call get(r, 'force_mean', a%force_mean)
     call get(r, 'force_std', a%force_std)

@@ -42,7 +42,34 @@ private:
     std::vector<double> c_;  // (4/3) E* sqrt(r)
 };
 
-// The elliptic law is the fourth-order one with b = 0.
+// The functions of x^2 = q^2 a^2 in the law of the profile A (1 - J0(q r)); q^2 < 0 makes cosh and sinh of cos and sin.
+struct Bessel {
+    double load, work;  // 3 (sin x - x cos x)/x^3 and 15 (x/2 + x cos(2x)/4 - 3 sin(2x)/8)/x^5; both 1 at 0
+};
+
+Bessel bessel(double x2) {
+    if (std::abs(x2) < 1) {  // the closed forms would cancel; what is left out of the series is below 1e-17
+        double load = 0, load_term = 1.0 / 3;    // 2 (-x2)^(m-1)/(2m+1)!
+        double work = 0, work_term = 1.0 / 120;  // (-4 x2)^(m-1)/(2m+3)!
+        for (int m = 1; m < 12; ++m) {
+            load += m * load_term;
+            load_term *= -x2 / ((2 * m + 2) * (2 * m + 3));
+            work += 8 * m * work_term;
+            work_term *= -4 * x2 / ((2 * m + 4) * (2 * m + 5));
+        }
+        return {3 * load, 15 * work};
+    }
+    const double x = std::sqrt(std::abs(x2));
+    const double x3 = x * x * x, x5 = x3 * x * x;
+    if (x2 > 0) {
+        const double s = std::sin(x), c = std::cos(x);
+        return {3 * (s - x * c) / x3, 15 * (0.5 * x + 0.25 * x * std::cos(2 * x) - 0.75 * s * c) / x5};
+    }
+    const double s = std::sinh(x), c = std::cosh(x);
+    return {3 * (x * c - s) / x3, 15 * (0.5 * x + 0.25 * x * std::cosh(2 * x) - 0.75 * s * c) / x5};
+}
+
+// The elliptic law is the fourth-order one with q = 0.
 class FourthOrder final : public Law {
 public:
     FourthOrder(const Asperities& asperities, double E_star, bool quartic)
@@ -54,10 +81,12 @@ public:
             const auto ellipse = ellipse_factors(kappa1 / kappa2);
             Summit& s = summits_[at(i)];
             s.kappa = std::sqrt(kappa1 * kappa2);
-            s.b = quartic_ ? asperities_.biharmonic[at(i)] / 64 : 0.0;
+            s.q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
             s.per_F2 = 1 / ellipse.F2;
             s.F1_squared = ellipse.F1 * ellipse.F1;
-            s.last_delta = s.b > 0 ? 3 * s.kappa * s.kappa / (32 * s.b) : std::numeric_limits<double>::infinity();
+            s.last_delta = s.q2 > 0   ? 4 * s.kappa / s.q2
+                           : s.q2 < 0 ? 2 * s.kappa / -s.q2 * (std::cosh(kDeepest) - 1)
+                                      : std::numeric_limits<double>::infinity();
         }
     }
 
@@ -69,10 +98,10 @@ public:
             }
             const Summit& s = summits_[at(asperity[k])];
             const double delta = u[k] * s.per_F2, smooth = std::min(delta, s.last_delta), past = delta - smooth;
-            const double a2 = a_squared(s, smooth), a = std::sqrt(a2), a3 = a * a2, P = load(s, a2, a3);
-            // W = int P ddelta in powers of a.
-            const double W = E_star_ * a3 * a2 * (8.0 / 15 * s.kappa * s.kappa - 1024.0 / 315 * s.b * s.kappa * a2 +
-                                                  2048.0 / 405 * s.b * s.b * a2 * a2);
+            const double a2 = a_squared(s, smooth), a = std::sqrt(a2), a3 = a * a2;
+            const Bessel shape = bessel(s.q2 * a2);
+            const double P = 4.0 / 3 * E_star_ * s.kappa * a3 * shape.load;
+            const double W = 8.0 / 15 * E_star_ * s.kappa * s.kappa * a3 * a2 * shape.work;  // int P ddelta
             force[k] = P + 2 * E_star_ * a * past;
             slope[k] = 2 * E_star_ * a * s.per_F2;
             work[k] = (W + P * past + E_star_ * a * past * past) / s.per_F2;
@@ -97,18 +126,21 @@ public:
     }
 
 private:
+    static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond all sense, and cosh(2 |q| a) does not overflow
+
     struct Summit {
-        double kappa = 0, b = 0;               // 1/R_e, quartic coefficient
+        double kappa = 0, q2 = 0;  // 1/R_e, squared wave number of the profile
         double per_F2 = 1, F1_squared = 1;
-        double last_delta = 0;                 // where a stops being a function of delta
+        double last_delta = 0;  // the contact reaches the profile's trough
     };
 
-    // Inverse of delta = a^2/R - (8/3) b a^4, without cancellation for small b.
+    // Inverse of delta = A (1 - cos(q a)) = 2 A sin^2(q a/2), A = 2 kappa/q^2.
     static double a_squared(const Summit& s, double delta) {
-        return 2 * delta / (s.kappa + std::sqrt(std::max(0.0, s.kappa * s.kappa - 32.0 / 3 * s.b * delta)));
-    }
-    double load(const Summit& s, double a2, double a3) const {
-        return E_star_ * a3 * (4.0 / 3 * s.kappa - 64.0 / 15 * s.b * a2);
+        const double a2 = delta / s.kappa, y = 0.25 * s.q2 * a2;  // of the paraboloid; sin^2(q a/2)
+        if (std::abs(y) < 1e-8) return a2 * (1 + y / 3);          // the next term is below rounding
+        const double root = std::sqrt(std::abs(y));
+        const double half = y > 0 ? std::asin(std::min(root, 1.0)) : std::asinh(root);  // |q| a/2
+        return a2 * (half * half / (root * root));
     }
 
     const Asperities& asperities_;

@@ -84,8 +84,9 @@ void ResultTable::levels() {
         comment("<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"));
     integers("beyond_law", "contacts past the range in which the law describes a summit",
              [](const LevelRow& l) { return clamped(l.beyond_law); },
-             comment("asperities law = 'fourth_order': penetration beyond 3 F2/(32 b R^2), R = 1/sqrt(kappa1 kappa2), b = "
-                     "asperity_biharmonic/64, where the contact radius stays and the stiffness with it; 0 for the other laws"));
+             comment("asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
+                     "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its "
+                     "radius stays and the stiffness with it; 0 for the other laws"));
     integers(
         "crowded_cells", "cells of the map with an area fraction above pi/16", [](const LevelRow& l) { return l.crowded_cells; },
         comment("19.6 %: beyond it point forces do not describe the interaction well"));

@@ -64,6 +64,7 @@ contains
     call check(near(r%height(8, 4), sigma * (sin(2.1_real64) + 0.5_real64 * cos(0.6_real64)) + 7e-4_real64, 1e-13_real64), 'height')
     call check(near(r%e_star, 1000.0_real64, 1e-15_real64) .and. near(r%r_star, 10.0_real64, 1e-15_real64), 'E* and R*')
     call check(r%status(steps, 1) == 2 .and. all(r%iterations(:, 1) == [(s, s = 0, steps - 1)]), 'status and iterations')
+    call check(all(r%beyond_law(:, 1) == [(2 * s, s = 0, steps - 1)]), 'beyond_law')
     call check(all(rsc_is_absent(r%force_std)), 'no deviation over one realization')
 
     ! The contacts of a level carry its force and its area; the cells of the map do too.

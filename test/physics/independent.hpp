@@ -1,9 +1,9 @@
 // A second solution of the contact problem that shares nothing with the first: another unknown, another algorithm, another
 // precision, every formula written out again. Slow, and meant to be.
 //
-// The unknown is the contact radius a_i of the summit with curvature kappa_i and quartic coefficient b_i: with
-//     delta(a) = kappa a^2 - (8/3) b a^4,    P(a) = E* [(4/3) kappa a^3 - (64/15) b a^5]
-// the equation of asperity i, all others held, is delta(a_i) F2_i = g0_i - sum_j P(a_j)/(pi E* d_ij), from which E* drops out. It
+// The unknown is the contact radius a_i of the summit with the profile (2 kappa/q^2) [1 - J0(q r)]: with
+//     delta(a) = 2 kappa sum_m (-1)^m q^(2m) a^(2m+2)/(2m+2)!,    P(a) = 2 E* int a ddelta,
+// power series that Sneddon's integrals give term by term, the equation of asperity i, all others held, is delta(a_i) F2_i = g0_i - sum_j P(a_j)/(pi E* d_ij), from which E* drops out. It
 // is solved by bisection in a_i, sweep after sweep (Gauss-Seidel). Each such step minimises the energy over one force, so the
 // sweeps go down to a minimum.
 #pragma once
@@ -21,7 +21,7 @@ inline constexpr Real kPi = std::numbers::pi_v<Real>;
 
 struct Summit {
     Real x = 0, y = 0, z = 0;
-    Real kappa = 1, b = 0;            // 1/R_e, quartic coefficient
+    Real kappa = 1, q2 = 0;           // 1/R_e, squared wave number of the profile
     Real F1_squared = 1, per_F2 = 1;  // elliptic summits
 };
 
@@ -63,10 +63,24 @@ inline Ellipse ellipse_of_ratio(Real ratio) {
     return ellipse(low);
 }
 
-inline Real delta(const Summit& s, Real a) { return (s.kappa - 8 / Real(3) * s.b * a * a) * a * a; }
-inline Real load(const Summit& s, Real a) { return (4 / Real(3) * s.kappa - 64 / Real(15) * s.b * a * a) * a * a * a; }  // P/E*
+// sum over m of weight(m) (-q^2 a^2)^m/(2m+2)!, 1/2 weight(0) first; |q| a is at most pi or so here.
+template <class Weight>
+Real series(const Summit& s, Real a, Weight weight) {
+    Real sum = 0, term = 1 / Real(2);
+    for (int m = 0; m < 60 && term != 0; ++m) {
+        sum += weight(m) * term;
+        term *= -s.q2 * a * a / ((2 * m + 3) * (2 * m + 4));
+    }
+    return sum;
+}
+inline Real delta(const Summit& s, Real a) {
+    return 2 * s.kappa * a * a * series(s, a, [](int) { return Real(1); });
+}
+inline Real load(const Summit& s, Real a) {  // P/E*
+    return 4 * s.kappa * a * a * a * series(s, a, [](int m) { return Real(2 * m + 2) / (2 * m + 3); });
+}
 // The largest radius at which delta(a) still grows.
-inline Real last_radius(const Summit& s) { return s.b > 0 ? std::sqrt(3 * s.kappa / (16 * s.b)) : Real(1e30L); }
+inline Real last_radius(const Summit& s) { return s.q2 > 0 ? kPi / std::sqrt(s.q2) : Real(1e30L); }
 
 // delta(a) = d by bisection; d must lie in the law's own range.
 inline Real radius(const Summit& s, Real d) {

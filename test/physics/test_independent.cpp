@@ -40,8 +40,9 @@ void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
         a.kappa1.push_back(kappa * root);
         a.kappa2.push_back(kappa / root);
         a.angle.push_back(0);
-        const double last = 3 * kappa * kappa / (32 * deepest);  // b whose range ends at `deepest`
-        a.biharmonic.push_back(law == LawKind::fourth_order ? 64 * last * (uniform(random) * 1.2 - 0.3) : 0.0);
+        const double last = 4 * kappa / deepest;  // q^2 of the profile whose range ends at `deepest`
+        const double q2 = last * (uniform(random) * 1.2 - 0.3);
+        a.biharmonic.push_back(law == LawKind::fourth_order ? q2 * (a.kappa1[i] + a.kappa2[i]) : 0.0);
     }
 }
 
@@ -55,7 +56,7 @@ std::vector<independent::Summit> summits_of(const Asperities& a, LawKind law) {
             s.kappa = std::sqrt(k1 * k2);
             s.F1_squared = e.F1 * e.F1;
             s.per_F2 = 1 / e.F2;
-            s.b = law == LawKind::fourth_order ? static_cast<long double>(a.biharmonic[i]) / 64 : 0;
+            s.q2 = law == LawKind::fourth_order ? a.biharmonic[i] / (k1 + k2) : 0;
         }
         out.push_back(s);
     }

@@ -129,20 +129,17 @@ void calculus() {
     }
 }
 
-// The axisymmetric law from Sneddon's integrals, by quadrature of the profile w(r) = r^2/(2R) - b r^4:
+// The axisymmetric law from Sneddon's integrals, by quadrature of the profile w(r) = A (1 - J0(q r)):
 // delta = a int_0^1 w'(a s)/sqrt(1 - s^2) ds, P = 2 E* int_0^a (delta - delta(t)) dt.
 void fourth_order_against_sneddon() {
-    const double kappa = 6000, b = 2e9;
+    const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
     const auto delta = [&](double a) {
-        return a * integrate(0, 0.5 * std::numbers::pi, [&](double t) {
-            const double r = a * std::sin(t);
-            return kappa * r - 4 * b * r * r * r;
-        });
+        return a * integrate(0, 0.5 * std::numbers::pi, [&](double t) { return A * q * std::cyl_bessel_j(1, q * a * std::sin(t)); });
     };
-    const Asperities s = summit(kappa, kappa, 64 * b);
+    const Asperities s = summit(kappa, kappa, 2 * kappa * q * q);  // nabla^4 J0(q r) = q^4 J0
     const auto law = make_law(LawKind::fourth_order, s, kE);
-    const double a_end = std::sqrt(3 * kappa / (16 * b));  // d delta/da = 0
-    for (double part : {0.2, 0.6, 0.95}) {
+    const double a_end = std::numbers::pi / q;  // d delta/da = 0
+    for (double part : {0.01, 0.2, 0.31, 0.33, 0.6, 0.95}) {
         const double a = part * a_end, d = delta(a);
         const double P = 2 * kE * integrate(0, a, [&](double t) { return d - delta(t); });
         const Answer r = ask(*law, d);
@@ -152,6 +149,71 @@ void fourth_order_against_sneddon() {
         CHECK(!law->beyond(0, d));
     }
     CHECK(law->beyond(0, 1.01 * delta(a_end)));
+}
+
+// To fourth order the profile is r^2/(2 R) - b r^4, b = biharmonic/64, whose law is known in powers of a (Galin): what is left is of
+// sixth order, (q a)^4/360 of delta and less of P. With unequal curvatures b is that of the angular mean times kappa_g/kappa_a.
+void fourth_order_in_powers() {
+    for (double ratio : {1.0, 4.0})
+        for (double biharmonic : {-2e9, 2e9}) {
+            const double kappa = 6000, kappa1 = kappa * std::sqrt(ratio), kappa2 = kappa / std::sqrt(ratio);
+            const Asperities s = summit(kappa1, kappa2, biharmonic);
+            const auto law = make_law(LawKind::fourth_order, s, kE);
+            const EllipseFactors f = ellipse_factors(ratio);
+            const double b = biharmonic / 64 * kappa / (0.5 * (kappa1 + kappa2)), q2 = 32 * b / kappa;
+            for (double x : {0.1, 0.3, 0.6}) {  // |q| a
+                const double a = x / std::sqrt(std::abs(q2)), a2 = a * a;
+                const double d = kappa * a2 - 8.0 / 3 * b * a2 * a2, P = kE * a * a2 * (4.0 / 3 * kappa - 64.0 / 15 * b * a2);
+                const double next = x * x * x * x / 180;
+                const Answer r = ask(*law, d * f.F2);
+                CHECK_RELATIVE(r.force, P, next);
+                CHECK_RELATIVE(r.area, std::numbers::pi * a2 * f.F1 * f.F1, next);
+            }
+        }
+}
+
+// A peak that is no Bessel function, h cos(k r), pressed flat: rings of uniform pressure, whose deflections are Johnson's (section 3.4.3,
+// eq. 3.29), pressures found by relaxation within p >= 0. The law knows only curvature and biharmonic of the peak.
+void fourth_order_against_rings() {
+    const double k = 1, h = 1;                     // kappa = h k^2, nabla^4 z = 8/3 h k^4 at the top
+    const Asperities s = summit(h * k * k, h * k * k, 8.0 / 3 * h * k * k * k * k);
+    const auto law = make_law(LawKind::fourth_order, s, 1.0);
+    constexpr int kRings = 160;
+    const double reach = 2.2, width = reach / kRings;
+    // Deflection at r by unit pressure on the disc of radius c, E* = 1.
+    const auto disc = [](double r, double c) {
+        if (c == 0) return 0.0;
+        if (r <= c) return 4 * c / std::numbers::pi * std::comp_ellint_2(r / c);
+        return 4 * r / std::numbers::pi * (std::comp_ellint_2(c / r) - (1 - c * c / (r * r)) * std::comp_ellint_1(c / r));
+    };
+    std::vector<double> influence(kRings * kRings), p(kRings, 0.0);
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kRings; ++j)
+            influence[static_cast<std::size_t>(i * kRings + j)] = disc((i + 0.5) * width, (j + 1) * width) - disc((i + 0.5) * width, j * width);
+    for (double delta : {0.05, 0.2, 0.5, 0.9}) {
+        const auto at = [](int i) { return static_cast<std::size_t>(i); };
+        for (int sweep = 0; sweep < 400; ++sweep)
+            for (int i = 0; i < kRings; ++i) {
+                double gap = h * (1 - std::cos(k * (i + 0.5) * width)) - delta;
+                for (int j = 0; j < kRings; ++j) gap += influence[at(i * kRings + j)] * p[at(j)];
+                p[at(i)] = std::max(0.0, p[at(i)] - gap / influence[at(i * kRings + i)]);
+            }
+        double P = 0;
+        int pressed = 0;
+        for (int i = 0; i < kRings; ++i) {
+            P += p[at(i)] * std::numbers::pi * (2 * i + 1) * width * width;
+            pressed += p[at(i)] > 0;
+        }
+        const Answer r = ask(*law, delta);
+        const double a = std::sqrt(r.area / std::numbers::pi);
+        std::printf("cosine peak, delta = %.2f h: P law/rings - 1 = %+.2e, a %.4f of %.4f +- %.4f\n", delta, r.force / P - 1, a,
+                    pressed * width, 0.5 * width);
+        // Rings: a part of (width/a)^2 of the load, half a ring of the radius. The law: its term of sixth order is 1.11 of the cosine's,
+        // which is (k a)^4/360 of the first; twice the difference.
+        const double sixth = 2 * 0.11 / 360 * std::pow(k * a, 4);
+        CHECK_RELATIVE(r.force, P, 0.5 * std::pow(width / a, 2) + sixth);
+        CHECK_CLOSE(a, pressed * width, 0.65 * width + sixth * a);
+    }
 }
 
 void refusals() {
@@ -171,6 +233,8 @@ int main() {
     limits_are_hertz();
     calculus();
     fourth_order_against_sneddon();
+    fourth_order_in_powers();
+    fourth_order_against_rings();
     refusals();
     return check::summary();
 }

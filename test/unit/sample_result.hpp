@@ -53,6 +53,7 @@ inline std::vector<Level> levels(const Asperities& a) {
         }
         level.candidates = static_cast<int>(level.asperity.size());
         level.iterations = s;
+        level.beyond_law = 2 * s;
         level.products = 3 * s;
         level.residual = 1e-9;
         level.status = s == kSteps - 1 ? LevelStatus::overlapping : LevelStatus::converged;
