@@ -1,5 +1,6 @@
 ! A steel ball dropped on a rough surface bounces, by the velocity Verlet method. The contact is conservative, and so is the method on
 ! average: kinetic, elastic and potential energy together must stay what they were, over many bounces.
+! An argument is the number of bounces, 100 without.
 ! Units: mm, N, s, hence t (1000 kg) for masses and N mm for energies.
 program bouncing
   use rsc
@@ -8,13 +9,17 @@ program bouncing
   real(dp), parameter :: pi = acos(-1.0_dp), g = 9.81e3_dp, R = 2.5_dp
   real(dp), parameter :: mass = 7.8e-9_dp * 4 / 3.0_dp * pi * R**3, drop = 1.0e-3_dp
   real(dp), parameter :: tolerance = 1.0e-6_dp  ! of the energy of the drop
-  integer, parameter :: bounces = 100
   type(rsc_case) :: options
   type(rsc_asperities) :: asperities
   type(rsc_contact) :: contact
   real(dp) :: z, v, a, force, touch, energy, start, worst, dt, deepest
-  integer :: done, steps
+  integer :: done, steps, bounces
   logical :: touching
+  character(len=20) :: argument
+
+  bounces = 100
+  call get_command_argument(1, argument)
+  if (argument /= '') read (argument, *) bounces
 
   call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
       '&solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5 /')
