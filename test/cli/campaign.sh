@@ -253,7 +253,7 @@ test_memory() {
     until bash -c 'ulimit -v "$1"; exec "$0" --version' "$rsc" $least > /dev/null 2>&1; do least=$((least + 4000)); done
     for more in 12000 24000 36000 60000 100000 150000; do
         rm -f out.nc out.nc.checkpoint
-        timeout 60 bash -c 'ulimit -v "$0"; exec "$@"' $((least + more)) "$rsc" -q $dense case.nml > said 2>&1
+        timeout -k 5 60 bash -c 'ulimit -v "$0"; exec "$@"' $((least + more)) "$rsc" -q $dense case.nml > said 2>&1
         case $? in
             0) same whole/out.nc out.nc ;;
             1)
