@@ -218,7 +218,7 @@ def spots(folder, report):
 def paper_method(folder, report):
     result = Result(f"{folder}/dgesv.nc")
     loaded = result["contacts"][0] > 0
-    solves = result["products"][0][loaded]
+    solves = result["iterations"][0][loaded]
     report.heading("The paper's method, method = 'dgesv'")
     report.columns()
     low, high = np.percentile(solves, [10, 90])
