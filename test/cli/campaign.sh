@@ -144,6 +144,21 @@ test_signals() {
         says "stopped by SIG$signal; [0-9]* of 20000 realizations are finished.*--resume"
         [ -s out.nc.checkpoint ] && [ ! -e out.nc ] || fail "the state is not as it should be"
     done
+    # While the result is written: it is finished, and nothing else is left.
+    rm out.nc.checkpoint
+    campaign 4
+    for signal in TERM INT; do
+        env --default-signal=INT "$rsc" -q -s indentation%steps=60 -s output%map_cells=300 -s output%compression=9 case.nml > said 2>&1 &
+        until ls | grep -q "out.nc.part"; do
+            kill -0 $! 2> /dev/null || { cat said; fail "it was not seen to write"; }
+            sleep 0.01
+        done
+        kill -s $signal $!
+        wait $! || fail "exit status"
+        ncdump -h out.nc > /dev/null || fail "the file is not whole"
+        rm out.nc
+        [ "$(ls)" = "$(printf 'case.nml\nsaid')" ] || fail "something is left: $(ls)"
+    done
 }
 
 # Starts the command and kills it as soon as some work is in its state, however slow the machine is.
