@@ -65,7 +65,7 @@ Step first_step(const Patch& patch) {
 
 }  // namespace
 
-std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch) {
+std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel) {
     constexpr int kMostSteps = 40;  // three or four do; long ways go along ridges
     // The last step is applied to the position and the height alone; the derivatives stay where they were taken.
     constexpr double kNear = 1e-4;     // a step so short that the next evaluation is the last: it ends within kNear^2
@@ -75,6 +75,7 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch) 
     bool last = false;
     for (int k = 0; k < kMostSteps; ++k) {
         const double rx = std::round(x), ry = std::round(y);
+        if (!(std::abs(rx) <= travel && std::abs(ry) <= travel)) return {};
         if (!(rx >= patch.first_x && rx <= patch.last_x && ry >= patch.first_y && ry <= patch.last_y)) return {};
         const int orders = last ? kOrders : kOrders - 1;
         alignas(64) double wx[kOrders][kTaps], wy[kOrders][kTaps];

@@ -26,7 +26,7 @@ struct RefinedSummit {
 };
 
 // Climbs from the middle of the patch to the summit by Newton's method on grad z = 0, steps not longer than a grid step, uphill
-// where the surface is no peak. Nothing if there is no summit within reach: the maximum is one of the grid alone.
-std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch);
+// where the surface is no peak. Nothing if there is no summit within `travel` grid steps: the maximum is one of the grid alone.
+std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel = Patch::kTravel);
 
 }  // namespace rsc

@@ -6,6 +6,9 @@
 namespace rsc {
 namespace {
 
+// Grid steps a summit may lie from a start that is no maximum and has seen its top within one.
+constexpr int kShortTravel = 1;
+
 template <class T>
 void join(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
@@ -34,7 +37,8 @@ void RefinedSummits::append(const RefinedSummits& other) {
     join(found.radius, other.found.radius), join(found.angle, other.found.angle);
     join(found.kappa1, other.found.kappa1), join(found.kappa2, other.found.kappa2);
     join(found.biharmonic, other.found.biharmonic);
-    join(row, other.row), join(u, other.u), join(v, other.v), join(moved, other.moved);
+    join(row, other.row), join(column, other.column), join(maximum, other.maximum);
+    join(u, other.u), join(v, other.v), join(moved, other.moved);
     saddles += other.saddles;
 }
 
@@ -65,12 +69,49 @@ bool SummitClimber::cut_out(int i, int j, const std::function<const double*(int)
     return true;
 }
 
+// Whether a maximum of the grid beside (i, j) sees the same top: nothing else is to be found from (i, j) then.
+bool SummitClimber::seen_from_maximum(int i, int j, const std::function<const double*(int)>& row) const {
+    constexpr double kSameTop = 0.75;  // grid steps; second differences place a top to some tenths
+    const int nx = place_.nx;
+    if (!place_.periodic && (i < 2 || j < 2 || i + 2 >= nx || j + 2 >= ny_)) return false;
+    double z[5][5];  // around (i, j)
+    for (int dj = -2; dj <= 2; ++dj) {
+        const double* const from = row(dj);
+        for (int di = -2; di <= 2; ++di) z[dj + 2][di + 2] = from[place_.periodic ? wrapped(i + di, nx) : i + di];
+    }
+    struct Top {
+        double x, y;
+    };
+    const auto top = [&](int l, int k) -> Top {  // of the paraboloid about point (k, l) of z
+        const double h = z[l][k], zx = 0.5 * (z[l][k + 1] - z[l][k - 1]), zy = 0.5 * (z[l + 1][k] - z[l - 1][k]);
+        const double zxx = z[l][k + 1] - 2 * h + z[l][k - 1], zyy = z[l + 1][k] - 2 * h + z[l - 1][k];
+        const double zxy = 0.25 * (z[l + 1][k + 1] - z[l + 1][k - 1] - z[l - 1][k + 1] + z[l - 1][k - 1]);
+        const double determinant = zxx * zyy - zxy * zxy;
+        return {k + (zxy * zy - zyy * zx) / determinant, l + (zxy * zx - zxx * zy) / determinant};
+    };
+    const auto maximum = [&](int l, int k) {
+        for (int b = -1; b <= 1; ++b)
+            for (int a = -1; a <= 1; ++a)
+                if ((a != 0 || b != 0) && !(z[l][k] > z[l + b][k + a])) return false;
+        return true;
+    };
+    const Top own = top(2, 2);
+    for (int l = 1; l <= 3; ++l)
+        for (int k = 1; k <= 3; ++k) {
+            if (!maximum(l, k)) continue;
+            const Top its = top(l, k);
+            if (std::abs(its.x - own.x) < kSameTop && std::abs(its.y - own.y) < kSameTop) return true;
+        }
+    return false;
+}
+
 void SummitClimber::climb(int j, const std::function<const double*(int)>& row, RefinedSummits& to) {
-    find_maxima(place_, row(-1), row(0), row(1), columns_);
+    find_starts(place_, row(-1), row(0), row(1), starts_);
     const double dx2 = place_.dx * place_.dx, dy2 = place_.dy * place_.dy;
-    for (const int i : columns_) {
+    for (const auto [i, maximum] : starts_) {
+        if (!maximum && seen_from_maximum(i, j, row)) continue;
         if (!cut_out(i, j, row)) continue;
-        const auto s = refine(stencil_, patch_);
+        const auto s = refine(stencil_, patch_, maximum ? Patch::kTravel : kShortTravel);
         double u = 0, v = 0;
         bool kept = s.has_value();
         if (kept) {
@@ -80,11 +121,13 @@ void SummitClimber::climb(int j, const std::function<const double*(int)>& row, R
             kept = append_summit(place_.x0 + u * place_.dx, y0_ + v * place_.dy, s->z, second, curvature_, to.found);
         }
         if (!kept) {
-            ++to.saddles;
+            to.saddles += maximum;
             continue;
         }
         to.found.biharmonic.push_back(s->zxxxx / (dx2 * dx2) + 2 * s->zxxyy / (dx2 * dy2) + s->zyyyy / (dy2 * dy2));
         to.row.push_back(j);
+        to.column.push_back(i);
+        to.maximum.push_back(maximum);
         to.u.push_back(u);
         to.v.push_back(v);
         to.moved.push_back(std::max(std::abs(s->x), std::abs(s->y)));
@@ -93,33 +136,47 @@ void SummitClimber::climb(int j, const std::function<const double*(int)>& row, R
 
 long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
     constexpr double kSame = 1e-3;  // grid steps; one summit is reached to 1e-7, two are never that near
-    constexpr double kFar = 0.99;   // maxima of the grid are two steps apart: of two that meet one has come a step
+    constexpr int kReach = Patch::kTravel + 1;  // a start lies no further from its summit
     const auto apart = [&](double a, double b, int n) {
         const double d = std::abs(a - b);
         return periodic ? std::min(d, n - d) : d;
     };
+    const auto better = [&](std::size_t f, std::size_t e) {
+        if (s.maximum[f] != s.maximum[e]) return s.maximum[f] > s.maximum[e];
+        return s.moved[f] < s.moved[e] || (s.moved[f] == s.moved[e] && f < e);
+    };
+    const auto same = [&](std::size_t f, std::size_t e) { return apart(s.u[f], s.u[e], nx) < kSame && apart(s.v[f], s.v[e], ny) < kSame; };
+    // Index of the first start at or after (row, column).
+    const auto place = [&](int row, int column) {
+        const auto [first, end] = std::equal_range(s.row.begin(), s.row.end(), row);
+        const auto base = s.column.begin();
+        return static_cast<std::size_t>(std::lower_bound(base + (first - s.row.begin()), base + (end - s.row.begin()), column) - base);
+    };
     std::vector<char> keep(s.row.size(), 1);
-    long dropped = 0;
+    long dropped = 0, maxima = 0;
     for (std::size_t e = 0; e < s.row.size(); ++e) {
-        if (s.moved[e] < kFar) continue;
-        const int middle = static_cast<int>(s.v[e]);
-        for (int d = -Patch::kTravel - 1; d <= Patch::kTravel + 1 && keep[e]; ++d) {
-            const int wanted = periodic ? wrapped(middle + d, ny) : middle + d;
-            const auto [first, end] = std::equal_range(s.row.begin(), s.row.end(), wanted);
-            for (auto it = first; it != end && keep[e]; ++it) {
-                const auto f = static_cast<std::size_t>(it - s.row.begin());
-                const bool nearer = s.moved[f] < s.moved[e] || (s.moved[f] == s.moved[e] && f < e);
-                if (nearer && apart(s.u[f], s.u[e], nx) < kSame && apart(s.v[f], s.v[e], ny) < kSame) keep[e] = 0;
-            }
+        const int u = static_cast<int>(s.u[e]), v = static_cast<int>(s.v[e]);
+        const auto look = [&](int row, int first, int last) {
+            for (std::size_t f = place(row, first), end = place(row, last + 1); f < end && keep[e]; ++f)
+                if (f != e && better(f, e) && same(f, e)) keep[e] = 0;
+        };
+        for (int d = -kReach; d <= kReach && keep[e]; ++d) {
+            if (!periodic && (v + d < 0 || v + d >= ny)) continue;
+            const int row = wrapped(v + d, ny), first = u - kReach, last = u + kReach;
+            look(row, std::max(first, 0), std::min(last, nx - 1));
+            if (periodic && first < 0) look(row, std::max(nx + first, 0), nx - 1);
+            if (periodic && last >= nx) look(row, 0, std::min(last - nx, nx - 1));
         }
-        dropped += !keep[e];
+        if (keep[e]) continue;
+        ++dropped;
+        maxima += s.maximum[e];
     }
     if (dropped == 0) return 0;
     Asperities& a = s.found;
     for (auto* values : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic, &s.u, &s.v, &s.moved})
         keep_marked(*values, keep);
-    keep_marked(s.row, keep);
-    return dropped;
+    keep_marked(s.row, keep), keep_marked(s.column, keep), keep_marked(s.maximum, keep);
+    return maxima;
 }
 
 }  // namespace rsc

@@ -10,17 +10,18 @@
 
 namespace rsc {
 
-// Summits found in some rows, in the order of their grid maxima.
+// Summits found in some rows, in the order of the points they were reached from.
 struct RefinedSummits {
     Asperities found;
-    std::vector<int> row;              // of the grid maximum
+    std::vector<int> row, column;      // of the start
+    std::vector<char> maximum;         // the start is a maximum of the grid
     std::vector<double> u, v;          // place in grid steps, x = x0 + u dx, y = y0 + v dy
-    std::vector<double> moved;         // from the grid maximum, the larger of both directions [grid steps]
+    std::vector<double> moved;         // from the start, the larger of both directions [grid steps]
     long saddles = 0;                  // grid maxima without a summit in reach
     void append(const RefinedSummits& other);
 };
 
-// Climbs from the grid's maxima to the summits of the surface, row by row.
+// Climbs from grid points to the summits of the surface, row by row.
 class SummitClimber {
 public:
     // The map's rows as in `place` (its y is not used), ny of them; y0 is the y of row 0.
@@ -34,6 +35,7 @@ public:
 
 private:
     bool cut_out(int i, int j, const std::function<const double*(int)>& row);
+    bool seen_from_maximum(int i, int j, const std::function<const double*(int)>& row) const;
 
     const Stencil& stencil_;
     RowPlace place_;
@@ -41,10 +43,10 @@ private:
     double y0_;
     Curvature curvature_;
     Patch patch_;
-    std::vector<int> columns_;
+    std::vector<Start> starts_;
 };
 
-// Two maxima of the grid may lead to one summit: leaves the one nearer to it; returns how many went.
+// Several starts may lead to one summit: leaves the one that is a maximum, or else the nearest to it; returns how many maxima went.
 long drop_repeated(RefinedSummits& summits, int nx, int ny, bool periodic);
 
 }  // namespace rsc

@@ -10,6 +10,10 @@
 namespace rsc {
 namespace {
 
+// A summit lies within half a step of some point, and second differences on 4 points in a wave place its top to some tenths. Of the
+// summits of self-affine surfaces 99.4 % are found so at 4 points, 99.9 % and more at 8; a reach of 0.75 leaves out 1 % more.
+constexpr double kNearStep = 1.0;
+
 constexpr int kGroup = 8;  // points tested together: one in a hundred is a summit, so most groups end with one test
 
 // Sets flags[g] where the group of points 1 + g*kGroup ... holds one that is above its eight neighbours.
@@ -34,6 +38,24 @@ RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, co
 RSC_DISPATCH(flag_groups, flag_groups_body,
              (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
              (below, z, above, groups, flags))
+
+// Bits of flags[k] for the points k = 0 ... points - 1: 1 where the paraboloid of the second differences has its top within kNearStep
+// grid steps, 2 where the point is above its neighbours along both axes.
+RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, const double* above, int points, std::uint64_t* flags) {
+    for (int i = 0; i < points; ++i) {
+        const double h = z[i], l = z[i - 1] - h, r = z[i + 1] - h, b = below[i] - h, a = above[i] - h;
+        const double zx = 0.5 * (r - l), zy = 0.5 * (a - b), zxx = l + r, zyy = a + b;
+        const double zxy = 0.25 * ((above[i + 1] - above[i - 1]) - (below[i + 1] - below[i - 1]));
+        const double determinant = zxx * zyy - zxy * zxy, reach = kNearStep * determinant;
+        const double x = zxy * zy - zyy * zx, y = zxy * zx - zxx * zy;  // the step, times the determinant
+        const bool top = (zxx < 0) & (determinant > 0) & (x <= reach) & (-x <= reach) & (y <= reach) & (-y <= reach);
+        const bool above_four = (l < 0) & (r < 0) & (a < 0) & (b < 0);
+        flags[i] = (top ? std::uint64_t{1} : 0) | (above_four ? std::uint64_t{2} : 0);
+    }
+}
+
+RSC_DISPATCH(flag_near, flag_near_body, (const double* below, const double* z, const double* above, int points, std::uint64_t* flags),
+             (below, z, above, points, flags))
 
 // Calls keep(l, i, r) for every summit of the row: point i with its neighbours l and r along it.
 template <class Keep>
@@ -96,9 +118,45 @@ long append_summits(const RowPlace& place, const double* below, const double* z,
     return saddles;
 }
 
-void find_maxima(const RowPlace& place, const double* below, const double* z, const double* above, std::vector<int>& columns) {
-    columns.clear();
-    scan_row(place, below, z, above, [&](int, int i, int) { columns.push_back(i); });
+void find_starts(const RowPlace& place, const double* below, const double* z, const double* above, std::vector<Start>& starts) {
+    starts.clear();
+    const int nx = place.nx;
+    if (nx < 2) return;
+    constexpr int kBuffer = 1024;
+    std::uint64_t near[kBuffer];
+    const auto test = [&](int l, int i, int r) {
+        const double h = z[i];
+        const bool maximum = h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] &&
+                             h > above[r];
+        if (maximum) starts.push_back({i, true});
+        return maximum;
+    };
+    const auto test_end = [&](int l, int i, int r) {
+        if (test(l, i, r)) return;
+        const double b[3] = {below[l], below[i], below[r]}, m[3] = {z[l], z[i], z[r]}, a[3] = {above[l], above[i], above[r]};
+        std::uint64_t one;
+        flag_near(b + 1, m + 1, a + 1, 1, &one);
+        if (one) starts.push_back({i, false});
+    };
+    if (place.periodic) test_end(nx - 1, 0, 1);
+    for (int first = 1; first < nx - 1; first += kBuffer) {
+        const int points = nx - 1 - first < kBuffer ? nx - 1 - first : kBuffer;
+        flag_near(below + first, z + first, above + first, points, near);
+        const auto keep = [&](int k) {
+            if ((near[k] & 2) && test(first + k - 1, first + k, first + k + 1)) return;
+            if (near[k] & 1) starts.push_back({first + k, false});
+        };
+        int k = 0;
+        for (; k + kGroup <= points; k += kGroup) {
+            std::uint64_t any = 0;
+            for (int g = 0; g < kGroup; ++g) any |= near[k + g];
+            if (!any) continue;
+            for (int g = 0; g < kGroup; ++g)
+                if (near[k + g]) keep(k + g);
+        }
+        for (; k < points; ++k) keep(k);
+    }
+    if (place.periodic) test_end(nx - 2, nx - 1, 0);
 }
 
 }  // namespace rsc

@@ -20,8 +20,15 @@ struct RowPlace {
 long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
                     Asperities& found);
 
-// The summits of that row by their columns, saddles and all, in `columns`. The row's ends are tested when it is periodic.
-void find_maxima(const RowPlace& place, const double* below, const double* z, const double* above, std::vector<int>& columns);
+// Where to look for a summit between the points: at the maxima of the grid, and at the points from which a paraboloid through the
+// neighbours has its top a fraction of a step away. The latter know of summits beside a higher one that no point is a maximum of.
+struct Start {
+    int column = 0;
+    bool maximum = false;
+};
+
+// The starts of that row by increasing column. The row's ends are tested when it is periodic.
+void find_starts(const RowPlace& place, const double* below, const double* z, const double* above, std::vector<Start>& starts);
 
 // Halves of the second derivatives at a summit: a = zxx/2, b = zyy/2, c = zxy/2.
 struct SecondOrder {

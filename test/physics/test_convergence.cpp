@@ -1,5 +1,5 @@
-// One surface on finer and finer grids. A summit between the points is the same on every grid that finds it; what a coarse grid
-// misses are summits within a step or two of a higher one. The table says what that does to the load at a fixed separation.
+// One surface on finer and finer grids. A summit between the points is the same on every grid that finds it, and nearly every grid
+// finds all: the load at a fixed separation does not depend on the grid. Hertz asperities sit on grid points and do.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,10 +69,13 @@ int main() {
             CHECK(shared(between[k], between[3], lambda, differ) > 0.99);
             CHECK_CLOSE(differ, 0, 1e-6);
             double unused = 0;
-            std::printf("%8d points find %.2f %% of the summits of 32\n", kPoints[k], 100 * shared(between[3], between[k], lambda, unused));
+            const double found = shared(between[3], between[k], lambda, unused);
+            std::printf("%8d points find %.2f %% of the summits of 32\n", kPoints[k], 100 * found);
+            CHECK(found > (kPoints[k] == 4 ? 0.99 : 0.999));
+            // The contacts being the same, what is left are the errors of the derivatives, some 1e-8 of their rms values.
+            CHECK_CLOSE(change(k, 1), 0, 1e-6);
+            CHECK_CLOSE(change(k, 2), 0, 1e-6);
         }
-        double unused = 0;
-        CHECK(shared(between[3], between[2], s.L / L_lambda_s, unused) > 0.985);
     }
     return check::summary();
 }
