@@ -31,9 +31,8 @@ public:
 // fourth_order  the elliptic law on the profile A (1 - J0(q r)), that of waves of one length from all directions: its curvature is
 //               1/R_e and its flattening the surface's own, q^2 = -nabla^4 z/nabla^2 z = biharmonic/(kappa1 + kappa2), A = 2/(R_e q^2).
 //               To fourth order it is r^2/(2 R_e) - b r^4, b = q^2/(32 R_e); its higher terms keep the flattening within bounds.
-//               By Sneddon's integrals (Int. J. Eng. Sci. 3, 1965, 47) delta = A (1 - cos(q a)), P = 2 E* A [sin(q a)/q - a cos(q a)],
-//               dP = 2 E* a ddelta, delta = u/F2; q^2 < 0 makes cosh and sinh of it. Beyond delta = 2 A, q a = pi, where the contact
-//               would meet its neighbours', a stays and the stiffness 2 E* a with it.
+//               Its contact: bessel_profile.hpp, at delta = u/F2. Beyond delta = 2 A, q a = pi, where the contact would meet its
+//               neighbours', a stays and the stiffness 2 E* a with it.
 // Throws Error(bad_input) when the asperities lack what the law needs.
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
 

@@ -151,6 +151,26 @@ void fourth_order_against_sneddon() {
     CHECK(law->beyond(0, 1.01 * delta(a_end)));
 }
 
+// The tabulated functions against Sneddon's closed forms in long double: cos and sin, or cosh and sinh.
+void fourth_order_to_the_last_digits() {
+    constexpr double kRounding = 3e-14;  // of u, whose cosine is flat near the end of the range, and of a polynomial
+    const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
+    for (int sign : {1, -1}) {
+        const Asperities s = summit(kappa, kappa, sign * 2 * kappa * q * q);
+        const auto law = make_law(LawKind::fourth_order, s, kE);
+        for (int k = 1; k < 300; ++k) {
+            const long double x = k * 0.0103L, c = sign > 0 ? std::cos(x) : std::cosh(x), v = sign > 0 ? std::sin(x) : std::sinh(x);
+            const long double half = sign > 0 ? std::sin(x / 2) : std::sinh(x / 2);
+            const Answer r = ask(*law, static_cast<double>(2 * A * half * half));
+            const double slack = kRounding / static_cast<double>(std::abs(v));
+            CHECK_RELATIVE(std::sqrt(r.area / std::numbers::pi) * q, static_cast<double>(x), slack);
+            if (k < 30) continue;  // the closed form of P cancels
+            CHECK_RELATIVE(r.force, static_cast<double>(2 * kE * A / q * sign * (v - x * c)), slack);
+            CHECK_RELATIVE(r.force, law->force(0, static_cast<double>(2 * A * half * half)), kRounding);
+        }
+    }
+}
+
 // To fourth order the profile is r^2/(2 R) - b r^4, b = biharmonic/64, whose law is known in powers of a (Galin): what is left is of
 // sixth order, (q a)^4/360 of delta and less of P. With unequal curvatures b is that of the angular mean times kappa_g/kappa_a.
 void fourth_order_in_powers() {
@@ -233,6 +253,7 @@ int main() {
     limits_are_hertz();
     calculus();
     fourth_order_against_sneddon();
+    fourth_order_to_the_last_digits();
     fourth_order_in_powers();
     fourth_order_against_rings();
     refusals();
