@@ -40,11 +40,17 @@ Values<T> defined(T t) {
     return {G, G3 * load, G3 * G * G * work};
 }
 
+// Even and odd powers apart: half as long a chain of operations that wait for each other.
 template <std::size_t N>
 double evaluate(const std::array<double, N>& c, double s) {
-    double value = c[N - 1];
-    for (std::size_t k = N - 1; k-- > 0;) value = value * s + c[k];
-    return value;
+    static_assert(N % 2 == 1);
+    const double s2 = s * s;
+    double even = c[N - 1], odd = c[N - 2];
+    for (std::size_t k = N - 3; k > 0; k -= 2) {
+        even = even * s2 + c[k];
+        odd = odd * s2 + c[k - 1];
+    }
+    return even * s2 + c[0] + odd * s;
 }
 
 // Coefficients in powers of s of the polynomial through y at the nodes s, by divided differences.
@@ -72,30 +78,34 @@ BesselProfile::BesselProfile() {
     }
     for (int cell = 0; cell < kCells; ++cell) {
         for (std::size_t k = 0; k < kTerms; ++k) {
-            const auto value = defined<long double>(kFirst + (cell + (1 + s[k]) / 2) / kCellsPerUnit);
+            const long double along = (1 + s[k]) / 2, w = (cell - kCellsOfT + along) / kCellsPerUnit;
+            const auto value = defined<long double>(cell < kCellsOfT ? kFirst + (cell + along) / kCellsPerUnit : 1 - w * w);
             radius[k] = value.radius, load[k] = value.load, work[k] = value.work;
         }
         cells_[static_cast<std::size_t>(cell)] = {interpolate(s, radius), interpolate(s, load), interpolate(s, work)};
     }
 }
 
+BesselProfile::Place BesselProfile::place(double t) const {
+    const bool of_t = t < kMiddle;
+    const double along = kCellsPerUnit * (of_t ? t - kFirst : std::sqrt(std::max(1 - t, 0.0)));
+    const int cell = std::min(static_cast<int>(along), of_t ? kCellsOfT - 1 : kCells - kCellsOfT - 1);
+    return {&cells_[static_cast<std::size_t>(of_t ? cell : kCellsOfT + cell)], 2 * (along - cell) - 1};
+}
+
 BesselProfile::Shape BesselProfile::at(double t) const {
-    if (!(t >= kFirst && t < kLast)) {
+    if (!(t >= kFirst)) {
         const auto value = defined<double>(t);
         return {value.radius, value.load, value.work};
     }
-    const double place = (t - kFirst) * kCellsPerUnit;
-    const int cell = static_cast<int>(place);
-    const double s = 2 * (place - cell) - 1;
-    const Cell& c = cells_[static_cast<std::size_t>(cell)];
-    return {evaluate(c.radius, s), evaluate(c.load, s), evaluate(c.work, s)};
+    const auto [cell, s] = place(t);
+    return {evaluate(cell->radius, s), evaluate(cell->load, s), evaluate(cell->work, s)};
 }
 
 double BesselProfile::load(double t) const {
-    if (!(t >= kFirst && t < kLast)) return defined<double>(t).load;
-    const double place = (t - kFirst) * kCellsPerUnit;
-    const int cell = static_cast<int>(place);
-    return evaluate(cells_[static_cast<std::size_t>(cell)].load, 2 * (place - cell) - 1);
+    if (!(t >= kFirst)) return defined<double>(t).load;
+    const auto [cell, s] = place(t);
+    return evaluate(cell->load, s);
 }
 
 const BesselProfile& BesselProfile::table() {

@@ -26,13 +26,19 @@ public:
 private:
     BesselProfile();
 
-    // Polynomials on equal cells: the nearest singularity of the functions, t = 1, is eight half cells from the last one's middle.
-    static constexpr double kFirst = -1, kLast = 0.75, kCellsPerUnit = 32;
-    static constexpr int kCells = 56, kTerms = 11;
+    // Polynomials on cells 1/32 wide, of t up to kMiddle, and beyond it of w = sqrt(1 - t) = cos(q a/2): in t the functions have a root's
+    // singularity at 1, eight half cells from the middle of their last cell.
+    static constexpr double kFirst = -1, kMiddle = 0.75, kCellsPerUnit = 32;
+    static constexpr int kCellsOfT = 56, kCells = kCellsOfT + 16, kTerms = 11;
     using Polynomial = std::array<double, kTerms>;
     struct Cell {
         Polynomial radius, load, work;
     };
+    struct Place {
+        const Cell* cell;
+        double s;  // -1 to 1
+    };
+    Place place(double t) const;
     std::array<Cell, kCells> cells_;
 };
 
