@@ -286,7 +286,8 @@ RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, doub
 RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation);
 
 /* The last level. All outputs may be null. contact: the contact; separation: Z0 [length]; force: N = sum f [force]; area:
- * A = sum pi a^2 [length^2]; contacts: number of asperities in contact. Errors: -1 null; RSC_NO_RESULT. */
+ * A = sum pi a^2, with elliptic spots the area of their union [length^2]; contacts: number of asperities in contact. Errors: -1 null;
+ * RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area,
                                    int64_t* contacts);
 

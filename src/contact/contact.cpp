@@ -10,6 +10,7 @@
 #include "contact/mesh.hpp"
 #include "contact/pairs.hpp"
 #include "contact/ranking.hpp"
+#include "contact/spots.hpp"
 #include "contact/uniqueness.hpp"
 #include "error.hpp"
 
@@ -85,6 +86,7 @@ struct Contact::Impl {
     bool one_solution() const { return has_one_solution(*law, E_star(), candidates.asperity, candidates.x, candidates.y, v, force, slope); }
     void remember(double Z0, bool unique);
     Level report(double Z0) const;
+    std::vector<Spot> spots(const Level& level) const;
 };
 
 // Ranks lose their meaning when the tip moves: the last level is kept by asperity.
@@ -306,6 +308,17 @@ void Contact::Impl::remember(double Z0, bool unique) {
     if (past.size() > 4) past.pop_back();
 }
 
+// The contacts of a level as they lie on the surface: their long axes are those of the smaller curvature.
+std::vector<Spot> Contact::Impl::spots(const Level& level) const {
+    std::vector<Spot> spots;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        const std::size_t i = at(level.asperity[k]);
+        const double root = std::sqrt(law->axes(level.asperity[k]));
+        spots.push_back({asperities.x[i], asperities.y[i], level.a[k] / root, level.a[k] * root, asperities.angle[i]});
+    }
+    return spots;
+}
+
 Level Contact::Impl::report(double Z0) const {
     Level level;
     level.separation = Z0;
@@ -330,6 +343,7 @@ Level Contact::Impl::report(double Z0) const {
         x.push_back(candidates.x[k]);
         y.push_back(candidates.y[k]);
     }
+    if (options.law != LawKind::hertz) level.area = union_area(spots(level));
     level.overlapping_pairs = count_overlapping(x, y, level.a);
     if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;

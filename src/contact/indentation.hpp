@@ -43,7 +43,7 @@ enum class LevelStatus : std::int32_t { converged = 0, out_of_validity = 1, over
 struct Level {
     double separation = 0;           // Z0 [length]
     double force = 0;                // N = sum f [force]
-    double area = 0;                 // A = sum pi a^2 [length^2]
+    double area = 0;                 // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
     double residual = 0;             // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     int candidates = 0;              // asperities the solver was given
     int iterations = 0;              // Newton steps

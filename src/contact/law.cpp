@@ -35,6 +35,7 @@ public:
 
     double force(int asperity, double u) const override { return u > 0 ? c_[at(asperity)] * u * std::sqrt(u) : 0.0; }
     double area(int asperity, double u) const override { return u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0; }
+    double axes(int) const override { return 1; }
     bool beyond(int, double) const override { return false; }
 
 private:
@@ -57,6 +58,7 @@ public:
             const double kappa = std::sqrt(kappa1 * kappa2), q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
             s.per_kappa = 1 / kappa;
             s.t_per_delta = q2 / (4 * kappa);
+            s.axes = ellipse.axes;
             s.F2 = ellipse.F2;
             s.per_F2 = 1 / ellipse.F2;
             s.F1_squared = ellipse.F1 * ellipse.F1;
@@ -101,6 +103,8 @@ public:
         return std::numbers::pi * s.F1_squared * smooth * s.per_kappa * radius * radius;
     }
 
+    double axes(int asperity) const override { return summits_[at(asperity)].axes; }
+
     bool beyond(int asperity, double u) const override {
         const Summit& s = summits_[at(asperity)];
         return u * s.per_F2 > s.last_delta;
@@ -112,7 +116,7 @@ private:
     struct Summit {
         double per_kappa = 0;      // R_e
         double t_per_delta = 0;    // q^2/(4 kappa)
-        double F2 = 1, per_F2 = 1, F1_squared = 1;
+        double axes = 1, F2 = 1, per_F2 = 1, F1_squared = 1;
         double last_delta = 0;     // the contact reaches the profile's trough
     };
 

@@ -23,6 +23,7 @@ public:
 
     virtual double force(int asperity, double u) const = 0;
     virtual double area(int asperity, double u) const = 0;    // contact area [length^2]; 0 for u <= 0
+    virtual double axes(int asperity) const = 0;              // b/a <= 1 of the contact ellipse
     virtual bool beyond(int asperity, double u) const = 0;    // the penetration is past the law's own range: see the laws
 };
 

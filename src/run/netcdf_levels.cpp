@@ -59,7 +59,7 @@ void ResultTable::levels() {
     add("force", dims, unit(0, 1), "normal force on the sphere, N", of_rows<double>([](const LevelRow& l) { return l.force; }),
         comment("N = sum of the forces f of the contacts"));
     add("contact_area", dims, unit(2), "true contact area, A", of_rows<double>([](const LevelRow& l) { return l.area; }),
-        comment("A = sum of pi a^2 over the contacts"));
+        comment("law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area of the union of their elliptic spots"));
     integers("contacts", "number of asperities in contact", [](const LevelRow& l) { return l.contacts; });
     integers("candidates", "number of asperities given to the solver", [](const LevelRow& l) { return l.candidates; });
     integers("iterations", "Newton iterations", [](const LevelRow& l) { return l.iterations; });
