@@ -19,6 +19,22 @@ struct Interval {
 
 constexpr double kStart = 0.3, kEnd = kStart + 2 * pi;  // of the parameter along a border: no axis, where spots touch if anywhere
 
+struct Direction {
+    explicit Direction(double t_) : t(t_), c(std::cos(t_)), s(std::sin(t_)) {}
+    double t, c, s;
+};
+
+// Along a border: finer than its extrema against another, four at most, usually are apart.
+const std::vector<Direction>& samples() {
+    static const std::vector<Direction> all = [] {
+        constexpr int count = 64;
+        std::vector<Direction> made;
+        for (int k = 0; k <= count; ++k) made.emplace_back(kStart + 2 * pi * k / count);
+        return made;
+    }();
+    return all;
+}
+
 // Where spot p's border lies inside spot q. With p's point at t being centre + (major cos t, minor sin t) in its axes, the border of q is
 // f(t) = |c + u cos t + v sin t|^2 - 1 = 0, a trigonometric polynomial of second degree: four roots at most.
 class Border {
@@ -30,29 +46,29 @@ public:
         u_ = {p.major * ct / q.major, p.major * st / q.minor};
         v_ = {-p.minor * st / q.major, p.minor * ct / q.minor};
         const auto square = [](const Vector& a) { return a.x * a.x + a.y * a.y; };
-        touch_ = 1e-13 * (1 + square(c_) + square(u_) + square(v_));
+        scale_ = 1 + square(c_) + square(u_) + square(v_);
     }
 
     void append_inside(std::vector<Interval>& covered) const {
-        constexpr int samples = 64;  // extrema, four at most, are found if further apart than that
         std::vector<std::pair<double, double>> points;  // t and f
-        const auto point = [&](double t) { points.emplace_back(t, value(t)); };
-        for (int k = 0; k <= samples; ++k) {
-            const double t = kStart + 2 * pi * k / samples;
-            if (k > 0) {
-                const double before = derivative(points.back().first), now = derivative(t);
-                if ((before < 0) != (now < 0)) {  // an extremum, which two roots may embrace; a mere touch is none of them
-                    point(root(points.back().first, t, [&](double s) { return derivative(s); }));
-                    if (std::abs(points.back().second) < touch_) points.pop_back();
-                }
+        points.reserve(samples().size() + 4);
+        double before = 0;
+        for (const Direction& d : samples()) {
+            const double now = derivative(d), here = value(d);
+            // An extremum, which two roots may embrace when f is near 0 (f'' is at most 4 scale_); a mere touch is none of them.
+            if (!points.empty() && (before < 0) != (now < 0) && std::abs(here) < 0.01 * scale_) {
+                const double t = root(points.back().first, d.t, [&](double s) { return derivative(Direction(s)); });
+                const double f = value(Direction(t));
+                if (std::abs(f) > 1e-13 * scale_) points.emplace_back(t, f);
             }
-            point(t);
+            points.emplace_back(d.t, here);
+            before = now;
         }
         double from = kStart;
         for (std::size_t k = 1; k < points.size(); ++k) {
             const bool was = points[k - 1].second < 0, is = points[k].second < 0;
             if (was == is) continue;
-            const double t = root(points[k - 1].first, points[k].first, [&](double s) { return value(s); });
+            const double t = root(points[k - 1].first, points[k].first, [&](double s) { return value(Direction(s)); });
             if (is) from = t;
             else covered.push_back({from, t});
         }
@@ -64,13 +80,13 @@ private:
         double x, y;
     };
 
-    double value(double t) const {
-        const double c = std::cos(t), s = std::sin(t), x = c_.x + u_.x * c + v_.x * s, y = c_.y + u_.y * c + v_.y * s;
+    double value(const Direction& d) const {
+        const double x = c_.x + u_.x * d.c + v_.x * d.s, y = c_.y + u_.y * d.c + v_.y * d.s;
         return x * x + y * y - 1;
     }
-    double derivative(double t) const {
-        const double c = std::cos(t), s = std::sin(t), x = c_.x + u_.x * c + v_.x * s, y = c_.y + u_.y * c + v_.y * s;
-        return x * (v_.x * c - u_.x * s) + y * (v_.y * c - u_.y * s);  // half of it
+    double derivative(const Direction& d) const {
+        const double x = c_.x + u_.x * d.c + v_.x * d.s, y = c_.y + u_.y * d.c + v_.y * d.s;
+        return x * (v_.x * d.c - u_.x * d.s) + y * (v_.y * d.c - u_.y * d.s);  // half of it
     }
 
     // Bisection and secants in turn (Illinois).
@@ -97,7 +113,7 @@ private:
     }
 
     Vector c_, u_, v_;
-    double touch_;  // what rounding leaves of f
+    double scale_;  // of the terms of f
 };
 
 // (1/2) the integral of x dy - y dx along the border of the spot from one parameter to another, from an origin near it.
