@@ -99,7 +99,9 @@ std::vector<Key> make_registry() {
         one_of("asperities", "curvature", {"geometric", "algebraic"},
                "mean of the principal curvatures that gives an asperity its radius", RSC_CHOICE(asperities.curvature)),
         one_of("asperities", "law", {"hertz", "elliptic", "fourth_order"},
-               "force and area of an asperity against its penetration", RSC_CHOICE(asperities.law)),
+               "what an asperity is: a sphere on a grid point (the paper's), or at the summit between the points an elliptic "
+               "paraboloid, or one flattened as the summit is; the latter two count once what elliptic spots share",
+               RSC_CHOICE(asperities.law)),
 
         one_of("indentation", "control", {"separation", "force"}, "what start, stop and levels are",
                RSC_CHOICE(indentation.control)),
