@@ -27,5 +27,6 @@ program consumer
   allocate (force(asperities%count()))
   call contact%per_asperity(force)
   if (abs(sum(force) - 10) > 1e-4_dp) error stop 'the force asked for'
+  deallocate (force)  ! a program's own variables outlive it otherwise
   print '(a)', 'consumer: all is well'
 end program
