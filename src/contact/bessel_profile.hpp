@@ -27,9 +27,9 @@ private:
     BesselProfile();
 
     // Polynomials on cells 1/32 wide, of t up to kMiddle, and beyond it of w = sqrt(1 - t) = cos(q a/2): in t the functions have a root's
-    // singularity at 1, eight half cells from the middle of their last cell.
-    static constexpr double kFirst = -1, kMiddle = 0.75, kCellsPerUnit = 32;
-    static constexpr int kCellsOfT = 56, kCells = kCellsOfT + 16, kTerms = 11;
+    // singularity at 1, thirty half cells from the last one.
+    static constexpr double kFirst = -1, kMiddle = 0.5, kCellsPerUnit = 32;
+    static constexpr int kCellsOfT = 48, kCells = kCellsOfT + 23, kTerms = 9;
     using Polynomial = std::array<double, kTerms>;
     struct Cell {
         Polynomial radius, load, work;

@@ -343,8 +343,8 @@ Level Contact::Impl::report(double Z0) const {
         x.push_back(candidates.x[k]);
         y.push_back(candidates.y[k]);
     }
-    if (options.law != LawKind::hertz) level.area = union_area(spots(level));
-    level.overlapping_pairs = count_overlapping(x, y, level.a);
+    if (options.law == LawKind::hertz) level.overlapping_pairs = count_overlapping(x, y, level.a);
+    else level.area = union_area(spots(level), &level.overlapping_pairs);
     if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     return level;

@@ -47,7 +47,7 @@ EllipseFactors ellipse_factors(double ratio) {
     const double wanted = std::log(ratio);
     double x = -2.0 / 3 * wanted, slope = -1.5;
     double miss = std::log(curvature_ratio(std::exp(x))) - wanted;
-    for (int i = 0; i < 60 && std::abs(miss) > 1e-15 * (1 + wanted); ++i) {
+    for (int i = 0; i < 60 && std::abs(miss) > 4e-15 * (1 + wanted); ++i) {
         const double next = std::min(0.0, x - miss / slope);
         const double next_miss = std::log(curvature_ratio(std::exp(next))) - wanted;
         if (next == x) break;

@@ -1,10 +1,10 @@
 #include "contact/spots.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
 
 #include "contact/uniqueness.hpp"
 
@@ -13,141 +13,187 @@ namespace {
 
 using std::numbers::pi;
 
+struct Vector {
+    double x, y;
+};
+double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+
+struct Ellipse {
+    Vector centre, axis;  // axis: unit vector along the major semi-axis
+    double major, minor;
+    Vector in_axes(const Vector& v) const { return {v.x * axis.x + v.y * axis.y, v.y * axis.x - v.x * axis.y}; }
+    // Half its extent along a unit vector.
+    double extent(const Vector& direction) const {
+        const Vector d = in_axes(direction);
+        return std::sqrt(major * major * d.x * d.x + minor * minor * d.y * d.y);
+    }
+};
+
 struct Interval {
     double from, to;
 };
 
-constexpr double kStart = 0.3, kEnd = kStart + 2 * pi;  // of the parameter along a border: no axis, where spots touch if anywhere
-
-struct Direction {
-    explicit Direction(double t_) : t(t_), c(std::cos(t_)), s(std::sin(t_)) {}
-    double t, c, s;
-};
+constexpr double kStart = 0.3, kEnd = kStart + 2 * pi;  // of the parameter t along a border: no axis, where spots touch if anywhere
 
 // Along a border: finer than its extrema against another, four at most, usually are apart.
-const std::vector<Direction>& samples() {
-    static const std::vector<Direction> all = [] {
-        constexpr int count = 64;
-        std::vector<Direction> made;
-        for (int k = 0; k <= count; ++k) made.emplace_back(kStart + 2 * pi * k / count);
-        return made;
-    }();
+struct Samples {
+    static constexpr std::size_t count = 33;  // both ends
+    std::array<double, count> t;
+    std::array<double, count> c, s;  // cos t, sin t
+    Samples() {
+        for (std::size_t k = 0; k < count; ++k) {
+            t[k] = kStart + 2 * pi * static_cast<double>(k) / (count - 1);
+            c[k] = std::cos(t[k]), s[k] = std::sin(t[k]);
+        }
+    }
+};
+const Samples& samples() {
+    static const Samples all;
     return all;
 }
 
-// Where spot p's border lies inside spot q. With p's point at t being centre + (major cos t, minor sin t) in its axes, the border of q is
+// Where the border of p lies inside q. With p's point at t being centre + (major cos t, minor sin t) in its axes, the border of q is
 // f(t) = |c + u cos t + v sin t|^2 - 1 = 0, a trigonometric polynomial of second degree: four roots at most.
 class Border {
 public:
-    Border(const Spot& p, const Spot& q) {
-        const double turn = p.angle - q.angle, dx = p.x - q.x, dy = p.y - q.y;
-        const double ca = std::cos(q.angle), sa = std::sin(q.angle), ct = std::cos(turn), st = std::sin(turn);
-        c_ = {(dx * ca + dy * sa) / q.major, (dy * ca - dx * sa) / q.minor};
-        u_ = {p.major * ct / q.major, p.major * st / q.minor};
-        v_ = {-p.minor * st / q.major, p.minor * ct / q.minor};
-        const auto square = [](const Vector& a) { return a.x * a.x + a.y * a.y; };
-        scale_ = 1 + square(c_) + square(u_) + square(v_);
+    Border(const Ellipse& p, const Ellipse& q) {
+        const Vector c = q.in_axes({p.centre.x - q.centre.x, p.centre.y - q.centre.y}), turn = q.in_axes(p.axis);
+        c_ = {c.x / q.major, c.y / q.minor};
+        u_ = {p.major * turn.x / q.major, p.major * turn.y / q.minor};
+        v_ = {-p.minor * turn.y / q.major, p.minor * turn.x / q.minor};
+        scale_ = 1 + dot(c_, c_) + dot(u_, u_) + dot(v_, v_);
     }
 
     void append_inside(std::vector<Interval>& covered) const {
-        std::vector<std::pair<double, double>> points;  // t and f
-        points.reserve(samples().size() + 4);
-        double before = 0;
-        for (const Direction& d : samples()) {
-            const double now = derivative(d), here = value(d);
-            // An extremum, which two roots may embrace when f is near 0 (f'' is at most 4 scale_); a mere touch is none of them.
-            if (!points.empty() && (before < 0) != (now < 0) && std::abs(here) < 0.01 * scale_) {
-                const double t = root(points.back().first, d.t, [&](double s) { return derivative(Direction(s)); });
-                const double f = value(Direction(t));
-                if (std::abs(f) > 1e-13 * scale_) points.emplace_back(t, f);
+        const Samples& at = samples();
+        std::array<double, Samples::count> values, slopes;
+        for (std::size_t k = 0; k < Samples::count; ++k) {
+            const Answer a = ask({at.c[k], at.s[k]});
+            values[k] = a.f, slopes[k] = a.half_slope;
+        }
+        double from = kStart, f = values[0];
+        const auto cross = [&](std::size_t k, double f_next) {  // on the way from sample k - 1 to k
+            if ((f < 0) != (f_next < 0)) {
+                const double t = root(k, f < 0, [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; });
+                if (f_next < 0) from = t;
+                else covered.push_back({from, t});
             }
-            points.emplace_back(d.t, here);
-            before = now;
+            f = f_next;
+        };
+        for (std::size_t k = 1; k < Samples::count; ++k) {
+            const bool sinks = slopes[k - 1] < 0, in = f < 0;
+            // Between two an extremum may reach beyond 0 (f'' is at most 4 scale_): two more roots, but for a mere touch.
+            if (in == (values[k] < 0) && sinks != (slopes[k] < 0) && in != sinks && std::abs(values[k]) < 0.08 * scale_) {
+                const double top = root(k, sinks, [](const Answer& a) { return Vector{a.half_slope, a.half_second}; });
+                const double f_top = ask({std::cos(top), std::sin(top)}).f;
+                if ((f_top < 0) != in && std::abs(f_top) > 1e-13 * scale_) {
+                    const auto value = [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; };
+                    const double first = root(at.t[k - 1], top, in, value), last = root(top, at.t[k], !in, value);
+                    if (in) covered.push_back({from, first}), from = last;
+                    else covered.push_back({first, last});
+                }
+            }
+            cross(k, values[k]);
         }
-        double from = kStart;
-        for (std::size_t k = 1; k < points.size(); ++k) {
-            const bool was = points[k - 1].second < 0, is = points[k].second < 0;
-            if (was == is) continue;
-            const double t = root(points[k - 1].first, points[k].first, [&](double s) { return value(Direction(s)); });
-            if (is) from = t;
-            else covered.push_back({from, t});
-        }
-        if (points.back().second < 0) covered.push_back({from, kEnd});
+        if (f < 0) covered.push_back({from, kEnd});
     }
 
 private:
-    struct Vector {
-        double x, y;
+    struct Answer {
+        double f, half_slope, half_second;
     };
-
-    double value(const Direction& d) const {
-        const double x = c_.x + u_.x * d.c + v_.x * d.s, y = c_.y + u_.y * d.c + v_.y * d.s;
-        return x * x + y * y - 1;
-    }
-    double derivative(const Direction& d) const {
-        const double x = c_.x + u_.x * d.c + v_.x * d.s, y = c_.y + u_.y * d.c + v_.y * d.s;
-        return x * (v_.x * d.c - u_.x * d.s) + y * (v_.y * d.c - u_.y * d.s);  // half of it
+    Answer ask(const Vector& t) const {  // cos t, sin t
+        const Vector turned{u_.x * t.x + v_.x * t.y, u_.y * t.x + v_.y * t.y}, w{c_.x + turned.x, c_.y + turned.y};
+        const Vector slope{v_.x * t.x - u_.x * t.y, v_.y * t.x - u_.y * t.y};
+        return {dot(w, w) - 1, dot(w, slope), dot(slope, slope) - dot(w, turned)};
     }
 
-    // Bisection and secants in turn (Illinois).
+    // Newton's method from the middle of two places where the signs of a function differ, and bisection where it leaves them; the
+    // function is below 0 at the first if it `rises`. `of` gives it and its slope.
     template <class F>
-    static double root(double low, double high, F f) {
-        double f_low = f(low), f_high = f(high);
-        if (f_low == 0) return low;
-        if (f_high == 0) return high;
-        for (int k = 0; k < 200; ++k) {
-            const double middle = 0.5 * (low + high), secant = (low * f_high - high * f_low) / (f_high - f_low);
-            if (!(middle > low && middle < high)) break;
-            const double t = k % 4 != 3 && secant > low && secant < high ? secant : middle;
-            const double value = f(t);
-            if (value == 0) return t;
-            if ((value < 0) == (f_low < 0)) {
-                low = t, f_low = value;
-                f_high *= 0.5;
-            } else {
-                high = t, f_high = value;
-                f_low *= 0.5;
-            }
+    double root(double low, double high, bool rises, F of) const {
+        double t = 0.5 * (low + high);
+        for (int k = 0; k < 100; ++k) {
+            const Vector f = of(ask({std::cos(t), std::sin(t)}));
+            if (f.x == 0) break;
+            ((f.x < 0) == rises ? low : high) = t;
+            const double newton = t - f.x / f.y;
+            const bool inside = newton > low && newton < high, last = inside && std::abs(newton - t) < 1e-8;  // its square is below rounding
+            t = inside ? newton : 0.5 * (low + high);
+            if (last || !(low < t && t < high)) break;
         }
-        return low;
+        return t;
+    }
+    template <class F>
+    double root(std::size_t k, bool rises, F of) const {
+        return root(samples().t[k - 1], samples().t[k], rises, of);
     }
 
     Vector c_, u_, v_;
     double scale_;  // of the terms of f
 };
 
-// (1/2) the integral of x dy - y dx along the border of the spot from one parameter to another, from an origin near it.
-double swept(const Spot& s, double x, double y, double from, double to) {
-    const double ca = std::cos(s.angle), sa = std::sin(s.angle);
-    const double along = s.major * (std::cos(to) - std::cos(from)), across = s.minor * (std::sin(to) - std::sin(from));
-    return 0.5 * (s.major * s.minor * (to - from) + x * (along * sa + across * ca) - y * (along * ca - across * sa));
+// (1/2) the integral of x dy - y dx along the border from one parameter to another, about an origin near it.
+double swept(const Ellipse& e, const Vector& origin, double from, double to) {
+    const double along = e.major * (std::cos(to) - std::cos(from)), across = e.minor * (std::sin(to) - std::sin(from));
+    const double x = e.centre.x - origin.x, y = e.centre.y - origin.y;
+    return 0.5 * (e.major * e.minor * (to - from) + x * (along * e.axis.y + across * e.axis.x) - y * (along * e.axis.x - across * e.axis.y));
 }
 
 }  // namespace
 
-double union_area(const std::vector<Spot>& spots) {
+double union_area(const std::vector<Spot>& spots, long* close) {
     const std::size_t n = spots.size();
     std::vector<double> x(n), y(n), reach(n);
-    for (std::size_t i = 0; i < n; ++i) x[i] = spots[i].x, y[i] = spots[i].y, reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
-    std::vector<std::vector<Interval>> covered(n);
-    for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double) {
-        Border(spots[i], spots[j]).append_inside(covered[i]);
-        Border(spots[j], spots[i]).append_inside(covered[j]);
-    });
     double area = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const Spot& s = spots[i];
-        if (covered[i].empty()) {
-            area += pi * s.major * s.minor;
-            continue;
+        x[i] = spots[i].x, y[i] = spots[i].y, reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
+        area += pi * spots[i].major * spots[i].minor;
+    }
+    struct Near {
+        std::size_t i, j;
+        double d;
+    };
+    std::vector<Near> pairs;
+    for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) { pairs.push_back({i, j, d}); });
+    const auto radius = [&](std::size_t i) { return std::sqrt(spots[i].major * spots[i].minor); };
+    if (close) *close = std::count_if(pairs.begin(), pairs.end(), [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
+    if (pairs.empty()) return area;
+
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> place(n, none);  // of a spot among those with others near
+    std::vector<Ellipse> ellipses;
+    const auto ellipse = [&](std::size_t i) {
+        if (place[i] == none) {
+            const Spot& s = spots[i];
+            place[i] = ellipses.size();
+            ellipses.push_back({{s.x, s.y}, {std::cos(s.angle), std::sin(s.angle)}, s.major, s.minor});
         }
+        return place[i];
+    };
+    for (Near& p : pairs) p.i = ellipse(p.i), p.j = ellipse(p.j);
+    std::vector<std::vector<Interval>> covered(ellipses.size());
+    for (const auto& [i, j, d] : pairs) {
+        const Ellipse &p = ellipses[i], &q = ellipses[j];
+        if (d > 0) {
+            const Vector apart{(q.centre.x - p.centre.x) / d, (q.centre.y - p.centre.y) / d};
+            if (d >= p.extent(apart) + q.extent(apart)) continue;
+        }
+        Border(p, q).append_inside(covered[i]);
+        Border(q, p).append_inside(covered[j]);
+    }
+    const Vector origin = ellipses[0].centre;
+    for (std::size_t i = 0; i < ellipses.size(); ++i) {
+        if (covered[i].empty()) continue;
+        const Ellipse& e = ellipses[i];
         std::sort(covered[i].begin(), covered[i].end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+        area -= pi * e.major * e.minor;
         double open = kStart;  // the border outside all others is part of the union's
         for (const Interval& c : covered[i]) {
-            if (c.from > open) area += swept(s, s.x - spots[0].x, s.y - spots[0].y, open, c.from);
+            if (c.from > open) area += swept(e, origin, open, c.from);
             open = std::max(open, c.to);
         }
-        area += swept(s, s.x - spots[0].x, s.y - spots[0].y, open, kEnd);
+        area += swept(e, origin, open, kEnd);
     }
     return area;
 }

@@ -12,6 +12,7 @@ struct Spot {
 };
 
 // Area of the union of the spots [length^2]: what several share is counted once. Exact to rounding; spots without area are allowed.
-double union_area(const std::vector<Spot>& spots);
+// `close` (optional) receives the number of pairs with d < a_i + a_j, the radii of circles of the spots' areas.
+double union_area(const std::vector<Spot>& spots, long* close = nullptr);
 
 }  // namespace rsc

@@ -127,12 +127,13 @@ void couple(const std::vector<Coupling>& C, const Vector& x, Vector& out) {
     }
 }
 
-// Largest secant of the law, over 2 E*, between the solution v and anything up to high: that of high itself, for forces are convex.
-double secant(const Law& law, double E_star, int asperity, double v, double slope, double high) {
+// Largest secant of the law, over 2 E*, between the solution v, its force and slope, and anything up to high: that of high itself, for
+// forces are convex.
+double secant(const Law& law, double E_star, int asperity, double v, double force, double slope, double high) {
     if (v <= 0 && high <= 0) return 0;
     const double rise = high - v;
     if (std::abs(rise) <= 1e-6 * std::max(high, v)) return slope / (2 * E_star);
-    return (law.force(asperity, high) - law.force(asperity, v)) / rise / (2 * E_star);
+    return (law.force(asperity, high) - force) / rise / (2 * E_star);
 }
 
 // Whether a cluster, in the field of all others, has the given solution only: the box of what its penetrations may be is cut into
@@ -193,7 +194,7 @@ private:
             if (!narrow(low, high)) return true;
         }
         Vector a(v_.size());
-        for (std::size_t k = 0; k < a.size(); ++k) a[k] = secant(law_, E_star_, asperity_[k], v_[k], slope_[k], high[k]);
+        for (std::size_t k = 0; k < a.size(); ++k) a[k] = secant(law_, E_star_, asperity_[k], v_[k], force_[k], slope_[k], high[k]);
         if (positive_definite(cluster_, a)) return true;
         if (deepest == 0) return false;
         std::size_t widest = 0;
@@ -262,7 +263,7 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     high = alone;
     const auto secants = [&] {
         for (std::size_t i = 0; i < n; ++i) {
-            a[i] = std::max(secant(law, E_star, asperity[i], v[i], slope[i], high[i]), slope[i] / (2 * E_star));
+            a[i] = std::max(secant(law, E_star, asperity[i], v[i], force[i], slope[i], high[i]), slope[i] / (2 * E_star));
         }
     };
     secants();
