@@ -224,6 +224,7 @@ has() { sed -n 's/^VmRSS:[ \t]*\([0-9]*\) kB/\1/p' "/proc/$1/status" 2> /dev/nul
 stopped() {
     local signal=$1 when=$2 number
     shift 2
+    : > said  # what the one before said is not what is waited for
     "$@" > said 2>&1 &
     local process=$!
     until eval "$when"; do
