@@ -51,20 +51,18 @@ public:
         : asperities_(asperities), E_star_(E_star), quartic_(quartic), summits_(asperities.size()) {}
 
     void prepare(std::span<const int> asperities) override {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
         for (int i : asperities) {
-            const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)];
+            const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)], kappa = std::sqrt(kappa1 * kappa2);
+            const double q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
             const auto ellipse = ellipse_factors(kappa1 / kappa2);
             Summit& s = summits_[at(i)];
-            const double kappa = std::sqrt(kappa1 * kappa2), q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
-            s.per_kappa = 1 / kappa;
-            s.t_per_delta = q2 / (4 * kappa);
+            s.e = E_star_ / ellipse.F2;
+            s.r = 1 / (kappa * ellipse.F2);
+            s.t = q2 / (4 * kappa * ellipse.F2);
+            s.last = ellipse.F2 * (q2 > 0 ? 4 * kappa / q2 : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1) : infinity);
+            s.spot = std::numbers::pi * ellipse.F1 * ellipse.F1;
             s.axes = ellipse.axes;
-            s.F2 = ellipse.F2;
-            s.per_F2 = 1 / ellipse.F2;
-            s.F1_squared = ellipse.F1 * ellipse.F1;
-            s.last_delta = q2 > 0   ? 4 * kappa / q2
-                           : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1)
-                                    : std::numeric_limits<double>::infinity();
         }
     }
 
@@ -75,49 +73,43 @@ public:
                 continue;
             }
             const Summit& s = summits_[at(asperity[k])];
-            const double delta = u[k] * s.per_F2, smooth = std::min(delta, s.last_delta), past = delta - smooth;
-            const auto shape = profile_.at(s.t_per_delta * smooth);
-            const double paraboloid = std::sqrt(smooth * s.per_kappa);  // its contact radius
-            const double a = paraboloid * shape.radius;
-            const double P = 4.0 / 3 * E_star_ * paraboloid * smooth * shape.load;
-            const double W = 8.0 / 15 * E_star_ * paraboloid * smooth * smooth * shape.work;  // int P ddelta
-            force[k] = P + 2 * E_star_ * a * past;
-            slope[k] = 2 * E_star_ * a * s.per_F2;
-            work[k] = (W + P * past + E_star_ * a * past * past) * s.F2;
+            const double smooth = std::min(u[k], s.last), past = u[k] - smooth;
+            const auto shape = profile_.at(s.t * smooth);
+            const double paraboloid = s.e * std::sqrt(s.r * smooth), stiffness = 2 * paraboloid * shape.radius;
+            const double P = 4.0 / 3 * paraboloid * smooth * shape.load;
+            force[k] = P + stiffness * past;
+            slope[k] = stiffness;
+            work[k] = 8.0 / 15 * paraboloid * smooth * smooth * shape.work + P * past + 0.5 * stiffness * past * past;
         }
     }
 
     double force(int asperity, double u) const override {
         if (!(u > 0)) return 0;
         const Summit& s = summits_[at(asperity)];
-        const double delta = u * s.per_F2, smooth = std::min(delta, s.last_delta);
-        const double t = s.t_per_delta * smooth, paraboloid = std::sqrt(smooth * s.per_kappa);
-        const double P = 4.0 / 3 * E_star_ * paraboloid * smooth * profile_.load(t);
-        return delta > smooth ? P + 2 * E_star_ * paraboloid * profile_.at(t).radius * (delta - smooth) : P;
+        const double smooth = std::min(u, s.last), t = s.t * smooth, paraboloid = s.e * std::sqrt(s.r * smooth);
+        const double P = 4.0 / 3 * paraboloid * smooth * profile_.load(t);
+        return u > smooth ? P + 2 * paraboloid * profile_.at(t).radius * (u - smooth) : P;
     }
 
     double area(int asperity, double u) const override {
         if (!(u > 0)) return 0;
         const Summit& s = summits_[at(asperity)];
-        const double smooth = std::min(u * s.per_F2, s.last_delta), radius = profile_.at(s.t_per_delta * smooth).radius;
-        return std::numbers::pi * s.F1_squared * smooth * s.per_kappa * radius * radius;
+        const double smooth = std::min(u, s.last), radius = profile_.at(s.t * smooth).radius;
+        return s.spot * s.r * smooth * radius * radius;
     }
 
     double axes(int asperity) const override { return summits_[at(asperity)].axes; }
-
-    bool beyond(int asperity, double u) const override {
-        const Summit& s = summits_[at(asperity)];
-        return u * s.per_F2 > s.last_delta;
-    }
+    bool beyond(int asperity, double u) const override { return u > summits_[at(asperity)].last; }
 
 private:
     static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond all sense, and cosh(2 |q| a) does not overflow
 
-    struct Summit {
-        double per_kappa = 0;      // R_e
-        double t_per_delta = 0;    // q^2/(4 kappa)
-        double axes = 1, F2 = 1, per_F2 = 1, F1_squared = 1;
-        double last_delta = 0;     // the contact reaches the profile's trough
+    // In terms of u, with delta = u/F2: a^2 = r u and t of BesselProfile = t u; forces are as with the modulus e.
+    struct alignas(64) Summit {
+        double e = 0, r = 0, t = 0;
+        double last = 0;  // u at which the contact reaches the profile's trough
+        double spot = 0;  // pi F1^2: area over a^2
+        double axes = 1;
     };
 
     const Asperities& asperities_;
