@@ -71,31 +71,26 @@ public:
             const Answer a = ask({at.c[k], at.s[k]});
             values[k] = a.f, slopes[k] = a.half_slope;
         }
-        double from = kStart, f = values[0];
-        const auto cross = [&](std::size_t k, double f_next) {  // on the way from sample k - 1 to k
-            if ((f < 0) != (f_next < 0)) {
-                const double t = root(k, f < 0, [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; });
-                if (f_next < 0) from = t;
-                else covered.push_back({from, t});
-            }
-            f = f_next;
-        };
+        const auto value = [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; };
+        const auto slope = [](const Answer& a) { return Vector{a.half_slope, a.half_second}; };
+        double from = kStart;
         for (std::size_t k = 1; k < Samples::count; ++k) {
-            const bool sinks = slopes[k - 1] < 0, in = f < 0;
-            // Between two an extremum may reach beyond 0 (f'' is at most 4 scale_): two more roots, but for a mere touch.
-            if (in == (values[k] < 0) && sinks != (slopes[k] < 0) && in != sinks && std::abs(values[k]) < 0.08 * scale_) {
-                const double top = root(k, sinks, [](const Answer& a) { return Vector{a.half_slope, a.half_second}; });
-                const double f_top = ask({std::cos(top), std::sin(top)}).f;
-                if ((f_top < 0) != in && std::abs(f_top) > 1e-13 * scale_) {
-                    const auto value = [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; };
-                    const double first = root(at.t[k - 1], top, in, value), last = root(top, at.t[k], !in, value);
-                    if (in) covered.push_back({from, first}), from = last;
-                    else covered.push_back({first, last});
-                }
+            const double low = at.t[k - 1], high = at.t[k];
+            const bool in = values[k - 1] < 0, stays = in == (values[k] < 0), sinks = slopes[k - 1] < 0;
+            if (!stays) {
+                const double t = root(low, high, in, value);
+                if (in) covered.push_back({from, t});
+                else from = t;
+            } else if (sinks != in && sinks != (slopes[k] < 0) && std::abs(values[k]) < 0.08 * scale_) {
+                // An extremum between the two may reach beyond 0 (f'' is at most 4 scale_): two more roots, but for a mere touch.
+                const double top = root(low, high, sinks, slope), f_top = ask({std::cos(top), std::sin(top)}).f;
+                if ((f_top < 0) == in || std::abs(f_top) < 1e-13 * scale_) continue;
+                const double first = root(low, top, in, value), last = root(top, high, !in, value);
+                if (in) covered.push_back({from, first}), from = last;
+                else covered.push_back({first, last});
             }
-            cross(k, values[k]);
         }
-        if (f < 0) covered.push_back({from, kEnd});
+        if (values.back() < 0) covered.push_back({from, kEnd});
     }
 
 private:
@@ -118,17 +113,13 @@ private:
             if (f.x == 0) break;
             ((f.x < 0) == rises ? low : high) = t;
             const double newton = t - f.x / f.y;
-            const bool inside = newton > low && newton < high, last = inside && std::abs(newton - t) < 1e-8;  // its square is below rounding
+            const bool inside = newton > low && newton < high;
+            const bool last = inside && std::abs(newton - t) < 1e-8;  // its square is below rounding
             t = inside ? newton : 0.5 * (low + high);
             if (last || !(low < t && t < high)) break;
         }
         return t;
     }
-    template <class F>
-    double root(std::size_t k, bool rises, F of) const {
-        return root(samples().t[k - 1], samples().t[k], rises, of);
-    }
-
     Vector c_, u_, v_;
     double scale_;  // of the terms of f
 };
@@ -137,7 +128,8 @@ private:
 double swept(const Ellipse& e, const Vector& origin, double from, double to) {
     const double along = e.major * (std::cos(to) - std::cos(from)), across = e.minor * (std::sin(to) - std::sin(from));
     const double x = e.centre.x - origin.x, y = e.centre.y - origin.y;
-    return 0.5 * (e.major * e.minor * (to - from) + x * (along * e.axis.y + across * e.axis.x) - y * (along * e.axis.x - across * e.axis.y));
+    const double dx = along * e.axis.x - across * e.axis.y, dy = along * e.axis.y + across * e.axis.x;
+    return 0.5 * (e.major * e.minor * (to - from) + x * dy - y * dx);
 }
 
 }  // namespace
