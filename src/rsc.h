@@ -299,12 +299,13 @@ RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_sta
                                   int64_t* overlapping_pairs, double* residual);
 
 /* dN/dZ0 of the last level, negative, 0 without contact. It takes one more solution of linear equations.
- * contact: the contact; stiffness (out) [force/length]. Errors: -1, -2 null; RSC_NO_RESULT; RSC_NO_MEMORY. */
+ * contact: the contact; stiffness (out) [force/length]. Errors: -1, -2 null; RSC_NO_RESULT, also if it is no finite number;
+ * RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness);
 
 /* Elastic energy of the last level, W = sum W_i + F'BF/2, the work of the asperities and of their interaction; dW/dZ0 = -N, so
  * that a sphere moving on the surface keeps kinetic plus elastic energy. In error by the square of the residual only. contact:
- * the contact; energy (out) [force length]. Errors: -1, -2 null; RSC_NO_RESULT. */
+ * the contact; energy (out) [force length]. Errors: -1, -2 null; RSC_NO_RESULT, also if it is no finite number. */
 RSC_API int32_t rsc_contact_energy(const rsc_contact* contact, double* energy);
 
 /* The contacts of the last level, by increasing index of asperity.

@@ -1,5 +1,6 @@
 // Contacts: levels, what they hold, and the deflection of the surface around them.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -48,6 +49,11 @@ void compute(rsc_contact& contact, Compute&& level) {
     contact.level.reset();
     contact.level = level();
     contact.energy = contact.contact.energy();
+}
+
+void put_finite(double* to, double value) {
+    if (!std::isfinite(value)) throw Outcome{RSC_NO_RESULT, "the result is beyond the range of numbers: other units may help"};
+    put(to, value);
 }
 
 void tell_convergence(const rsc_contact& contact) {
@@ -184,7 +190,7 @@ int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness) {
     return guarded(0, [&] {
         (void)level_of(contact);
         require(stiffness, 2, "stiffness");
-        put(stiffness, contact->contact.stiffness());
+        put_finite(stiffness, contact->contact.stiffness());
     });
 }
 
@@ -192,7 +198,7 @@ int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
     return guarded(0, [&] {
         (void)level_of(contact);
         require(energy, 2, "energy");
-        put(energy, contact->energy);
+        put_finite(energy, contact->energy);
     });
 }
 

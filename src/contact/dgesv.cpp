@@ -57,12 +57,8 @@ PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set
     };
     const auto residual = [&] {
         law.respond(n, set.asperity.data(), v.data(), target.data(), slope.data(), work.data());
-        double error2 = 0, force2 = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            error2 += (force[i] - target[i]) * (force[i] - target[i]);
-            force2 += force[i] * force[i];
-        }
-        return force2 > 0 ? std::sqrt(error2 / force2) : (error2 > 0 ? 1.0 : 0.0);
+        for (std::size_t i = 0; i < size; ++i) target[i] = force[i] - target[i];
+        return relative_residual(target, force);
     };
 
     v.resize(size);

@@ -22,6 +22,21 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
+double relative_residual(const Vector& error, const Vector& force) {
+    const double error2 = dot(error, error), force2 = dot(force, force);
+    constexpr double smallest = 1e-290, largest = 1e290;
+    if (force2 > smallest && force2 < largest && error2 < largest) return std::sqrt(error2 / force2);
+    double most = 0, e2 = 0, f2 = 0;  // scaled by the largest
+    for (std::size_t k = 0; k < force.size(); ++k) most = std::max({most, std::abs(force[k]), std::abs(error[k])});
+    if (!(most > 0)) return 0;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        e2 += (error[k] / most) * (error[k] / most);
+        f2 += (force[k] / most) * (force[k] / most);
+    }
+    const double residual = std::sqrt(e2 / f2);
+    return std::isfinite(residual) ? residual : 1;
+}
+
 bool Newton::rough_will_do(double residual) const {
     return products_->inner_error() < 1e-5 && residual > 100 * products_->inner_error();
 }
@@ -43,7 +58,7 @@ void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
     state.accurate = accurate;
 
     state.energy = state.scale = 0;
-    double error2 = 0, force2 = 0;
+    error_.resize(at(n));
     for (std::size_t k = 0; k < at(n); ++k) {
         const double f = state.force[k], target = set.g0[k] - state.phi[k];
         state.res[k] = state.v[k] - target;
@@ -51,11 +66,9 @@ void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
             state.energy += f * (0.5 * state.phi[k] + state.v[k] - set.g0[k]) - state.work[k];
             state.scale += f * set.g0[k];
         }
-        const double e = f - (target > 0 ? law_.force(set.asperity[k], target) : 0.0);
-        error2 += e * e;
-        force2 += f * f;
+        error_[k] = f - (target > 0 ? law_.force(set.asperity[k], target) : 0.0);
     }
-    state.residual = force2 > 0 ? std::sqrt(error2 / force2) : (error2 > 0 ? 1.0 : 0.0);
+    state.residual = relative_residual(error_, state.force);
     if (!accurate && !rough_will_do(state.residual)) evaluate(set, state, true);
 }
 

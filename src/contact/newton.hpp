@@ -31,6 +31,9 @@ struct NewtonOutcome {
     double residual = 0;    // |F - f(<g0 - B F>)| / |F|
 };
 
+// |error|/|force|, also where squares overflow or vanish; 1 when there is no force, or none that is finite, and an error.
+double relative_residual(const std::vector<double>& error, const std::vector<double>& force);
+
 class Newton {
 public:
     explicit Newton(const Law& law) : law_(law) {}
@@ -87,7 +90,7 @@ private:
     Products* products_ = nullptr;
     State now_, trial_;
     std::vector<double> root_;  // S over the active set
-    std::vector<double> force_, phi_, r_, p_, mp_, df_, active_force_, product_, passive_;
+    std::vector<double> force_, phi_, r_, p_, mp_, df_, active_force_, error_, passive_;
 };
 
 }  // namespace rsc

@@ -265,7 +265,8 @@ private:
         PROMISE(std::isfinite(area) && area >= 0, "area " + std::to_string(area));
         PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
         PROMISE(level >= 0 && level < RSC_LEVEL_LAST_ + 1 && contacts <= candidates, "level");
-        finite(residual, "residual");
+        PROMISE(std::isfinite(residual), "residual at separation " + std::to_string(separation) + ", force " + std::to_string(force) + ", status " +
+                                             std::to_string(level) + ", " + std::to_string(contacts) + " contacts");
         if (told(rsc_contact_energy(c, &energy))) finite(energy, "energy");
         std::vector<double> f(static_cast<std::size_t>(contacts)), a(f), u(f);
         std::vector<std::int32_t> which(f.size());

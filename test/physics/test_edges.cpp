@@ -283,9 +283,24 @@ void forces() {
     for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
 }
 
+// Residuals of numbers whose squares are none.
+void beyond_squares() {
+    for (double size : {1e-200, 1.0, 1e200}) CHECK_RELATIVE(relative_residual({3 * size, 4 * size}, {50 * size, 0}), 0.1, 1e-15);
+    CHECK(relative_residual({0, 0}, {0, 0}) == 0);
+    CHECK(relative_residual({1e-300, 0}, {0, 0}) == 1);
+    CHECK(relative_residual({1, 0}, {__builtin_huge_val(), 0}) == 1);
+    const Asperities a = set_of({0, 1e-3, 0}, {0, 0, 1e-3}, {0, 0, 0}, 0.5e-3);
+    for (Method method : {Method::direct, Method::dgesv}) {
+        const Level level = Contact(a, {kE, kFlat, 0, 0}, options(method)).at_separation(-1e170);  // forces of some 1e258
+        CHECK(std::isfinite(level.residual) && std::isfinite(level.force));
+        CHECK(level.status == LevelStatus::not_converged || level.residual < 1e-6);
+    }
+}
+
 }  // namespace
 
 int main() {
+    beyond_squares();
     coincident();
     overlapping();
     small_spheres();
