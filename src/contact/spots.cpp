@@ -78,14 +78,14 @@ public:
             const double low = at.t[k - 1], high = at.t[k];
             const bool in = values[k - 1] < 0, stays = in == (values[k] < 0), sinks = slopes[k - 1] < 0;
             if (!stays) {
-                const double t = root(low, high, in, value);
+                const double t = root(low, high, low - values[k - 1] * (high - low) / (values[k] - values[k - 1]), in, value);
                 if (in) covered.push_back({from, t});
                 else from = t;
             } else if (sinks != in && sinks != (slopes[k] < 0) && std::abs(values[k]) < 0.08 * scale_) {
                 // An extremum between the two may reach beyond 0 (f'' is at most 4 scale_): two more roots, but for a mere touch.
-                const double top = root(low, high, sinks, slope), f_top = ask({std::cos(top), std::sin(top)}).f;
+                const double top = root(low, high, 0.5 * (low + high), sinks, slope), f_top = ask({std::cos(top), std::sin(top)}).f;
                 if ((f_top < 0) == in || std::abs(f_top) < 1e-13 * scale_) continue;
-                const double first = root(low, top, in, value), last = root(top, high, !in, value);
+                const double first = root(low, top, 0.5 * (low + top), in, value), last = root(top, high, 0.5 * (top + high), !in, value);
                 if (in) covered.push_back({from, first}), from = last;
                 else covered.push_back({first, last});
             }
@@ -103,11 +103,10 @@ private:
         return {dot(w, w) - 1, dot(w, slope), dot(slope, slope) - dot(w, turned)};
     }
 
-    // Newton's method from the middle of two places where the signs of a function differ, and bisection where it leaves them; the
+    // Newton's method from a place t between two where the signs of a function differ, and bisection where it leaves them; the
     // function is below 0 at the first if it `rises`. `of` gives it and its slope.
     template <class F>
-    double root(double low, double high, bool rises, F of) const {
-        double t = 0.5 * (low + high);
+    double root(double low, double high, double t, bool rises, F of) const {
         for (int k = 0; k < 100; ++k) {
             const Vector f = of(ask({std::cos(t), std::sin(t)}));
             if (f.x == 0) break;
