@@ -48,21 +48,24 @@ private:
 class FourthOrder final : public Law {
 public:
     FourthOrder(const Asperities& asperities, double E_star, bool quartic)
-        : asperities_(asperities), E_star_(E_star), quartic_(quartic), summits_(asperities.size()) {}
+        : asperities_(asperities), E_star_(E_star), quartic_(quartic), place_(asperities.size(), -1) {}
 
     void prepare(std::span<const int> asperities) override {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         for (int i : asperities) {
+            if (place_[at(i)] >= 0) continue;
             const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)], kappa = std::sqrt(kappa1 * kappa2);
             const double q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
             const auto ellipse = ellipse_factors(kappa1 / kappa2);
-            Summit& s = summits_[at(i)];
+            Summit s;
             s.e = E_star_ / ellipse.F2;
             s.r = 1 / (kappa * ellipse.F2);
             s.t = q2 / (4 * kappa * ellipse.F2);
             s.last = ellipse.F2 * (q2 > 0 ? 4 * kappa / q2 : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1) : infinity);
             s.spot = std::numbers::pi * ellipse.F1 * ellipse.F1;
             s.axes = ellipse.axes;
+            place_[at(i)] = static_cast<int>(summits_.size());
+            summits_.push_back(s);
         }
     }
 
@@ -72,7 +75,7 @@ public:
                 force[k] = slope[k] = work[k] = 0;
                 continue;
             }
-            const Summit& s = summits_[at(asperity[k])];
+            const Summit& s = summit(asperity[k]);
             const double smooth = std::min(u[k], s.last), past = u[k] - smooth;
             const auto shape = profile_.at(s.t * smooth);
             const double paraboloid = s.e * std::sqrt(s.r * smooth), stiffness = 2 * paraboloid * shape.radius;
@@ -85,7 +88,7 @@ public:
 
     double force(int asperity, double u) const override {
         if (!(u > 0)) return 0;
-        const Summit& s = summits_[at(asperity)];
+        const Summit& s = summit(asperity);
         const double smooth = std::min(u, s.last), t = s.t * smooth, paraboloid = s.e * std::sqrt(s.r * smooth);
         const double P = 4.0 / 3 * paraboloid * smooth * profile_.load(t);
         return u > smooth ? P + 2 * paraboloid * profile_.at(t).radius * (u - smooth) : P;
@@ -93,13 +96,13 @@ public:
 
     double area(int asperity, double u) const override {
         if (!(u > 0)) return 0;
-        const Summit& s = summits_[at(asperity)];
+        const Summit& s = summit(asperity);
         const double smooth = std::min(u, s.last), radius = profile_.at(s.t * smooth).radius;
         return s.spot * s.r * smooth * radius * radius;
     }
 
-    double axes(int asperity) const override { return summits_[at(asperity)].axes; }
-    bool beyond(int asperity, double u) const override { return u > summits_[at(asperity)].last; }
+    double axes(int asperity) const override { return summit(asperity).axes; }
+    bool beyond(int asperity, double u) const override { return u > summit(asperity).last; }
 
 private:
     static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond all sense, and cosh(2 |q| a) does not overflow
@@ -112,11 +115,14 @@ private:
         double axes = 1;
     };
 
+    const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }
+
     const Asperities& asperities_;
     double E_star_;
     bool quartic_;
     const BesselProfile& profile_ = BesselProfile::table();
-    std::vector<Summit> summits_;
+    std::vector<int> place_;        // of an asperity in summits_; -1: not prepared
+    std::vector<Summit> summits_;   // few of many asperities, next to each other
 };
 
 }  // namespace
