@@ -17,7 +17,7 @@ public:
         double work;    // of int P ddelta, over [(8/15) E* delta^(5/2)/sqrt(kappa)]
     };
 
-    // The functions for t <= 1, relative errors below 1e-14. Tabulated where contacts are: they are the solver's innermost loop.
+    // The functions for t <= 1, relative errors below 3e-14. Tabulated where contacts are: they are the solver's innermost loop.
     Shape at(double t) const;
     double load(double t) const;
 

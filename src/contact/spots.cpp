@@ -133,6 +133,12 @@ double swept(const Ellipse& e, const Vector& origin, double from, double to) {
 
 }  // namespace
 
+long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a) {
+    long pairs = 0;
+    for_close_pairs(x, y, a, [&](std::size_t, std::size_t, double) { ++pairs; });
+    return pairs;
+}
+
 double union_area(const std::vector<Spot>& spots, long* close) {
     const std::size_t n = spots.size();
     std::vector<double> x(n), y(n), reach(n);

@@ -1,10 +1,14 @@
-// Contact spots as ellipses.
+// Contact spots: which overlap, and their area.
 #pragma once
 
 #include <vector>
 
 namespace rsc {
 
+// Number of pairs with d < a_i + a_j: contact spots that overlap.
+long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a);
+
+// A spot as an ellipse.
 struct Spot {
     double x, y;          // centre [length]
     double major, minor;  // semi-axes [length]
@@ -12,7 +16,7 @@ struct Spot {
 };
 
 // Area of the union of the spots [length^2]: what several share is counted once. Exact to rounding; spots without area are allowed.
-// `close` (optional) receives the number of pairs with d < a_i + a_j, the radii of circles of the spots' areas.
+// `close` (optional) receives what count_overlapping gives for circles of the spots' areas.
 double union_area(const std::vector<Spot>& spots, long* close = nullptr);
 
 }  // namespace rsc

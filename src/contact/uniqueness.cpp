@@ -286,10 +286,4 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     });
 }
 
-long count_overlapping(const Vector& x, const Vector& y, const Vector& a) {
-    long pairs = 0;
-    for_close_pairs(x, y, a, [&](std::size_t, std::size_t, double) { ++pairs; });
-    return pairs;
-}
-
 }  // namespace rsc

@@ -1,4 +1,4 @@
-// When the contact problem has one solution only, and pairs of contacts that overlap.
+// When the contact problem has one solution only.
 //
 // Put on every asperity a spherical shell of radius rho_i. Two shells apart interact as 1/d (Newton), so with shell energies U_ij
 // (U_ii = 1/rho_i, U_ij = 1/d_ij apart, less where they overlap) the matrix U is positive semidefinite. Hence
@@ -31,9 +31,6 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
 // Calls visit(i, j, d) once for every pair i < j with d < reach[i] + reach[j], in a fixed order.
 template <class Visit>
 void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& reach, Visit&& visit);
-
-// Number of pairs with d < a_i + a_j: contact spots that overlap.
-long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a);
 
 }  // namespace rsc
 

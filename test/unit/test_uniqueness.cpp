@@ -1,4 +1,5 @@
 // The proof of positive definiteness by shells never proves what is false, and is sharp enough to be useful; close pairs; Lanczos.
+#include "contact/spots.hpp"
 #include "contact/uniqueness.hpp"
 
 #include <numbers>
