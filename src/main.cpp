@@ -9,9 +9,9 @@
 #include "error.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/campaign_study.hpp"
-#include "run/options.hpp"
-#include "run/read_case.hpp"
-#include "run/registry.hpp"
+#include "case/options.hpp"
+#include "case/read_case.hpp"
+#include "case/registry.hpp"
 #include "run/signals.hpp"
 #ifdef RSC_MPI
 #include "run/mpi_team.hpp"

@@ -6,8 +6,8 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "run/read_case.hpp"
-#include "run/registry.hpp"
+#include "case/read_case.hpp"
+#include "case/registry.hpp"
 #include "run/run.hpp"
 
 namespace rsc::api {

@@ -10,7 +10,7 @@
 #include "rough/asperities.hpp"
 #include "rough/surface.hpp"
 #include "rsc.h"
-#include "run/case.hpp"
+#include "case/case.hpp"
 
 struct rsc_case {
     rsc::Case settings;

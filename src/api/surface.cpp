@@ -7,7 +7,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "rough/magnitude.hpp"
-#include "run/inputs.hpp"
+#include "read/inputs.hpp"
 
 namespace rsc::api {
 namespace {

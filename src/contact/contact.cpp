@@ -6,12 +6,12 @@
 #include <limits>
 #include <numeric>
 
-#include "contact/dgesv.hpp"
-#include "contact/mesh.hpp"
-#include "contact/pairs.hpp"
+#include "contact/solver/dgesv.hpp"
+#include "contact/interaction/mesh.hpp"
+#include "contact/interaction/pairs.hpp"
 #include "contact/ranking.hpp"
 #include "contact/spots.hpp"
-#include "contact/uniqueness.hpp"
+#include "contact/solver/uniqueness.hpp"
 #include "error.hpp"
 
 namespace rsc {

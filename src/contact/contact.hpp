@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "contact/indentation.hpp"
-#include "contact/law.hpp"
-#include "contact/newton.hpp"
-#include "contact/products.hpp"
+#include "contact/law/law.hpp"
+#include "contact/solver/newton.hpp"
+#include "contact/interaction/products.hpp"
 #include "contact/ranking.hpp"
 
 namespace rsc {

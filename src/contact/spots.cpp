@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "contact/uniqueness.hpp"
+#include "contact/solver/uniqueness.hpp"
 
 namespace rsc {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "run/campaign_team.hpp"
-#include "run/case.hpp"
+#include "case/case.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
 

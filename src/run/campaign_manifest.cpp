@@ -12,9 +12,9 @@
 #include <system_error>
 
 #include "error.hpp"
-#include "run/netcdf_file.hpp"
-#include "run/netcdf_writer.hpp"
-#include "run/registry.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/netcdf_writer.hpp"
+#include "case/registry.hpp"
 #include "version.h"
 
 namespace rsc {

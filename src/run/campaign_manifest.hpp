@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "run/read_case.hpp"
-#include "run/study.hpp"
+#include "case/read_case.hpp"
+#include "case/study.hpp"
 
 namespace rsc {
 

@@ -12,8 +12,8 @@
 #include "run/campaign.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/checkpoint.hpp"
-#include "run/netcdf_file.hpp"
-#include "run/result.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/result.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "run/campaign_team.hpp"
 #include "run/campaign_work.hpp"
-#include "run/read_case.hpp"
+#include "case/read_case.hpp"
 #include "run/run.hpp"
-#include "run/study.hpp"
+#include "case/study.hpp"
 
 namespace rsc {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "run/campaign_team.hpp"
-#include "run/case.hpp"
+#include "case/case.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
 

@@ -14,8 +14,8 @@
 
 #include "error.hpp"
 #include "run/campaign_archive.hpp"
-#include "run/read_case.hpp"
-#include "run/registry.hpp"
+#include "case/read_case.hpp"
+#include "case/registry.hpp"
 #include "version.h"
 
 namespace rsc {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "run/case.hpp"
+#include "case/case.hpp"
 
 namespace rsc {
 

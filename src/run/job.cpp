@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "contact/equivalent.hpp"
-#include "contact/law.hpp"
+#include "contact/law/law.hpp"
 #include "error.hpp"
-#include "run/inputs.hpp"
+#include "read/inputs.hpp"
 
 namespace rsc {
 namespace {

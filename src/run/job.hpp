@@ -9,8 +9,8 @@
 #include "contact/contact.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
-#include "run/case.hpp"
-#include "run/result.hpp"
+#include "case/case.hpp"
+#include "file/result.hpp"
 
 namespace rsc {
 

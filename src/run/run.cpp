@@ -15,9 +15,9 @@
 #include "run/campaign.hpp"
 #include "run/campaign_work.hpp"
 #include "run/job.hpp"
-#include "run/netcdf_file.hpp"
-#include "run/netcdf_writer.hpp"
-#include "run/registry.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/netcdf_writer.hpp"
+#include "case/registry.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 

@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "run/case.hpp"
-#include "run/options.hpp"
+#include "case/case.hpp"
+#include "case/options.hpp"
 
 namespace rsc {
 

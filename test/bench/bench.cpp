@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "contact/pairs.hpp"
+#include "contact/interaction/pairs.hpp"
 #include "rough/asperities.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "run/namelist.hpp"
-#include "run/namelist_value.hpp"
-#include "run/registry.hpp"
+#include "case/namelist.hpp"
+#include "case/namelist_value.hpp"
+#include "case/registry.hpp"
 
 class CaseMaker {
 public:

@@ -12,7 +12,7 @@
 
 #include "check.hpp"
 #include "namelist_cases.hpp"
-#include "run/read_case.hpp"
+#include "case/read_case.hpp"
 
 using namespace rsc;
 

@@ -7,7 +7,7 @@
 
 #include "error.hpp"
 #include "promise.hpp"
-#include "run/read_case.hpp"
+#include "case/read_case.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::string_view text(reinterpret_cast<const char*>(data), size);

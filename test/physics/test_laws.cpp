@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/ellipse.hpp"
-#include "contact/law.hpp"
+#include "contact/law/ellipse.hpp"
+#include "contact/law/law.hpp"
 #include "error.hpp"
 
 using namespace rsc;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "run/result.hpp"
+#include "file/result.hpp"
 
 namespace sample {
 

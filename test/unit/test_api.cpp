@@ -11,7 +11,7 @@
 #include "check.hpp"
 #include "contact/contact.hpp"
 #include "rsc.h"
-#include "run/registry.hpp"
+#include "case/registry.hpp"
 #include "version.h"
 
 namespace {

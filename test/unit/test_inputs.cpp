@@ -1,5 +1,5 @@
 // Heights and asperities from files: what is read, and what is refused with which words.
-#include "run/inputs.hpp"
+#include "read/inputs.hpp"
 
 #include <netcdf.h>
 #include <unistd.h>

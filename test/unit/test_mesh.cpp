@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/mesh.hpp"
+#include "contact/interaction/mesh.hpp"
 #include "error.hpp"
 
 using namespace rsc;

@@ -5,8 +5,8 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "run/namelist_value.hpp"
-#include "run/read_case.hpp"
+#include "case/namelist_value.hpp"
+#include "case/read_case.hpp"
 
 using namespace rsc;
 

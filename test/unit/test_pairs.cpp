@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/pairs.hpp"
-#include "contact/pairs_kernel.hpp"
+#include "contact/interaction/pairs.hpp"
+#include "contact/interaction/pairs_kernel.hpp"
 #include "error.hpp"
 
 using namespace rsc;

@@ -10,7 +10,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "run/netcdf_writer.hpp"
+#include "file/netcdf_writer.hpp"
 #include "sample_result.hpp"
 #include "temporary_folder.hpp"
 

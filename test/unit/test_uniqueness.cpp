@@ -1,14 +1,14 @@
 // The proof of positive definiteness by shells never proves what is false, and is sharp enough to be useful; close pairs; Lanczos.
 #include "contact/spots.hpp"
-#include "contact/uniqueness.hpp"
+#include "contact/solver/uniqueness.hpp"
 
 #include <numbers>
 #include <random>
 
 #include "check.hpp"
-#include "contact/lanczos.hpp"
-#include "contact/lapack.hpp"
-#include "contact/law.hpp"
+#include "contact/solver/lanczos.hpp"
+#include "contact/solver/lapack.hpp"
+#include "contact/law/law.hpp"
 
 using namespace rsc;
 

@@ -1,0 +1,504 @@
+#include "case/namelist.hpp"
+
+#include <algorithm>
+
+namespace rsc::namelist {
+namespace {
+
+constexpr int kEnd = -1;
+
+// Locale-free character classes: the text of a case means the same everywhere.
+bool is_digit(int c) { return c >= '0' && c <= '9'; }
+bool is_letter(int c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_name(int c) { return is_letter(c) || is_digit(c) || c == '_' || c == '%'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool is_blank(int c) { return c == ' ' || c == '\t'; }
+bool is_line_end(int c) { return c == '\n' || c == '\r'; }
+// What ends a value. A comment does, too.
+bool is_separator(int c) { return is_blank(c) || is_line_end(c) || c == ',' || c == ';' || c == '/' || c == '!' || c == kEnd; }
+
+bool is_infinity_or_nan(std::string_view word) {
+    std::string w = lower_case(word);
+    if (!w.empty() && (w[0] == '+' || w[0] == '-')) w.erase(0, 1);
+    return w == "inf" || w == "infinity" || w == "nan" || (w.starts_with("nan(") && w.ends_with(')'));
+}
+
+class Parser {
+public:
+    Parser(std::string_view text, const std::vector<std::string_view>& known) : text_(text), known_(known) {
+        lines_.push_back(0);
+        for (std::size_t i = 0; i < text.size(); ++i)
+            if (text[i] == '\n') lines_.push_back(i + 1);
+    }
+
+    // Text outside of groups is skipped, comments as a whole: a group named in one is not there.
+    Document document() {
+        std::size_t resumed = 0;  // where the last group ended
+        for (int c = next(); c != kEnd; c = next()) {
+            if (c == '!') skip_line();
+            if (c != '&' && c != '$') continue;
+            const std::size_t sign = at_ - 1;
+            std::string name;
+            while (is_letter(peek()) || is_digit(peek()) || peek() == '_') name += lower(static_cast<char>(next()));
+            if (name.empty() || !is_separator(peek())) continue;
+            if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+                if (name != "end" && first_on_line(sign, resumed)) unknown_group(name, sign);
+                continue;
+            }
+            Group group{name, {}, position(sign)};
+            complete_ = false;
+            body(group);
+            resumed = at_;
+            document_.groups.push_back(std::move(group));
+        }
+        return std::move(document_);
+    }
+
+    Document assignments_alone() {
+        Group group{"", {}, {}};
+        alone_ = true;
+        body(group);
+        if (at_ < text_.size()) fault(at_, "nothing may follow the value, found '" + excerpt(at_) + "'");
+        document_.groups.push_back(std::move(group));
+        return std::move(document_);
+    }
+
+private:
+    // --- characters -------------------------------------------------------------------------------------------------------
+    // at_eol_ says whether the last character looked at, even if put back, ended a line: the separators below depend on it.
+    int next() {
+        const int c = at_ < text_.size() ? static_cast<unsigned char>(text_[at_]) : kEnd;
+        if (c != kEnd) ++at_;
+        at_eol_ = is_line_end(c) || c == kEnd;
+        return c;
+    }
+    void back(int c) {
+        if (c != kEnd) --at_;
+    }
+    int peek() const { return at_ < text_.size() ? static_cast<unsigned char>(text_[at_]) : kEnd; }
+    int skip_blanks() {
+        int c = next();
+        while (is_blank(c)) c = next();
+        back(c);
+        return c;
+    }
+    void skip_line() {
+        int c = next();
+        while (c != '\n' && c != kEnd) c = next();
+    }
+
+    Position position(std::size_t offset) const {
+        const auto line = std::upper_bound(lines_.begin(), lines_.end(), offset) - lines_.begin();
+        return {static_cast<int>(line), static_cast<int>(offset - lines_[static_cast<std::size_t>(line - 1)] + 1)};
+    }
+    void fault(std::size_t offset, const std::string& text) { report(document_.faults, position(offset), text); }
+    void warn(std::size_t offset, const std::string& text) { report(document_.warnings, position(offset), text); }
+    void report(std::vector<Fault>& faults, Position at, const std::string& text) {
+        if (faults.size() < kMostFaults) faults.push_back({at, context_ + text});
+    }
+
+    // The word at an offset, for a message.
+    std::string excerpt(std::size_t offset) const {
+        std::string word;
+        while (offset < text_.size() && word.size() < 40 && (word.empty() || !is_separator(text_[offset]))) {
+            const char c = text_[offset++];
+            word += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+        }
+        return word;
+    }
+
+    bool first_on_line(std::size_t offset, std::size_t resumed) const {
+        while (offset > resumed && is_blank(text_[offset - 1])) --offset;
+        return offset == resumed || text_[offset - 1] == '\n';
+    }
+    void unknown_group(const std::string& name, std::size_t sign) {
+        const std::string_view near = nearest(name, known_);
+        fault(sign, "unknown group '&" + name.substr(0, 63) + "'" +
+                        (near.empty() ? "" : "; did you mean '&" + std::string(near) + "'?"));
+    }
+
+    // --- separators, the way gfortran does them ---------------------------------------------------------------------------
+    // After a value: blanks, then at most one comma, or the end of the line with all that is blank or comment after it.
+    void skip_separator() {
+        skip_blanks();
+        comma_ = false;
+        int c = next();
+        if (c == ',' || c == ';') {
+            comma_ = true;
+            skip_blanks();
+        } else if (c == '/') {
+            complete_ = true;
+        } else if (c == '!') {
+            skip_line();
+        } else if (is_line_end(c)) {
+            if (c == '\r' && peek() != '\n') {
+                back(next());
+                return;
+            }
+            for (;;) {
+                c = next();
+                if (c == '!')
+                    skip_line();
+                else if (!is_line_end(c) && !is_blank(c))
+                    break;
+            }
+            back(c);
+        } else {
+            back(c);
+        }
+    }
+    // Before the next value, when the last one ended its line: a comma counts only if none came before.
+    void finish_separator() {
+        for (;;) {
+            int c = skip_blanks();
+            if (c == kEnd) return;
+            c = next();
+            if (c == '/')
+                complete_ = true;
+            else if (c == '!') {
+                skip_line();
+                continue;
+            } else if (is_line_end(c))
+                continue;
+            else if (c == ',' && !comma_) {
+                c = skip_blanks();
+                if (is_line_end(c)) continue;
+            } else
+                back(c);
+            return;
+        }
+    }
+
+    // --- a group ----------------------------------------------------------------------------------------------------------
+    void body(Group& group) {
+        context_ = alone_ ? "" : "&" + group.name + ": ";
+        bool lost = false;  // a fault was reported and no good assignment seen since
+        for (;;) {
+            skip_separator();
+            if (!complete_ && at_eol_) finish_separator();
+            if (complete_) break;
+            const std::size_t start = at_;
+            const int c = next();
+            if (c == kEnd) {
+                if (!alone_) report(document_.faults, group.at, "the group is not closed by '/' before the end of the text");
+                break;
+            }
+            if (alone_ && (c == '&' || c == '$')) {
+                back(c);
+                break;
+            }
+            if (c == '&' || c == '$') {
+                if (lower_case(text_.substr(at_, 3)) == "end") {
+                    at_ += 3;
+                } else {
+                    fault(start, "the group is not closed by '/' before '" + excerpt(start) + "'");
+                    back(c);
+                }
+                break;
+            }
+            if (c == '?') continue;  // gfortran's query, which does nothing unless typed at a terminal
+            if (c == '=' && peek() == '?') {
+                next();
+                continue;
+            }
+            if (c == '/') break;
+            if (is_separator(c)) {
+                if (c == '!') back(c);
+                continue;
+            }
+            back(c);
+            const std::size_t assigned = group.assignments.size();
+            assignment(group, start, lost);
+            lost = group.assignments.size() == assigned;
+        }
+        context_.clear();
+    }
+
+    // key[(subscript)] = values. On a fault nothing is added and reading goes on after the word; one message for a run of such
+    // words.
+    void assignment(Group& group, std::size_t start, bool quiet) {
+        Assignment a;
+        a.at = position(start);
+        while (is_name(peek())) a.key += lower(static_cast<char>(next()));
+        if (a.key.empty() || is_digit(a.key[0])) {
+            if (!quiet) fault(start, "expected key = value, found '" + excerpt(start) + "'");
+            next();
+            while (!is_separator(peek()) && peek() != '=') next();
+            return;
+        }
+        std::string problem;
+        if (peek() == '(') problem = subscript(a);
+        const std::size_t after_name = at_;
+        if (problem.empty()) {
+            skip_separator();
+            if (!complete_ && at_eol_) finish_separator();
+            if (complete_ || next() != '=') {
+                complete_ = false;
+                at_ = after_name;
+                problem = "'=' must follow '" + a.key.substr(0, 63) + "'";
+                if (is_blank(peek()) && skip_blanks() == '(')
+                    problem = "no blank may stand between '" + a.key.substr(0, 63) + "' and its subscript";
+                at_ = after_name;
+            }
+        }
+        if (!problem.empty()) {
+            if (!quiet) fault(start, problem);
+            while (!is_separator(peek()) && peek() != '=') next();
+            return;
+        }
+        values(a);
+        group.assignments.push_back(std::move(a));
+    }
+
+    // One dimension, blanks allowed anywhere. Returns what is wrong.
+    std::string subscript(Assignment& a) {
+        Subscript s;
+        s.at = position(at_);
+        next();
+        for (int part = 0; part < 3; ++part) {
+            skip_blanks();
+            int c = next();
+            const bool negative = c == '-';
+            if (c == '-' || c == '+') c = next();
+            std::optional<long> number;
+            for (; is_digit(c); c = next()) {
+                number = 10 * number.value_or(0) + (c - '0');
+                if (*number > kLargestRepeat) return "a subscript of '" + a.key + "' is too large";
+            }
+            if (number && negative) number = -*number;
+            if (is_blank(c)) {
+                skip_blanks();
+                c = next();
+            }
+            const bool ends = c == ')';
+            if (c == ',') return "'" + a.key + "' has one dimension";
+            if (!ends && c != ':') {
+                back(c);
+                return "the subscript of '" + a.key + "' must be (first), (first:last) or (first:last:step), found '" +
+                       excerpt(at_) + "'";
+            }
+            if (c == ':') s.section = true;
+            if (part == 0) s.first = number;
+            if (part == 1) s.last = number;
+            if (part == 2) {
+                if (!ends || !number || *number == 0)
+                    return "the step in the subscript of '" + a.key + "' must be an integer other than 0";
+                s.step = *number;
+            }
+            if (ends) {
+                if (part == 0 && !number) return "the subscript of '" + a.key + "' is empty";
+                a.subscript = s;
+                return {};
+            }
+        }
+        return "the subscript of '" + a.key + "' has too many colons";
+    }
+
+    // --- values -----------------------------------------------------------------------------------------------------------
+    // Up to the next key, the end of the group or the end of the text.
+    void values(Assignment& a) {
+        std::size_t doubtful = 0;  // offset of a null that the Fortran standard would not see
+        bool doubt = false;
+        skip_blanks();
+        bool after_line = false;
+        for (;;) {
+            if (at_eol_) finish_separator();
+            if (complete_ || at_ >= text_.size()) return;
+            const std::size_t start = at_;
+            const int c = peek();
+            if (c == '&' || c == '$' || c == '?' || c == '=') return;
+            if (is_separator(c)) {
+                if (c == '!' || (c == ',' && after_line)) {
+                    doubt = true;
+                    doubtful = start;
+                }
+                after_line = false;
+                null_value(a, start);
+                skip_separator();
+                continue;
+            }
+            if (key_follows()) return;
+            if (doubt) {
+                warn(doubtful, "the value of '" + a.key.substr(0, 63) +
+                                   "' here is empty, as gfortran reads it: a comment straight after '=' or ',', or a line that "
+                                   "begins with a comma, makes a null value");
+                doubt = false;
+            }
+            if (!item(a, start)) return;
+            after_line = passed_line_end(start);
+        }
+    }
+
+    // Whether the separator just skipped went over the end of a line and stopped at a comma.
+    bool passed_line_end(std::size_t start) const {
+        if (peek() != ',' || at_eol_) return false;
+        std::size_t i = at_;
+        while (i > start && (is_blank(text_[i - 1]) || text_[i - 1] == '\r')) --i;
+        return i > start && text_[i - 1] == '\n';
+    }
+
+    void null_value(Assignment& a, std::size_t start) {
+        if (!a.items.empty() && a.items.back().null && !a.items.back().counted) {
+            ++a.items.back().repeat;
+            return;
+        }
+        Item item;
+        item.null = true;
+        item.at = position(start);
+        add(a, std::move(item));
+    }
+
+    void add(Assignment& a, Item item) {
+        if (a.items.size() == kMostItems)
+            report(document_.faults, item.at,
+                   "more than " + std::to_string(kMostItems) + " values for '" + a.key.substr(0, 63) + "'");
+        if (a.items.size() <= kMostItems) a.items.push_back(std::move(item));
+    }
+
+    // A value, with its repeat count; false when the text ended inside of it.
+    bool item(Assignment& a, std::size_t start) {
+        Item item;
+        item.at = position(start);
+        repeat_count(item);
+        const int c = peek();
+        if (item.counted && is_separator(c)) {
+            item.null = true;
+            add(a, std::move(item));
+            skip_separator();
+            return true;
+        }
+        if (c == '"' || c == '\'') {
+            if (!quoted(item)) {
+                fault(start, "the text that begins here is not closed by " + std::string(1, static_cast<char>(c)));
+                return false;
+            }
+            if (!is_separator(peek())) fault(at_, "a blank or comma must follow the closing quote");
+        } else {
+            const std::size_t word = at_;
+            while (!is_separator(peek())) ++at_;
+            item.text = std::string(text_.substr(word, at_ - word));
+            item.commented = peek() == '!';
+            // After Infinity or NaN gfortran looks ahead over line ends for the '=' of a key so named.
+            if (is_infinity_or_nan(item.text) && (peek() == ' ' || is_line_end(peek())))
+                while (peek() == ' ' || is_line_end(peek())) ++at_;
+        }
+        add(a, std::move(item));
+        skip_separator();
+        return true;
+    }
+
+    void repeat_count(Item& item) {
+        std::size_t i = at_;
+        long count = 0;
+        bool too_large = false;
+        for (; i < text_.size() && is_digit(text_[i]); ++i) {
+            if (!too_large) count = 10 * count + (text_[i] - '0');
+            too_large = too_large || count > kLargestRepeat;
+        }
+        if (i == at_ || i >= text_.size() || text_[i] != '*') return;
+        if (too_large)
+            fault(at_, "the repeat count is larger than " + std::to_string(kLargestRepeat));
+        else if (count == 0)
+            fault(at_, "the repeat count is zero");
+        item.counted = true;
+        item.repeat = too_large || count == 0 ? 1 : count;
+        at_ = i + 1;
+    }
+
+    // Line ends inside quotes vanish, a doubled quote is one.
+    bool quoted(Item& item) {
+        item.quoted = true;
+        const int quote = next();
+        for (int c = next(); c != kEnd; c = next()) {
+            if (c == quote) {
+                if (peek() != quote) return true;
+                next();
+            }
+            if (!is_line_end(c)) item.text += static_cast<char>(c);
+        }
+        return false;
+    }
+
+    // Whether a key, perhaps with a subscript, and '=' stand here.
+    bool key_follows() const {
+        std::size_t i = at_;
+        const auto look = [&](std::size_t k) {
+            return k < text_.size() ? static_cast<int>(static_cast<unsigned char>(text_[k])) : kEnd;
+        };
+        if (!is_letter(look(i)) && look(i) != '_') return false;
+        while (is_name(look(i))) ++i;
+        if (look(i) == '(') {
+            const std::size_t longest = i + 200;
+            while (i < longest && look(i) != ')' && look(i) != '\n' && look(i) != kEnd) ++i;
+            if (look(i) != ')') return false;
+            ++i;
+        }
+        for (;; ++i) {
+            if (look(i) == '!')
+                while (look(i) != '\n' && look(i) != kEnd) ++i;
+            if (!is_blank(look(i)) && !is_line_end(look(i))) return look(i) == '=' && look(i + 1) != '?';
+        }
+    }
+
+    std::string_view text_;
+    const std::vector<std::string_view>& known_;
+    std::vector<std::size_t> lines_;  // offsets where lines begin
+    std::size_t at_ = 0;
+    bool at_eol_ = false, comma_ = false, complete_ = false;
+    bool alone_ = false;   // assignments without a group around them
+    std::string context_;  // "&group: " while inside of one
+    Document document_;
+};
+
+// Edits (insert, delete, replace, swap neighbours) that make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+Document parse(std::string_view text, const std::vector<std::string_view>& known_groups) {
+    return Parser(text, known_groups).document();
+}
+
+Document parse_assignments(std::string_view text) {
+    const std::vector<std::string_view> none;
+    return Parser(text, none).assignments_alone();
+}
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+    if (word.empty() || word.size() > 63) return {};
+    const std::string w = lower_case(word);
+    std::string_view best;
+    std::size_t least = std::max<std::size_t>(1, w.size() / 3) + 1;
+    for (const std::string_view candidate : candidates) {
+        std::size_t distance = edit_distance(w, lower_case(candidate));
+        if (w.size() >= 3 && distance >= least && lower_case(candidate).starts_with(w)) distance = least - 1;  // cut short
+        if (distance < least) {
+            least = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string lower_case(std::string_view word) {
+    std::string result(word);
+    std::transform(result.begin(), result.end(), result.begin(), lower);
+    return result;
+}
+
+std::string format(const std::string& name, const Fault& fault) {
+    if (fault.at.line == 0) return name + ": " + fault.text;
+    return name + ":" + std::to_string(fault.at.line) + ":" + std::to_string(fault.at.column) + ": " + fault.text;
+}
+
+}  // namespace rsc::namelist

@@ -1,0 +1,154 @@
+#include "case/options.hpp"
+
+#include <charconv>
+#include <string_view>
+
+#include "error.hpp"
+#include "case/namelist.hpp"
+#include "version.h"
+
+namespace rsc {
+namespace {
+
+struct Flag {
+    char letter;  // '\0': none
+    std::string_view name;
+    bool takes_value;
+};
+
+constexpr Flag kFlags[] = {
+    {'o', "output", true}, {'s', "set", true},     {'\0', "check", false},   {'\0', "describe", false},
+    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false},  {'\0', "progress", true},
+    {'q', "quiet", false}, {'h', "help", false},   {'\0', "version", false},
+};
+
+[[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, text + " (--help lists the options)"); }
+
+const Flag& find_long(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const Flag& flag : kFlags) {
+        if (flag.name == name) return flag;
+        names.push_back(flag.name);
+    }
+    const std::string_view near = namelist::nearest(name, names);
+    refuse("unknown option '--" + std::string(name) + "'" +
+           (near.empty() ? "" : "; did you mean '--" + std::string(near) + "'?"));
+}
+
+const Flag& find_short(char letter) {
+    for (const Flag& flag : kFlags)
+        if (flag.letter == letter && letter != '\0') return flag;
+    refuse("unknown option '-" + std::string(1, letter) + "'");
+}
+
+void apply(Options& options, const Flag& flag, const std::string& value) {
+    if (flag.name == "output") {
+        if (value.empty()) refuse("--output needs a file name");
+        if (options.output) refuse("--output is given twice");
+        options.output = value;
+    } else if (flag.name == "set") {
+        if (value.find('=') == std::string::npos) refuse("--set " + value + ": expected 'group%key=value'");
+        options.set.push_back(value);
+    } else if (flag.name == "member") {
+        int member = 0;
+        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), member);
+        if (error != std::errc{} || end != value.data() + value.size() || member < 1)
+            refuse("--member " + value + ": expected the number of a member, 1 or more");
+        options.member = member;
+    } else if (flag.name == "progress") {
+        if (value == "auto")
+            options.progress = Progress::automatic;
+        else if (value == "always")
+            options.progress = Progress::always;
+        else if (value == "never")
+            options.progress = Progress::never;
+        else
+            refuse("--progress " + value + ": expected auto, always or never");
+    } else if (flag.name == "check")
+        options.check = true;
+    else if (flag.name == "describe")
+        options.describe = true;
+    else if (flag.name == "list")
+        options.list = true;
+    else if (flag.name == "resume")
+        options.resume = true;
+    else if (flag.name == "quiet")
+        options.quiet = true;
+    else if (flag.name == "help")
+        options.help = true;
+    else
+        options.version = true;
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+    Options options;
+    std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
+    std::vector<std::string> paths;
+    bool only_paths = false;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        if (only_paths || word.size() < 2 || word[0] != '-') {
+            paths.push_back(word);
+            continue;
+        }
+        if (word == "--") {
+            only_paths = true;
+            continue;
+        }
+        const auto value_after = [&](const Flag& flag) {
+            if (i + 1 == words.size()) refuse("--" + std::string(flag.name) + " needs a value");
+            return words[++i];
+        };
+        if (word[1] == '-') {
+            const std::size_t equals = word.find('=');
+            const bool attached = equals != std::string::npos;
+            const Flag& flag = find_long(std::string_view(word).substr(2, attached ? equals - 2 : std::string::npos));
+            if (attached && !flag.takes_value) refuse("--" + std::string(flag.name) + " takes no value");
+            apply(options, flag, attached ? word.substr(equals + 1) : flag.takes_value ? value_after(flag) : "");
+        } else {
+            // -q, -qh, -oFILE, -o FILE
+            for (std::size_t k = 1; k < word.size(); ++k) {
+                const Flag& flag = find_short(word[k]);
+                if (flag.takes_value) {
+                    apply(options, flag, k + 1 < word.size() ? word.substr(k + 1) : value_after(flag));
+                    break;
+                }
+                apply(options, flag, "");
+            }
+        }
+        if (options.help || options.version) return options;
+    }
+    if (options.describe) {
+        if (paths.size() > 1) refuse("--describe takes one group or group%key");
+        if (!paths.empty()) options.describe_what = paths.front();
+        return options;
+    }
+    if (paths.size() > 1) refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
+    if (!paths.empty()) {
+        if (paths.front().empty()) refuse("the name of the case is empty");
+        if (paths.front() != "-") options.case_path = paths.front();
+    }
+    return options;
+}
+
+std::string usage_text() {
+    return "usage: rsc [options] < case.nml      run a case; rsc [options] case.nml is the same\n"
+           "  -o, --output FILE                write the result to FILE instead of &output file\n"
+           "  -s, --set 'group%key=value'      override one key, the value in namelist syntax; repeatable\n"
+           "      --check                      read and check the case, print it with every default, run nothing\n"
+           "      --describe [group[%key]]     every key: type, unit, default, bounds, meaning\n"
+           "      --list                       the members of a &study, one a line\n"
+           "      --member K                   run only member K of a &study\n"
+           "      --resume                     go on with an interrupted campaign\n"
+           "      --progress auto|always|never show progress on stderr (auto: on a terminal)\n"
+           "  -q, --quiet                      no table on stdout\n"
+           "  -h, --help                       this text\n"
+           "      --version                    the version\n"
+           "Exit status: 0 done, 1 ran and failed, 2 refused before running, 130/143 stopped by a signal.\n";
+}
+
+std::string version_text() { return "rsc " RSC_VERSION "\n"; }
+
+}  // namespace rsc

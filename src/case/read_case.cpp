@@ -1,0 +1,175 @@
+#include "case/read_case.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+using namelist::Fault;
+using namelist::Position;
+
+// Where a key, or an element of it, was given; nowhere when it was not.
+Position place(const Ledger& ledger, const Problem& problem) {
+    for (const Key* key : problem.keys) {
+        const Ledger::Entry* entry = ledger.find(*key);
+        if (!entry || entry->given.empty()) continue;
+        if (key == problem.keys.front())
+            for (const auto& [element, at] : entry->given)
+                if (element == problem.element) return at;
+        return entry->given.front().second;
+    }
+    return {};
+}
+
+// Complaints about a key that could not be read would be about its default.
+bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
+    return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) {
+        const Ledger::Entry* entry = ledger.find(*key);
+        return entry && entry->faulty;
+    });
+}
+
+// Does the study give another value to a key that a problem is about? Then the members, each checked as a whole, have a word on
+// it; the base is only what they start from.
+bool varied(const Study& study, const Problem& problem) {
+    return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
+        const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
+        return std::any_of(problem.keys.begin(), problem.keys.end(),
+                           [&](const Key* key) { return name == std::string(key->group) + "%" + key->name; });
+    });
+}
+
+std::string known_groups_text() {
+    std::string text;
+    for (const std::string_view group : group_names()) text += (text.empty() ? "&" : ", &") + std::string(group);
+    return text;
+}
+
+std::string limited_text(std::istream& in, const std::string& name) {
+    std::string text;
+    char buffer[65536];
+    while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
+        text.append(buffer, static_cast<std::size_t>(in.gcount()));
+        if (text.size() > namelist::kLargestText)
+            throw Error(Failure::bad_input,
+                        name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+    }
+    if (in.bad()) throw Error(Failure::bad_input, name + ": cannot be read");
+    return text;
+}
+
+// "--set surface%sigma=1": what is wrong with it, or nothing.
+std::string apply_set(Case& settings, const std::string& argument) {
+    const std::size_t equals = argument.find('=');
+    try {
+        if (equals == std::string::npos) throw Error(Failure::bad_input, "expected 'group%key=value'");
+        set_key(settings, argument.substr(0, equals), argument.substr(equals + 1));
+        return {};
+    } catch (const Error& error) {
+        return "--set " + argument + ": " + error.what();
+    }
+}
+
+}  // namespace
+
+Reading read_namelist(std::string_view text) {
+    Reading reading;
+    namelist::Document document = namelist::parse(text, group_names());
+    reading.faults = std::move(document.faults);
+    reading.warnings = std::move(document.warnings);
+    std::vector<const namelist::Group*> seen;
+    for (const namelist::Group& group : document.groups) {
+        const auto same = std::find_if(seen.begin(), seen.end(), [&](const namelist::Group* g) { return g->name == group.name; });
+        if (same != seen.end()) {
+            if (reading.duplicates.size() < namelist::kMostFaults)
+                reading.duplicates.push_back(
+                    {group.at, "&" + group.name + ": this group is already at line " + std::to_string((*same)->at.line)});
+            continue;
+        }
+        seen.push_back(&group);
+        reading.groups.push_back(*std::find(group_names().begin(), group_names().end(), group.name));
+        if (group.name == "study") {
+            reading.study = read_study(group, reading.faults);
+            continue;
+        }
+        for (const namelist::Assignment& assignment : group.assignments) {
+            if (reading.faults.size() >= namelist::kMostFaults) break;
+            if (const Key* key = find_key(group.name, assignment.key))
+                assign(reading.settings, *key, assignment, reading.ledger, reading.faults);
+            else
+                reading.faults.push_back({assignment.at, "&" + group.name + ": unknown key '" + assignment.key.substr(0, 63) +
+                                                             "'" + suggest_key(group.name, assignment.key)});
+        }
+    }
+    finish_lists(reading.settings, reading.ledger, reading.faults);
+    return reading;
+}
+
+ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
+    if (text.size() > namelist::kLargestText)
+        throw Error(Failure::bad_input, name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+    Reading reading = read_namelist(text);
+    std::vector<Fault> faults = std::move(reading.faults);
+    faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
+    if (reading.groups.empty() && faults.empty())
+        faults.push_back({{}, "no namelist group found; expected at least one of " + known_groups_text()});
+
+    Case& settings = reading.settings;
+    std::vector<std::string> set_faults;
+    for (const std::string& argument : options.set)
+        if (std::string problem = apply_set(settings, argument); !problem.empty()) set_faults.push_back(std::move(problem));
+    if (options.output) settings.output.file = *options.output;
+
+    for (const Problem& problem : check_case(settings))
+        if (!concerns_faulty(reading.ledger, problem) && !(reading.study && varied(*reading.study, problem)))
+            faults.push_back(
+                {place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
+    if (reading.study) {
+        if (!kStudiesAvailable)
+            faults.push_back({reading.study->at, "&study is not available yet"});
+        else if (faults.empty() && set_faults.empty())
+            faults = check_study(settings, *reading.study);
+    }
+
+    std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+        return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;
+    });
+    std::string message;
+    std::size_t count = 0;
+    const auto line = [&](const std::string& text_line) {
+        if (++count <= namelist::kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
+    };
+    for (const Fault& fault : faults) line(namelist::format(name, fault));
+    for (const std::string& fault : set_faults) line(fault);
+    if (count > 0) throw Error(Failure::bad_input, message);
+
+    ReadCase read{std::move(settings), std::move(reading.study), {}};
+    for (const Fault& warning : reading.warnings) read.warnings.push_back(namelist::format(name, warning));
+    return read;
+}
+
+ReadCase read_case(std::istream& in, const std::string& name, const Options& options) {
+    return read_case_text(limited_text(in, name), name, options);
+}
+
+ReadCase read_case(const Options& options) {
+    if (options.case_path.empty()) return read_case(std::cin, "<stdin>", options);
+    std::ifstream in(options.case_path, std::ios::binary);
+    if (!in) throw Error(Failure::bad_input, options.case_path + ": cannot be opened");
+    // A directory opens and then cannot be read.
+    if (in.peek() == std::ifstream::traits_type::eof() && in.bad())
+        throw Error(Failure::bad_input, options.case_path + ": cannot be read");
+    in.clear();
+    return read_case(in, options.case_path, options);
+}
+
+std::string effective_namelist(const ReadCase& read) {
+    return effective_namelist(read.settings) + (read.study ? effective_namelist(*read.study) : "");
+}
+
+}  // namespace rsc

@@ -1,0 +1,47 @@
+// From text to a checked case.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/options.hpp"
+#include "case/registry.hpp"
+#include "case/study.hpp"
+
+namespace rsc {
+
+struct ReadCase {
+    Case settings;
+    std::optional<Study> study;         // its values tried one by one; expand_study(settings, *study) gives its members, checked
+    std::vector<std::string> warnings;  // "case.nml:3:9: ...", a line each
+};
+
+// Reads a case from the file options.case_path or from standard input, applies --set and --output, and checks it all. Throws one
+// Error(bad_input) whose text has a line for everything that is wrong: "case.nml:12:5: &surface: unknown key 'simga'; did you
+// mean 'sigma'?". With a &study, `settings` is what the members start from: what it has wrong in a key that the study varies is
+// the members' matter.
+ReadCase read_case(const Options& options);
+// The same from any stream; `name` is what messages call it.
+ReadCase read_case(std::istream& in, const std::string& name, const Options& options = {});
+ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options = {});
+
+// The effective namelist of a case and its study: what --check prints.
+std::string effective_namelist(const ReadCase& read);
+
+// The first half alone: what the text says, before bounds and relations of the keys are looked at. Never throws on bad text.
+struct Reading {
+    Case settings;
+    std::optional<Study> study;
+    Ledger ledger;
+    std::vector<std::string_view> groups;     // known groups found, in order
+    std::vector<namelist::Fault> faults;      // what gfortran would refuse as well, and unknown groups
+    std::vector<namelist::Fault> duplicates;  // of groups; those of keys are among the faults
+    std::vector<namelist::Fault> warnings;
+};
+Reading read_namelist(std::string_view text);
+
+}  // namespace rsc

@@ -1,0 +1,234 @@
+#include "case/registry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/namelist_value.hpp"
+
+namespace rsc {
+namespace {
+
+// --- edit here when something becomes available ---
+constexpr Unavailable kUnavailable[] = {
+    {"solver", "interaction", "hertz"},
+};
+
+constexpr double kNoLimit = Case::kInfinity;
+constexpr Bounds kAny{};
+constexpr Bounds kPositive{0, kNoLimit, true, false};
+constexpr Bounds kPositiveOrInfinite{0, kNoLimit, true, true};
+constexpr Bounds between(double low, double high) { return {low, high, false, false}; }
+constexpr Bounds above(double low, double high) { return {low, high, true, false}; }
+
+template <class E>
+Slot choice_slot(E& object) {
+    return ChoiceSlot{&object, [](const void* p) { return static_cast<int>(*static_cast<const E*>(p)); },
+                      [](void* p, int i) { *static_cast<E*>(p) = static_cast<E>(i); }};
+}
+
+#define RSC_SLOT(member) [](Case& c) -> Slot { return &c.member; }
+#define RSC_FIRST(member) [](Case& c) -> Slot { return &c.member[0]; }
+#define RSC_CHOICE(member) [](Case& c) -> Slot { return choice_slot(c.member); }
+
+using enum Type;
+
+Key scalar(const char* group, const char* name, Type type, const char* unit, Bounds bounds, const char* meaning,
+           Slot (*slot)(Case&)) {
+    return {group, name, type, 1, false, 0, unit, bounds, {}, "", meaning, slot};
+}
+Key array(const char* group, const char* name, int size, const char* unit, Bounds bounds, const char* meaning,
+          Slot (*slot)(Case&)) {
+    return {group, name, real, size, false, 0, unit, bounds, {}, "", meaning, slot};
+}
+Key list(const char* group, const char* name, int most, const char* unit, const char* unset, const char* meaning,
+         Slot (*slot)(Case&)) {
+    return {group, name, real, most, true, 0, unit, kAny, {}, unset, meaning, slot};
+}
+Key optional(const char* group, const char* name, int size, Bounds bounds, const char* unset, const char* meaning,
+             Slot (*slot)(Case&)) {
+    return {group, name, real, size, false, 0, "length", bounds, {}, unset, meaning, slot};
+}
+Key text(const char* group, const char* name, int length, const char* meaning, Slot (*slot)(Case&)) {
+    return {group, name, string, 1, false, length, "", kAny, {}, "", meaning, slot};
+}
+// The order of the names is the order of the enumeration.
+Key one_of(const char* group, const char* name, std::vector<const char*> choices, const char* meaning, Slot (*slot)(Case&)) {
+    return {group, name, choice, 1, false, 32, "", kAny, std::move(choices), "", meaning, slot};
+}
+
+std::vector<Key> make_registry() {
+    return {
+        text("run", "title", 1024, "title of the result file", RSC_SLOT(run.title)),
+        scalar("run", "seed", long_integer, "1", kAny, "seed of the noise: with `realization` it is the surface",
+               RSC_SLOT(run.seed)),
+        scalar("run", "realizations", integer, "1", between(1, 1e7), "number of surfaces", RSC_SLOT(run.realizations)),
+        scalar("run", "first_realization", integer, "1", between(1, 2147483647.0),
+               "number of the first surface; realization k of a seed is the same surface whatever the rest",
+               RSC_SLOT(run.first_realization)),
+        scalar("run", "threads", integer, "1", between(0, 4096), "threads to use, 0 for all; results do not depend on it",
+               RSC_SLOT(run.threads)),
+        text("run", "length_unit", 64, "unit of every length, as UDUNITS spells it", RSC_SLOT(run.length_unit)),
+        text("run", "force_unit", 64, "unit of every force, as UDUNITS spells it", RSC_SLOT(run.force_unit)),
+
+        array("solids", "E", 2, "force/length^2", kPositiveOrInfinite,
+              "Young's modulus of body 1 (rough, deforms) and of body 2 (the sphere); Infinity is rigid", RSC_FIRST(solids.E)),
+        array("solids", "nu", 2, "1", above(-1, 0.5), "Poisson's ratio of the two bodies", RSC_FIRST(solids.nu)),
+        array("solids", "R", 2, "length", kPositiveOrInfinite, "radius of the two bodies; Infinity is flat", RSC_FIRST(solids.R)),
+
+        one_of("surface", "source", {"synthetic", "heights", "asperities"},
+               "make a surface, read a height map from `file`, or read asperities from `file`", RSC_CHOICE(surface.source)),
+        text("surface", "file", 4096, "file with the heights or the asperities: NetCDF or text", RSC_SLOT(surface.file)),
+        optional("surface", "L", 1, kPositive, "1.0; for heights and asperities taken from the file",
+                 "side of the surface (x extent of a map)", RSC_SLOT(surface.L)),
+        scalar("surface", "n", integer, "1", between(2, 32768), "points along a side, even", RSC_SLOT(surface.n)),
+        scalar("surface", "hurst", real, "1", between(0, 1), "Hurst exponent H", RSC_SLOT(surface.hurst)),
+        scalar("surface", "L_lambda_l", real, "1", between(1, 32768),
+               "L / lambda_l: the longest wavelength of the self-affine band", RSC_SLOT(surface.L_lambda_l)),
+        scalar("surface", "L_lambda_s", real, "1", between(1, 32768), "L / lambda_s: the shortest wavelength",
+               RSC_SLOT(surface.L_lambda_s)),
+        scalar("surface", "plateau", logical, "", kAny,
+               "constant spectrum between the wavelengths L and lambda_l instead of none there", RSC_SLOT(surface.plateau)),
+        optional("surface", "sigma", 1, kPositive, "0.01; for heights and asperities the rms of what was read",
+                 "rms height to make; for heights and asperities the length that unit = 'sigma' and delta0 mean",
+                 RSC_SLOT(surface.sigma)),
+        one_of("surface", "normalise", {"sample", "ensemble"}, "sigma holds for each surface exactly, or in expectation",
+               RSC_CHOICE(surface.normalise)),
+        one_of("surface", "detrend", {"none", "mean", "plane"},
+               "what to subtract from heights read; separation is measured from z = 0 after it", RSC_CHOICE(surface.detrend)),
+
+        one_of("asperities", "curvature", {"geometric", "algebraic"},
+               "mean of the principal curvatures that gives an asperity its radius", RSC_CHOICE(asperities.curvature)),
+        one_of("asperities", "law", {"hertz", "elliptic", "fourth_order"},
+               "what an asperity is: a sphere on a grid point (the paper's), or at the summit between the points an elliptic "
+               "paraboloid, or one flattened as the summit is; the latter two count once what elliptic spots share",
+               RSC_CHOICE(asperities.law)),
+
+        one_of("indentation", "control", {"separation", "force"}, "what start, stop and levels are",
+               RSC_CHOICE(indentation.control)),
+        scalar("indentation", "start", real, "`unit`", kAny, "first level", RSC_SLOT(indentation.start)),
+        scalar("indentation", "stop", real, "`unit`", kAny, "last level", RSC_SLOT(indentation.stop)),
+        scalar("indentation", "steps", integer, "1", between(1, 1e6), "number of levels, both ends included",
+               RSC_SLOT(indentation.steps)),
+        one_of("indentation", "unit", {"sigma", "length"}, "unit of the levels; with force control they are forces",
+               RSC_CHOICE(indentation.unit)),
+        one_of("indentation", "spacing", {"linear", "log"}, "spacing of the levels", RSC_CHOICE(indentation.spacing)),
+        list("indentation", "levels", 10000, "`unit`", "start, stop and steps give the levels",
+             "explicit levels instead of start, stop and steps", RSC_SLOT(indentation.levels)),
+        optional("indentation", "centre", 2, kAny, "the middle of the surface", "x and y of the sphere's tip",
+                 RSC_FIRST(indentation.centre)),
+        one_of("indentation", "selection", {"overlap", "paper"},
+               "asperities the solver is given: all that can touch, or those within selection_factor of the paper's radius",
+               RSC_CHOICE(indentation.selection)),
+        scalar("indentation", "selection_factor", real, "1", kPositive, "factor of selection = 'paper'",
+               RSC_SLOT(indentation.selection_factor)),
+
+        one_of("solver", "method", {"auto", "dgesv", "direct", "mesh"},
+               "dgesv: the paper's method; direct and mesh: matrix-free, by pairs or by transforms", RSC_CHOICE(solver.method)),
+        scalar("solver", "tolerance", real, "1", between(1e-14, 0.1),
+               "relative residual of F - C<G0 - B F>^(3/2); for dgesv also on |dF|/|F|", RSC_SLOT(solver.tolerance)),
+        scalar("solver", "max_iterations", integer, "1", between(1, 1e6), "Newton steps at a level",
+               RSC_SLOT(solver.max_iterations)),
+        scalar("solver", "delta0", real, "sigma", above(0, 1e3), "first regularisation of the paper's method",
+               RSC_SLOT(solver.delta0)),
+        one_of("solver", "interaction", {"point", "hertz", "none"},
+               "how an asperity lowers the surface elsewhere: as a point force, as a Hertz spot, or not",
+               RSC_CHOICE(solver.interaction)),
+
+        text("output", "file", 4096, "the result file", RSC_SLOT(output.file)),
+        one_of("output", "format", {"netcdf4", "cdf5", "classic"}, "format of the result file", RSC_CHOICE(output.format)),
+        one_of("output", "contacts", {"auto", "none", "last", "all"},
+               "levels whose contacts are written; auto: all for one realization, none for a campaign",
+               RSC_CHOICE(output.contacts)),
+        scalar("output", "heights", logical, "", kAny, "write the height map, too", RSC_SLOT(output.heights)),
+        scalar("output", "map_cells", integer, "1", between(1, 4096), "cells along a side of the coarse maps",
+               RSC_SLOT(output.map_cells)),
+        scalar("output", "radial_bins", integer, "1", between(1, 100000), "points of the radial means",
+               RSC_SLOT(output.radial_bins)),
+        list("output", "pdf_levels", 100, "sigma", "",
+             "separations whose distributions are written: the nearest level run to each", RSC_SLOT(output.pdf_levels)),
+        scalar("output", "pdf_bins", integer, "1", between(1, 100000), "bins of the distributions", RSC_SLOT(output.pdf_bins)),
+        scalar("output", "compression", integer, "1", between(0, 9), "deflate level of netcdf4", RSC_SLOT(output.compression)),
+    };
+}
+
+#undef RSC_SLOT
+#undef RSC_FIRST
+#undef RSC_CHOICE
+
+constexpr std::pair<const char*, const char*> kGroups[] = {
+    {"run", "the run as a whole"},
+    {"solids", "the two bodies: body 1 is rough and deforms, body 2 is the sphere"},
+    {"surface", "the rough surface"},
+    {"asperities", "what becomes of its summits"},
+    {"indentation", "the levels of the indentation"},
+    {"solver", "how the contact problem is solved"},
+    {"output", "the result file"},
+    {"study", "lists of values for any keys, a run for each: surface%sigma = 0.001, 0.01  mode = 'product' ('zip')"},
+};
+
+}  // namespace
+
+const bool kCampaignsAvailable = true;
+const bool kStudiesAvailable = true;
+
+std::span<const Unavailable> unavailable() { return kUnavailable; }
+
+std::span<const Key> registry() {
+    static const std::vector<Key> keys = make_registry();
+    return keys;
+}
+
+const std::vector<std::string_view>& group_names() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> result;
+        for (const auto& [name, meaning] : kGroups) result.push_back(name);
+        return result;
+    }();
+    return names;
+}
+
+const char* group_meaning(std::string_view group) {
+    for (const auto& [name, meaning] : kGroups)
+        if (group == name) return meaning;
+    return nullptr;
+}
+
+const Key* find_key(std::string_view group, std::string_view name) {
+    const std::string g = namelist::lower_case(group), n = namelist::lower_case(name);
+    for (const Key& key : registry())
+        if (g == key.group && n == namelist::lower_case(key.name)) return &key;
+    return nullptr;
+}
+
+std::string suggest_key(std::string_view group, std::string_view name) {
+    std::vector<std::string_view> here;
+    for (const Key& key : registry())
+        if (namelist::lower_case(group) == key.group) here.push_back(key.name);
+    for (const Key& key : registry())
+        if (find_key(key.group, name)) return "; '" + std::string(name) + "' belongs to &" + find_key(key.group, name)->group;
+    const std::string_view near = namelist::nearest(name, here);
+    return near.empty() ? "" : "; did you mean '" + std::string(near) + "'?";
+}
+
+bool Bounds::hold(double value) const {
+    if (std::isnan(value) || (std::isinf(value) && !infinity)) return false;
+    return (open ? value > low : value >= low) && value <= high;
+}
+
+std::string Bounds::text() const {
+    const auto number = [](double value) {
+        if (value == std::floor(value) && std::abs(value) < 1e15) return std::to_string(static_cast<long long>(value));
+        return namelist::from_real(value);
+    };
+    std::string result;
+    if (std::isfinite(low) && std::isfinite(high))
+        result = (open ? "> " + number(low) + " and <= " : number(low) + " to ") + number(high);
+    else if (std::isfinite(low))
+        result = (open ? "> " : ">= ") + number(low);
+    else if (std::isfinite(high))
+        result = "<= " + number(high);
+    if (infinity) result += " (Infinity allowed)";
+    return result;
+}
+
+}  // namespace rsc

@@ -1,0 +1,201 @@
+// What a case must be, key by key and as a whole.
+#include <algorithm>
+#include <cmath>
+
+#include "error.hpp"
+#include "rough/magnitude.hpp"
+#include "case/namelist_value.hpp"
+#include "case/registry.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kMostMapValues = 1e9;    // of one map variable: 8 GB
+constexpr double kMostLevelValues = 1e9;  // realizations x levels
+
+class Checker {
+public:
+    explicit Checker(const Case& settings) : c_(settings) {}
+
+    std::vector<Problem> check() {
+        for (const Key& key : registry()) check_key(key);
+        check_available();
+        check_solids();
+        check_surface();
+        check_levels();
+        check_sizes();
+        return std::move(problems_);
+    }
+
+private:
+    void complain(std::vector<const char*> names, std::string text) {
+        Problem problem{{}, 0, std::move(text)};
+        for (const std::string_view name : names) {
+            const std::size_t percent = name.find('%');
+            problem.keys.push_back(find_key(name.substr(0, percent), name.substr(percent + 1)));
+        }
+        problems_.push_back(std::move(problem));
+    }
+
+    void check_key(const Key& key) {
+        // A slot is a way to write, too; here it only reads.
+        const Slot slot = key.slot(const_cast<Case&>(c_));
+        const auto number = [&](double value, long element) {
+            const bool overflows = std::isfinite(value) && !usable(value);
+            const bool vanishes = value > 0 && key.bounds.low == 0 && key.bounds.open && !usable_positive(value) && std::isfinite(value);
+            if (key.bounds.hold(value) && !overflows && !vanishes) return;
+            const std::string bounds = overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
+            problems_.push_back({{&key},
+                                 element,
+                                 std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") + " = " +
+                                     shown(value, key.type) + ": must be " + (bounds.empty() ? "finite" : bounds)});
+        };
+        const long size = key.size;
+        for (long i = 0; i < size; ++i) {
+            const long element = size > 1 ? i + 1 : 0;
+            if (auto* n = std::get_if<int*>(&slot))
+                number((*n)[i], element);
+            else if (auto* x = std::get_if<double*>(&slot))
+                number((*x)[i], element);
+            else if (auto* o = std::get_if<std::optional<double>*>(&slot)) {
+                if ((*o)[i]) number(*(*o)[i], element);
+            } else
+                break;
+        }
+        if (auto* v = std::get_if<std::vector<double>*>(&slot)) {
+            const std::vector<double>& list = **v;
+            if (list.size() > static_cast<std::size_t>(key.size))
+                problems_.push_back({{&key}, 0, std::string(key.name) + ": at most " + std::to_string(key.size) + " values"});
+            if (list.empty() && !*key.unset) problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
+            for (std::size_t i = 0; i < list.size() && i < static_cast<std::size_t>(key.size); ++i)
+                number(list[i], static_cast<long>(i + 1));
+        }
+        if (auto* s = std::get_if<std::string*>(&slot)) check_text(key, **s);
+    }
+
+    // What the effective namelist could not give back is refused.
+    void check_text(const Key& key, const std::string& text) {
+        const auto control = [](char c) { return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127; };
+        std::string wrong;
+        if (std::any_of(text.begin(), text.end(), control))
+            wrong = "control characters are not allowed";
+        else if (text.size() > static_cast<std::size_t>(key.length))
+            wrong = "at most " + std::to_string(key.length) + " characters";
+        else if (!text.empty() && text.back() == ' ')
+            wrong = "blanks at the end are not allowed";
+        if (!wrong.empty()) problems_.push_back({{&key}, 0, std::string(key.name) + ": " + wrong});
+    }
+
+    static std::string shown(double value, Type type) {
+        if (type == Type::integer) return std::to_string(static_cast<long long>(value));
+        return namelist::from_real(value);
+    }
+
+    void check_available() {
+        for (const Unavailable& u : unavailable()) {
+            const Key& key = *find_key(u.group, u.name);
+            const ChoiceSlot chosen = std::get<ChoiceSlot>(key.slot(const_cast<Case&>(c_)));
+            if (std::string_view(u.choice) == key.choices.at(static_cast<std::size_t>(chosen.get(chosen.object))))
+                problems_.push_back({{&key}, 0, std::string(u.name) + " = '" + u.choice + "' is not available yet"});
+        }
+        if (c_.run.realizations > 1 && !kCampaignsAvailable)
+            complain({"run%realizations"},
+                     "realizations = " + std::to_string(c_.run.realizations) + " is not available yet: only 1 is");
+    }
+
+    void check_solids() {
+        if (std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
+            complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform, one at most may be rigid");
+    }
+
+    void check_surface() {
+        const Case::Surface& s = c_.surface;
+        if (s.source != Source::synthetic) {
+            if (s.file.empty())
+                complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
+            if (c_.run.realizations > 1 && kCampaignsAvailable)
+                complain({"run%realizations", "surface%source"}, "realizations: a surface that is read is one realization");
+            return;
+        }
+        if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
+        if (!(s.L_lambda_s > s.L_lambda_l))
+            complain({"surface%L_lambda_s", "surface%L_lambda_l"},
+                     "L_lambda_s = " + namelist::from_real(s.L_lambda_s) +
+                         ": must be larger than L_lambda_l = " + namelist::from_real(s.L_lambda_l));
+        if (!(s.n > 2 * s.L_lambda_s))
+            complain({"surface%n", "surface%L_lambda_s"}, "n = " + std::to_string(s.n) + ": must be larger than 2 L_lambda_s = " +
+                                                              namelist::from_real(2 * s.L_lambda_s) +
+                                                              " for the grid to carry the shortest wavelength");
+        const double L = s.L.value_or(1.0);
+        for (const std::optional<double>& x : c_.indentation.centre)
+            if (x && (*x < 0 || *x > L)) {
+                complain({"indentation%centre", "surface%L"},
+                         "centre = " + get_key(c_, "indentation%centre") +
+                             ": must lie on the surface, 0 to L = " + namelist::from_real(L));
+                break;
+            }
+    }
+
+    void check_levels() {
+        const Case::Indentation& i = c_.indentation;
+        const bool explicit_levels = !i.levels.empty();
+        const auto positive = [&](const char* why) {
+            if (explicit_levels) {
+                if (std::any_of(i.levels.begin(), i.levels.end(), [](double x) { return !(x > 0); }))
+                    complain({"indentation%levels", "indentation%control"}, std::string("levels: must be positive ") + why);
+                return;
+            }
+            if (!(i.start > 0))
+                complain({"indentation%start", "indentation%spacing"},
+                         "start = " + namelist::from_real(i.start) + ": must be positive " + why);
+            if (!(i.stop > 0))
+                complain({"indentation%stop", "indentation%spacing"},
+                         "stop = " + namelist::from_real(i.stop) + ": must be positive " + why);
+        };
+        if (i.control == Control::force)
+            positive("with control = 'force'");
+        else if (!explicit_levels && i.spacing == Spacing::log)
+            positive("with spacing = 'log'");
+    }
+
+    void check_sizes() {
+        const double levels =
+            c_.indentation.levels.empty() ? c_.indentation.steps : static_cast<double>(c_.indentation.levels.size());
+        const double cells = c_.output.map_cells;
+        const char* by = c_.indentation.levels.empty() ? "indentation%steps" : "indentation%levels";
+        if (levels * cells * cells > kMostMapValues)
+            complain({"output%map_cells", by}, "map_cells = " + std::to_string(c_.output.map_cells) + ": the maps of " +
+                                                   count(levels) + " levels would hold more than " + count(kMostMapValues) +
+                                                   " values");
+        if (levels * c_.output.radial_bins > kMostMapValues)
+            complain({"output%radial_bins", by}, "radial_bins = " + std::to_string(c_.output.radial_bins) +
+                                                     ": the radial means of " + count(levels) + " levels would hold more than " +
+                                                     count(kMostMapValues) + " values");
+        if (levels * c_.run.realizations > kMostLevelValues)
+            complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " +
+                                                   count(levels) + " levels more than " + count(kMostLevelValues) +
+                                                   " values of each curve");
+        if (double(c_.run.first_realization) + c_.run.realizations - 1 > 2147483647.0)
+            complain({"run%first_realization", "run%realizations"},
+                     "first_realization: the last realization would be beyond 2147483647");
+        if (c_.output.file.empty()) complain({"output%file"}, "file: must not be empty");
+    }
+
+    static std::string count(double n) { return std::to_string(static_cast<long long>(n)); }
+
+    const Case& c_;
+    std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> check_case(const Case& settings) { return Checker(settings).check(); }
+
+void require_valid(const Case& settings) {
+    std::string text;
+    for (const Problem& problem : check_case(settings))
+        text += (text.empty() ? "&" : "\n&") + std::string(problem.keys.front()->group) + ": " + problem.text;
+    if (!text.empty()) throw Error(Failure::bad_input, text);
+}
+
+}  // namespace rsc

@@ -1,0 +1,127 @@
+// The registry as text: the effective namelist and --describe.
+#include <algorithm>
+#include <sstream>
+
+#include "error.hpp"
+#include "case/registry.hpp"
+
+namespace rsc {
+namespace {
+
+std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.resize(width, ' ');
+    return text;
+}
+
+std::string full_name(const Key& key) { return std::string(key.group) + "%" + key.name; }
+
+const char* type_name(Type type) {
+    switch (type) {
+        case Type::logical:
+            return "logical";
+        case Type::integer:
+            return "integer";
+        case Type::long_integer:
+            return "integer (64 bits)";
+        case Type::real:
+            return "real";
+        case Type::string:
+            return "text";
+        case Type::choice:
+            return "choice";
+    }
+    return "";
+}
+
+bool is_unavailable(const Key& key, std::string_view choice) {
+    return std::any_of(unavailable().begin(), unavailable().end(), [&](const Unavailable& u) {
+        return std::string_view(u.group) == key.group && std::string_view(u.name) == key.name && choice == u.choice;
+    });
+}
+
+void describe_key(std::ostream& out, const Key& key) {
+    static const Case defaults;
+    out << "  " << key.name;
+    if (key.list)
+        out << "(1 to " << key.size << " values)";
+    else if (key.size > 1)
+        out << "(" << key.size << ")";
+    const std::string value = get_key(defaults, full_name(key));
+    out << " = " << (value.empty() ? "(unset: " + std::string(key.unset) + ")" : value) << "\n      " << type_name(key.type);
+    if (key.type == Type::string) out << " of at most " << key.length << " characters";
+    if (*key.unit) out << ", unit " << key.unit;
+    const std::string bounds = key.bounds.text();
+    if (!bounds.empty()) out << ", " << bounds;
+    for (std::size_t i = 0; i < key.choices.size(); ++i) {
+        out << (i == 0 ? ": " : ", ") << "'" << key.choices[i] << "'";
+        if (is_unavailable(key, key.choices[i])) out << " (not available yet)";
+    }
+    out << "\n      " << key.meaning << "\n";
+}
+
+void describe_group(std::ostream& out, std::string_view group) {
+    out << "&" << group << ": " << group_meaning(group) << "\n";
+    for (const Key& key : registry())
+        if (group == key.group) describe_key(out, key);
+    if (group == "study") {
+        out << "  group%key = value, value, ...   for any key of any group; an element of an array by its subscript: "
+               "solids%R(2)\n"
+               "  mode = 'product'\n      choice: 'product' (every combination, the first key slowest), 'zip' (the lists side by "
+               "side)\n";
+    }
+}
+
+}  // namespace
+
+std::string effective_namelist(const Case& settings) {
+    std::string text;
+    for (const std::string_view group : group_names()) {
+        if (group == "study") continue;
+        text += "&" + std::string(group) + "\n";
+        for (const Key& key : registry()) {
+            if (group != key.group) continue;
+            const std::string value = get_key(settings, full_name(key));
+            std::string line = "  " + padded(key.name, 17) + " = ";
+            if (value.empty())
+                line += ",  ! unset: " + std::string(key.unset);
+            else
+                line += value;
+            text += line + "\n";
+        }
+        text += "/\n";
+    }
+    return text;
+}
+
+std::string describe(std::string_view name) {
+    std::ostringstream out;
+    if (name.starts_with('&')) name.remove_prefix(1);
+    if (name.empty()) {
+        for (const std::string_view group : group_names()) {
+            if (group != group_names().front()) out << "\n";
+            describe_group(out, group);
+        }
+        return out.str();
+    }
+    const std::size_t percent = name.find('%');
+    const std::string group = namelist::lower_case(name.substr(0, percent));
+    if (!group_meaning(group)) {
+        const std::string_view near = namelist::nearest(group, group_names());
+        throw Error(Failure::bad_input,
+                    "unknown group '" + group + "'" + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+    }
+    if (percent == std::string_view::npos) {
+        describe_group(out, group);
+        return out.str();
+    }
+    const std::string_view key_name = name.substr(percent + 1);
+    const Key* key = find_key(group, key_name);
+    if (!key)
+        throw Error(Failure::bad_input,
+                    "&" + group + ": unknown key '" + std::string(key_name) + "'" + suggest_key(group, key_name));
+    out << "&" << group << "\n";
+    describe_key(out, *key);
+    return out.str();
+}
+
+}  // namespace rsc

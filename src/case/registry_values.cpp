@@ -1,0 +1,349 @@
+// Values by name: what an assignment of a namelist does to a Case, and the way back.
+#include <algorithm>
+#include <limits>
+
+#include "error.hpp"
+#include "case/namelist_value.hpp"
+#include "case/registry.hpp"
+
+namespace rsc {
+namespace {
+
+using namelist::Assignment;
+using namelist::Fault;
+using namelist::Item;
+
+// Elements an assignment goes through, 1-based: first, first + step, ... count of them.
+struct Walk {
+    long first = 1, step = 1, count = 1;
+};
+
+std::string list_choices(const Key& key) {
+    std::string text;
+    for (const char* choice : key.choices) text += (text.empty() ? "'" : ", '") + std::string(choice) + "'";
+    return text;
+}
+
+std::string quote(const Item& item) {
+    const std::string shown = item.text.size() > 60 ? item.text.substr(0, 60) + "..." : item.text;
+    return item.quoted ? namelist::from_string(shown) : "'" + shown + "'";
+}
+
+// Trailing blanks mean nothing to a Fortran character variable.
+std::string trimmed(std::string text) {
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
+// The elements a subscript means, or what is wrong with it. A lone (i) goes on to the end of the array, as in gfortran.
+std::string resolve(const Assignment& a, long size, Walk& walk, const std::string& what) {
+    const namelist::Subscript& s = *a.subscript;
+    const long first = s.first.value_or(1);
+    const long last = s.section ? s.last.value_or(size) : size;
+    const auto outside = [&](long i) { return i < 1 || i > size; };
+    if (outside(first) || outside(last)) return "the subscript of " + what + " must be within 1 to " + std::to_string(size);
+    if ((last - first) * s.step < 0) return "the subscript of " + what + " runs the wrong way";
+    walk = {first, s.step, (last - first) / s.step + 1};
+    return {};
+}
+
+template <class Slots, class Number>
+bool put(Slots& slot, long element, Number value) {
+    const auto i = element - 1;
+    if (auto* p = std::get_if<int*>(&slot))
+        (*p)[i] = static_cast<int>(value);
+    else if (auto* q = std::get_if<std::int64_t*>(&slot))
+        (*q)[i] = static_cast<std::int64_t>(value);
+    else if (auto* r = std::get_if<double*>(&slot))
+        (*r)[i] = static_cast<double>(value);
+    else if (auto* o = std::get_if<std::optional<double>*>(&slot))
+        (*o)[i] = static_cast<double>(value);
+    else
+        return false;
+    return true;
+}
+
+// Converts and stores one value; returns what is wrong with it.
+std::string store(Slot slot, const Key& key, long element, const Item& item, Ledger::Entry& entry) {
+    switch (key.type) {
+        case Type::logical: {
+            const auto value = item.quoted ? std::nullopt : namelist::to_logical(item.text);
+            if (!value) return "expected .true. or .false., found " + quote(item);
+            *std::get<bool*>(slot) = *value;
+            return {};
+        }
+        case Type::integer:
+        case Type::long_integer: {
+            const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
+            const bool small = key.type == Type::integer;
+            if (!value || (small && (*value > std::numeric_limits<int>::max() || *value < std::numeric_limits<int>::min()))) {
+                const bool digits =
+                    !item.quoted && item.text.find_first_not_of("+-0123456789") == std::string::npos && item.text.size() > 5;
+                return digits ? quote(item) + " is not an integer of " + (small ? "32" : "64") + " bits"
+                              : "expected an integer, found " + quote(item);
+            }
+            put(slot, element, *value);
+            return {};
+        }
+        case Type::real: {
+            const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
+            if (!value) return "expected a real number, found " + quote(item);
+            if (!key.list) {
+                put(slot, element, *value);
+                return {};
+            }
+            const auto i = static_cast<std::size_t>(element);
+            if (entry.values.size() < i) entry.values.resize(i);
+            entry.values[i - 1] = *value;
+            return {};
+        }
+        case Type::string:
+        case Type::choice:
+            break;
+    }
+    // gfortran takes a text without quotes when a digit or a repeat count comes first.
+    if (!item.quoted && (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
+        return "a text must stand in quotes, found " + quote(item);
+    std::string text = trimmed(item.text);
+    if (static_cast<long>(text.size()) > key.length) return "a text of more than " + std::to_string(key.length) + " characters";
+    if (key.type == Type::string) {
+        *std::get<std::string*>(slot) = std::move(text);
+        return {};
+    }
+    const std::string word = namelist::lower_case(text);
+    const auto found = std::find_if(key.choices.begin(), key.choices.end(), [&](const char* c) { return word == c; });
+    if (found == key.choices.end()) {
+        const std::string_view near = namelist::nearest(word, {key.choices.begin(), key.choices.end()});
+        return quote(item) + " is none of " + list_choices(key) +
+               (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
+    }
+    const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
+    choice.set(choice.object, static_cast<int>(found - key.choices.begin()));
+    return {};
+}
+
+// title(3:5) = 'abc': characters of the text there is, blanks where there was none.
+std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item item, Ledger::Entry& entry) {
+    std::string* text = std::get_if<std::string*>(&slot) ? std::get<std::string*>(slot) : nullptr;
+    if (!text) return "a choice has no substring";
+    const auto first = static_cast<std::size_t>(walk.first - 1), count = static_cast<std::size_t>(walk.count);
+    std::string part;
+    Key whole = key;
+    whole.slot = nullptr;
+    Slot part_slot = &part;
+    item.text = item.text.substr(0, count);
+    if (std::string problem = store(part_slot, whole, 1, item, entry); !problem.empty()) return problem;
+    part.resize(count, ' ');
+    if (text->size() < first + count) text->resize(first + count, ' ');
+    *text = trimmed(text->replace(first, count, part));
+    return {};
+}
+
+std::string at_line(const namelist::Position& at) { return at.line > 0 ? " at line " + std::to_string(at.line) : ""; }
+
+}  // namespace
+
+Ledger::Entry& Ledger::entry(const Key& key) {
+    for (Entry& e : entries_)
+        if (e.key == &key) return e;
+    entries_.push_back({});
+    entries_.back().key = &key;
+    return entries_.back();
+}
+
+const Ledger::Entry* Ledger::find(const Key& key) const {
+    for (const Entry& e : entries_)
+        if (e.key == &key) return &e;
+    return nullptr;
+}
+
+void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger, std::vector<Fault>& faults) {
+    Ledger::Entry& entry = ledger.entry(key);
+    if (entry.at.line == 0) entry.at = a.at;
+    const std::string context = "&" + std::string(key.group) + ": " + key.name + ": ";
+    const auto fault = [&](const namelist::Position& at, const std::string& text) {
+        faults.push_back({at, context + text});
+        entry.faulty = true;
+    };
+    const bool is_text = key.type == Type::string || key.type == Type::choice;
+    Walk walk{1, 1, key.size};
+    if (a.subscript) {
+        std::string problem;
+        if (is_text) {
+            if (!a.subscript->section)
+                problem = "a part of a text is (first:last)";
+            else
+                problem = resolve(a, key.length, walk, "the text");
+            if (problem.empty() && walk.step != 1) problem = "a part of a text has no step";
+        } else if (key.size == 1) {
+            problem = "this key is no array: it takes no subscript";
+        } else {
+            problem = resolve(a, key.size, walk, "this key");
+        }
+        if (!problem.empty()) return fault(a.subscript->at, problem);
+    } else {
+        entry.whole = true;
+    }
+
+    // Elements are marked given when a value, not a null, is stored in them; a text is its characters.
+    const long elements = is_text ? 1 : walk.count;
+    const long before = static_cast<long>(entry.given.size());
+    const auto mark = [&](long first, long count, const namelist::Position& at) {
+        if (entry.faulty) return;  // one complaint about a key given many times is enough
+        for (const auto& [element, where] : std::span(entry.given).first(static_cast<std::size_t>(before)))
+            if (element >= first && element < first + count) {
+                fault(at, "given twice, first" + at_line(where));
+                break;
+            }
+        if (is_text) {
+            for (long i = 0; i < count; ++i) entry.given.push_back({first + i, at});
+        } else {
+            entry.given.push_back({first, at});
+        }
+    };
+    const Slot slot = key.slot(settings);
+    long done = 0;
+    for (const Item& item : a.items) {
+        const long left = elements - done;
+        if (item.null && !item.counted) {
+            done += std::min(left, item.repeat);
+            continue;
+        }
+        if (left == 0 || item.repeat > left) {
+            const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
+            return fault(item.at, item.counted ? "the repeat count is too large: " + room + " at most"
+                                               : "too many values: " + room + " at most, found " + quote(item));
+        }
+        if (!item.null) {
+            for (long k = 0; k < item.repeat; ++k) {
+                const long element = walk.first + (done + k) * walk.step;
+                const std::string problem = is_text && a.subscript ? store_substring(slot, key, walk, item, entry)
+                                                                   : store(slot, key, element, item, entry);
+                if (!problem.empty()) {
+                    fault(item.at, problem);
+                    break;
+                }
+                mark(is_text ? walk.first : element, is_text ? (a.subscript ? walk.count : key.length) : 1, item.at);
+            }
+        }
+        done += item.repeat;
+    }
+}
+
+void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
+    for (Ledger::Entry& entry : ledger.entries()) {
+        if (!entry.key->list || entry.values.empty() || entry.faulty) continue;
+        std::vector<double>& list = *std::get<std::vector<double>*>(entry.key->slot(settings));
+        const std::vector<double> old = list;
+        std::vector<double> next;
+        const std::size_t size = entry.whole ? entry.values.size() : std::max(entry.values.size(), old.size());
+        for (std::size_t i = 0; i < size; ++i) {
+            const bool given = i < entry.values.size() && entry.values[i];
+            if (!given && i >= old.size()) {
+                faults.push_back({entry.at, "&" + std::string(entry.key->group) + ": " + entry.key->name + ": element " +
+                                                std::to_string(i + 1) + " has no value"});
+                entry.faulty = true;
+                break;
+            }
+            next.push_back(given ? *entry.values[i] : old[i]);
+        }
+        if (!entry.faulty) list = std::move(next);
+    }
+}
+
+namespace {
+
+// "group%key(2)" apart: the key and the assignment `key(2) = value`.
+struct Named {
+    const Key* key;
+    Assignment assignment;
+};
+
+Named named(std::string_view name, std::string_view value) {
+    const std::size_t percent = name.find('%');
+    if (percent == std::string_view::npos)
+        throw Error(Failure::bad_input, "expected group%key, found '" + std::string(name) + "'");
+    const auto strip = [](std::string_view s) {
+        while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
+        while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
+        return s;
+    };
+    const std::string_view group = strip(name.substr(0, percent)), rest = strip(name.substr(percent + 1));
+    if (!group_meaning(namelist::lower_case(group))) {
+        const std::string_view near = namelist::nearest(group, group_names());
+        throw Error(Failure::bad_input, "unknown group '" + std::string(group) + "'" +
+                                            (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+    }
+    const std::string_view bare = strip(rest.substr(0, rest.find('(')));
+    const Key* key = find_key(group, bare);
+    if (!key) throw Error(Failure::bad_input, "unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
+    const namelist::Document document = namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
+    if (!document.faults.empty()) throw Error(Failure::bad_input, document.faults.front().text);
+    const std::vector<Assignment>& assignments = document.groups.front().assignments;
+    if (assignments.size() != 1) throw Error(Failure::bad_input, "expected one value for one key");
+    return {key, assignments.front()};
+}
+
+std::string element_text(const Key& key, const Slot& slot, long element) {
+    const auto i = static_cast<std::size_t>(element - 1);
+    if (auto* b = std::get_if<bool*>(&slot)) return namelist::from_logical(**b);
+    if (auto* n = std::get_if<int*>(&slot)) return std::to_string((*n)[i]);
+    if (auto* n = std::get_if<std::int64_t*>(&slot)) return std::to_string((*n)[i]);
+    if (auto* x = std::get_if<double*>(&slot)) return namelist::from_real((*x)[i]);
+    if (auto* o = std::get_if<std::optional<double>*>(&slot)) return (*o)[i] ? namelist::from_real(*(*o)[i]) : "";
+    if (auto* s = std::get_if<std::string*>(&slot)) return namelist::from_string(**s);
+    if (auto* v = std::get_if<std::vector<double>*>(&slot)) return i < (*v)->size() ? namelist::from_real((**v)[i]) : "";
+    const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
+    return namelist::from_string(key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
+}
+
+// check_case's part for one key.
+std::string out_of_bounds(Case& settings, const Key& key) {
+    for (const Problem& problem : check_case(settings))
+        if (problem.keys.size() == 1 && problem.keys.front() == &key) return problem.text;
+    return {};
+}
+
+}  // namespace
+
+void set_key(Case& settings, std::string_view name, std::string_view value) {
+    const auto [key, assignment] = named(name, value);
+    Case changed = settings;
+    Ledger ledger;
+    std::vector<Fault> faults;
+    assign(changed, *key, assignment, ledger, faults);
+    finish_lists(changed, ledger, faults);
+    if (!faults.empty()) {
+        // The group is in the name already.
+        const std::string context = "&" + std::string(key->group) + ": ";
+        const std::string& text = faults.front().text;
+        throw Error(Failure::bad_input, text.starts_with(context) ? text.substr(context.size()) : text);
+    }
+    if (const std::string problem = out_of_bounds(changed, *key); !problem.empty()) throw Error(Failure::bad_input, problem);
+    settings = std::move(changed);
+}
+
+std::string get_key(const Case& settings, std::string_view name) {
+    const auto [key, assignment] = named(name, "");
+    // A slot is a way to write, too; here it only reads.
+    const Slot slot = key->slot(const_cast<Case&>(settings));
+    long size = key->size;
+    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = static_cast<long>((*list)->size());
+    Walk walk{1, 1, size};
+    if (assignment.subscript) {
+        if (key->size == 1) throw Error(Failure::bad_input, std::string(key->name) + " is no array: it takes no subscript");
+        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty())
+            throw Error(Failure::bad_input, problem);
+        if (!assignment.subscript->section) walk.count = 1;
+    }
+    std::string text;
+    bool any = false;
+    for (long k = 0; k < walk.count; ++k) {
+        const std::string element = element_text(*key, slot, walk.first + k * walk.step);
+        text += (k > 0 ? ", " : "") + element;
+        any = any || !element.empty();
+    }
+    return any ? text : "";
+}
+
+}  // namespace rsc

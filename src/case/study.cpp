@@ -1,0 +1,197 @@
+#include "case/study.hpp"
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "case/namelist_value.hpp"
+#include "case/registry.hpp"
+
+namespace rsc {
+namespace {
+
+using namelist::Fault;
+
+// "solids%r" with subscript (2) -> "solids%R(2)"; empty and a fault when there is no such thing.
+std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) {
+    const auto fault = [&](const std::string& text) {
+        faults.push_back({a.at, "&study: " + text});
+        return std::string();
+    };
+    const std::size_t percent = a.key.find('%');
+    if (percent == std::string::npos) return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
+    const std::string group = a.key.substr(0, percent), name = a.key.substr(percent + 1);
+    if (group == "study" || !group_meaning(group)) {
+        const std::string_view near = namelist::nearest(group, group_names());
+        return fault("unknown group '" + group + "' in '" + a.key + "'" +
+                     (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+    }
+    const Key* key = find_key(group, name);
+    if (!key) return fault("unknown key '" + a.key + "'" + suggest_key(group, name));
+    const std::string full = group + "%" + key->name;
+    const bool array = key->size > 1;
+    if (!a.subscript) return array ? fault(full + " is an array: vary one element of it, as in " + full + "(1) = ...") : full;
+    if (!array) return fault(full + " is no array: it takes no subscript");
+    if (a.subscript->section || !a.subscript->first) return fault(full + ": vary one element of it, as in " + full + "(1) = ...");
+    return full + "(" + std::to_string(*a.subscript->first) + ")";
+}
+
+std::string join(const std::vector<std::pair<std::string, std::string>>& values) {
+    std::string text;
+    for (const auto& [key, value] : values) text += (text.empty() ? "" : " ") + key + "=" + value;
+    return text;
+}
+
+void set_file(Member& member, std::size_t members) {
+    member.settings.output.file = member_file(member.settings.output.file, member.index, members);
+}
+
+std::size_t member_count(const Study& study) {
+    if (study.mode == StudyMode::zip) return study.axes.front().values.size();
+    std::size_t count = 1;
+    for (const Study::Axis& axis : study.axes) count = std::min(count * axis.values.size(), kMostMembers + 1);
+    return count;
+}
+
+}  // namespace
+
+Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
+    Study study;
+    study.at = group.at;
+    bool mode_given = false;
+    for (const namelist::Assignment& a : group.assignments) {
+        if (faults.size() >= namelist::kMostFaults) break;
+        const auto fault = [&](const namelist::Position& at, const std::string& text) {
+            faults.push_back({at, "&study: " + text});
+        };
+        if (a.key == "mode") {
+            if (mode_given) fault(a.at, "mode: given twice");
+            mode_given = true;
+            std::size_t given = a.items.size();
+            while (given > 1 && a.items[given - 1].null && !a.items[given - 1].counted) --given;  // the end of a line before '/'
+            const std::string word = given == 1 && a.items[0].quoted && !a.subscript ? namelist::lower_case(a.items[0].text) : "";
+            if (word == "product")
+                study.mode = StudyMode::product;
+            else if (word == "zip")
+                study.mode = StudyMode::zip;
+            else
+                fault(a.at, "mode: must be 'product' or 'zip'");
+            continue;
+        }
+        Study::Axis axis;
+        axis.at = a.at;
+        axis.key = axis_key(a, faults);
+        if (axis.key.empty()) continue;
+        const bool twice =
+            std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& other) { return other.key == axis.key; });
+        if (twice) {
+            fault(a.at, axis.key + ": given twice");
+            continue;
+        }
+        for (std::size_t i = 0; i < a.items.size(); ++i) {
+            const namelist::Item& item = a.items[i];
+            if (item.null && !item.counted && i + 1 == a.items.size()) break;  // a comma after the last value
+            if (item.null) {
+                fault(item.at, axis.key + ": a value is missing");
+                break;
+            }
+            if (axis.values.size() + static_cast<std::size_t>(item.repeat) > kMostMembers) {
+                fault(item.at, axis.key + ": more than " + std::to_string(kMostMembers) + " values");
+                break;
+            }
+            const std::string value = item.quoted ? namelist::from_string(item.text) : item.text;
+            axis.values.insert(axis.values.end(), static_cast<std::size_t>(item.repeat), value);
+            axis.places.insert(axis.places.end(), static_cast<std::size_t>(item.repeat), item.at);
+        }
+        if (axis.values.empty())
+            fault(a.at, axis.key + ": no values");
+        else
+            study.axes.push_back(std::move(axis));
+    }
+    if (study.axes.empty() && faults.empty()) faults.push_back({group.at, "&study: no lists of values"});
+    return study;
+}
+
+std::vector<Fault> check_study(const Case& base, const Study& study) {
+    std::vector<Fault> faults;
+    if (study.axes.empty()) return {{study.at, "&study: no lists of values"}};
+    // Every member holds a copy of the list of levels: little text could ask for much memory.
+    const std::size_t held = member_count(study) * base.indentation.levels.size();
+    if (held > kMostLevels)
+        return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
+                               std::to_string(base.indentation.levels.size()) + " explicit levels each: more than " +
+                               std::to_string(kMostLevels) + " levels in all; indentation%start, stop and steps need no room"}};
+    for (const Study::Axis& axis : study.axes)
+        for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults; ++i) {
+            if (i > 0 && axis.values[i] == axis.values[i - 1]) continue;  // 10000*0.1 is tried once, and told once
+            Case trial = base;
+            try {
+                set_key(trial, axis.key, axis.values[i]);
+            } catch (const Error& error) {
+                faults.push_back(
+                    {i < axis.places.size() ? axis.places[i] : axis.at, "&study: " + axis.key + ": " + error.what()});
+            }
+        }
+    const std::size_t length = study.axes.front().values.size();
+    if (study.mode == StudyMode::zip)
+        for (const Study::Axis& axis : study.axes)
+            if (axis.values.size() != length)
+                faults.push_back({axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) + " values, " +
+                                               study.axes.front().key + " has " + std::to_string(length) +
+                                               ": mode = 'zip' wants as many"});
+    if (member_count(study) > kMostMembers)
+        faults.push_back({study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
+    return faults;
+}
+
+std::vector<Member> expand_study(const Case& base, const Study& study) {
+    std::string wrong;
+    for (const Fault& fault : check_study(base, study)) wrong += (wrong.empty() ? "" : "\n") + fault.text;
+    if (!wrong.empty()) throw Error(Failure::bad_input, wrong);
+
+    const std::size_t count = member_count(study);
+    std::vector<Member> members(count);
+    std::size_t wrong_members = 0;
+    for (std::size_t m = 0; m < count; ++m) {
+        Member& member = members[m];
+        member.index = static_cast<int>(m + 1);
+        member.settings = base;
+        std::size_t slower = count;
+        for (const Study::Axis& axis : study.axes) {
+            slower /= study.mode == StudyMode::product ? axis.values.size() : 1;
+            const std::size_t i = study.mode == StudyMode::product ? m / slower % axis.values.size() : m;
+            member.values.emplace_back(axis.key, axis.values[i]);
+        }
+        // A key's bounds were tried above; only in concert with the others can the values still be wrong.
+        for (const auto& [key, value] : member.values) set_key(member.settings, key, value);
+        set_file(member, count);
+        for (const Problem& problem : check_case(member.settings))
+            if (++wrong_members <= namelist::kMostFaults)
+                wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") + std::to_string(member.index) + " (" +
+                         join(member.values) + "): &" + problem.keys.front()->group + ": " + problem.text;
+    }
+    if (!wrong.empty()) throw Error(Failure::bad_input, wrong);
+    return members;
+}
+
+std::string member_file(const std::string& file, int index, std::size_t members) {
+    std::string number = std::to_string(index);
+    const std::size_t width = std::max<std::size_t>(3, std::to_string(members).size());
+    number.insert(0, width > number.size() ? width - number.size() : 0, '0');
+    const std::size_t slash = file.rfind('/');
+    const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
+    const std::size_t dot = file.rfind('.');
+    const std::size_t stem = dot == std::string::npos || dot <= name ? file.size() : dot;
+    return file.substr(0, stem) + "_" + number + file.substr(stem);
+}
+
+std::string effective_namelist(const Study& study) {
+    std::string text = "&study\n";
+    for (const Study::Axis& axis : study.axes) {
+        text += "  " + axis.key + " = ";
+        for (std::size_t i = 0; i < axis.values.size(); ++i) text += (i > 0 ? ", " : "") + axis.values[i];
+        text += "\n";
+    }
+    return text + "  mode = " + (study.mode == StudyMode::product ? "'product'" : "'zip'") + "\n/\n";
+}
+
+}  // namespace rsc

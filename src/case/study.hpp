@@ -1,0 +1,50 @@
+// A &study: lists of values for keys, and the cases they make.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/namelist.hpp"
+
+namespace rsc {
+
+// product: every combination, the first key slowest; zip: the lists side by side.
+struct Study {
+    struct Axis {
+        std::string key;                  // "surface%sigma" or an element, "solids%R(2)"
+        std::vector<std::string> values;  // in namelist syntax
+        namelist::Position at;
+        std::vector<namelist::Position> places;  // of the values
+    };
+    StudyMode mode = StudyMode::product;
+    std::vector<Axis> axes;
+    namelist::Position at;
+};
+
+struct Member {
+    int index = 1;                                            // 1-based
+    std::vector<std::pair<std::string, std::string>> values;  // key, value in namelist syntax
+    Case settings;                                            // output%file is the member's own
+};
+
+inline constexpr std::size_t kMostMembers = 10'000;
+inline constexpr std::size_t kMostLevels = 10'000'000;  // of indentation%levels, over all members
+
+// Reads a &study group; faults name the place.
+Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& faults);
+
+// What is wrong with the study's keys, values and lengths, tried one by one on `base`.
+std::vector<namelist::Fault> check_study(const Case& base, const Study& study);
+
+// All members in order, each of them checked (check_case). Throws Error(bad_input) naming the members that are wrong.
+std::vector<Member> expand_study(const Case& base, const Study& study);
+
+// "output/rsc.nc" -> "output/rsc_007.nc"; as many digits as `members` needs, three at least.
+std::string member_file(const std::string& file, int index, std::size_t members);
+
+// As namelist input.
+std::string effective_namelist(const Study& study);
+
+}  // namespace rsc

@@ -1,0 +1,307 @@
+#include "contact/interaction/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "contact/interaction/mesh_far.hpp"
+#include "contact/interaction/pairs.hpp"
+#include "error.hpp"
+
+namespace rsc {
+
+namespace {
+
+constexpr std::size_t kDirect = 256;    // so few points are summed directly
+constexpr std::size_t kThreads = 5000;  // and so few are not worth the threads
+
+// Seconds on one core, measured; they only decide how the work is shared between mesh and near field.
+constexpr double kSecondsPerNearPair = 2.3e-9;
+constexpr double kSecondsPerMeshPoint = 11e-9;
+double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
+
+// The doubled mesh takes 16 bytes of memory per point at most; beyond this the near field does the rest.
+constexpr double kMeshPointsAtMost = 5e7;
+
+// Directed pairs within a distance, from counts of points in square cells of sizes that double.
+class PairEstimate {
+public:
+    PairEstimate(std::size_t n, const double* x, const double* y, double x0, double y0, double length_x, double length_y) {
+        // The finest cells hold a few points each on average, for an even distribution.
+        size_ = std::max({std::sqrt(length_x * length_y * 2 / static_cast<double>(n)), length_x * 2 / static_cast<double>(n)});
+        std::size_t nx = static_cast<std::size_t>(length_x / size_) + 1, ny = static_cast<std::size_t>(length_y / size_) + 1;
+        std::vector<double> count(nx * ny, 0.0);
+        for (std::size_t i = 0; i < n; ++i)
+            count[static_cast<std::size_t>((y[i] - y0) / size_) * nx + static_cast<std::size_t>((x[i] - x0) / size_)] += 1;
+        for (;;) {
+            double pairs = 0;
+            for (double c : count) pairs += c * c;
+            pairs_.push_back(pairs - static_cast<double>(n));  // a point with itself is no pair
+            if (nx == 1 && ny == 1) break;
+            const std::size_t mx = (nx + 1) / 2, my = (ny + 1) / 2;
+            std::vector<double> coarse(mx * my, 0.0);
+            for (std::size_t j = 0; j < ny; ++j)
+                for (std::size_t i = 0; i < nx; ++i) coarse[(j / 2) * mx + i / 2] += count[j * nx + i];
+            count.swap(coarse);
+            nx = mx, ny = my;
+        }
+    }
+    // A cell of area pi r^2 stands for the disc of radius r; between sizes a power law.
+    double operator()(double radius) const {
+        const double level = std::log2(std::sqrt(3.14159) * radius / size_);
+        if (level <= 0) return pairs_.front() * std::exp2(2 * level);
+        const auto k = static_cast<std::size_t>(level);
+        if (k + 1 >= pairs_.size()) return pairs_.back();
+        const double low = std::max(pairs_[k], 1.0), high = std::max(pairs_[k + 1], 1.0);
+        return low * std::pow(high / low, level - static_cast<double>(k));
+    }
+
+private:
+    double size_;
+    std::vector<double> pairs_;
+};
+
+struct Choice {
+    double spacing = 0, pairs = 0, cost = 0;
+};
+
+// The mesh spacing of least cost. The longest side must be some cutoffs long, or there is no far field worth a mesh.
+template <class Pairs>
+Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, double length_y, Pairs pairs) {
+    Choice best;
+    best.cost = std::numeric_limits<double>::infinity();
+    const double largest = std::max(length_x, length_y) / 8;
+    for (double spacing = largest; spacing > largest * 1e-7; spacing *= 0.84) {
+        const double mesh = FarField::points_needed(design, length_x / spacing, length_y / spacing);
+        if (mesh > kMeshPointsAtMost && best.spacing > 0) break;
+        const double near = pairs(design.cutoff * spacing);
+        const double cost =
+            kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
+        if (cost < best.cost) best = {spacing, near, cost};
+    }
+    return best;
+}
+
+}  // namespace
+
+struct MeshPotential::Parts {
+    std::size_t n = 0;
+    PairSet direct;  // for few points or points all at one place, instead of everything else
+
+    const MeshDesign* design = nullptr;
+    Choice choice;
+    double scale = 1;  // near-field coordinate units per length, a power of two
+    NearKernel kernel;
+    MeshWindow window;
+    std::unique_ptr<FarField> far;
+
+    // Points in strips of constant y, by x within a strip; x runs along the longer side. Strips are padded for the pair loops.
+    std::vector<std::size_t> strip_begin, strip_size;
+    std::vector<std::uint32_t> point;  // [strip_begin[s] + k] the caller's number, k < strip_size[s]
+    std::vector<double> x, y;          // for the near field, scaled
+    std::vector<double> u, v;          // on the mesh
+    std::size_t spread_band = 1;       // strips whose windows reach into the next band only
+
+    struct Scratch {
+        std::vector<double> f, near, far;
+        FftwArray mesh;
+    };
+    mutable std::mutex mutex;
+    mutable std::vector<std::unique_ptr<Scratch>> free_scratch;
+
+    std::unique_ptr<Scratch> take_scratch() const;
+    void give_back(std::unique_ptr<Scratch> scratch) const;
+    void make_strips(const double* px, const double* py, double x0, double y0, double length_y);
+    void spread(const double* f, double* mesh) const;
+    void near_field(const double* f, double* phi) const;
+};
+
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error)
+    : parts_(std::make_unique<Parts>()) {
+    if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
+        throw Error(Failure::bad_input,
+                    "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
+    if (n > std::numeric_limits<std::uint32_t>::max())
+        throw Error(Failure::bad_input, "mesh product: " + std::to_string(n) + " points are more than 2^32");
+    Parts& p = *parts_;
+    p.n = n;
+    double x_min = HUGE_VAL, x_max = -HUGE_VAL, y_min = HUGE_VAL, y_max = -HUGE_VAL;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+            throw Error(Failure::bad_input, "mesh product: coordinates of point " + std::to_string(i + 1) + " must be finite");
+        x_min = std::min(x_min, x[i]), x_max = std::max(x_max, x[i]);
+        y_min = std::min(y_min, y[i]), y_max = std::max(y_max, y[i]);
+    }
+    if (n <= kDirect || (x_max == x_min && y_max == y_min)) {
+        p.direct.assign(n, x, y);
+        p.choice.pairs = static_cast<double>(n) * static_cast<double>(n);
+        p.choice.cost = 1e-9 * p.choice.pairs;
+        return;
+    }
+    // The kernel does not know x from y.
+    if (y_max - y_min > x_max - x_min) std::swap(x, y), std::swap(x_min, y_min), std::swap(x_max, y_max);
+    const double length_x = x_max - x_min, length_y = y_max - y_min;
+    if (!std::isfinite(length_x)) throw Error(Failure::bad_input, "mesh product: the extent of the points overflows");
+    p.design = &mesh_design(relative_error);
+    p.choice = choose_spacing(*p.design, n, length_x, length_y, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
+    p.scale = std::ldexp(1.0, -std::ilogb(length_x) - 1);
+    const double cutoff = p.design->cutoff * p.choice.spacing;
+    p.kernel = near_kernel(*p.design, cutoff * p.scale);
+    p.window = mesh_window(*p.design);
+    p.far = std::make_unique<FarField>(*p.design, length_x / p.choice.spacing, length_y / p.choice.spacing);
+    p.make_strips(x, y, x_min, y_min, length_y);
+}
+
+MeshPotential::~MeshPotential() = default;
+MeshPotential::MeshPotential(MeshPotential&&) noexcept = default;
+MeshPotential& MeshPotential::operator=(MeshPotential&&) noexcept = default;
+
+void MeshPotential::Parts::make_strips(const double* px, const double* py, double x0, double y0, double length_y) {
+    // Half a cutoff high: points of a strip meet those of two strips on each side.
+    const double height = kernel.reach / scale / 2;
+    const std::size_t strips = static_cast<std::size_t>(length_y / height) + 1;
+    std::vector<std::uint32_t> strip(n);
+    strip_size.assign(strips, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        strip[i] = static_cast<std::uint32_t>((py[i] - y0) / height);
+        ++strip_size[strip[i]];
+    }
+    strip_begin.resize(strips + 1);
+    strip_begin[0] = 0;
+    for (std::size_t s = 0; s < strips; ++s)
+        strip_begin[s + 1] = strip_begin[s] + (strip_size[s] + 2 * kPairPadding - 1) / kPairPadding * kPairPadding;
+    point.resize(strip_begin[strips]);
+    std::vector<std::size_t> next(strip_begin.begin(), strip_begin.end() - 1);
+    for (std::size_t i = 0; i < n; ++i) point[next[strip[i]]++] = static_cast<std::uint32_t>(i);
+
+    for (auto* array : {&x, &y, &u, &v}) array->resize(point.size());
+    const double offset = 0.5 * design->width;
+#pragma omp parallel for schedule(dynamic, 16) if (n > kThreads)
+    for (std::size_t s = 0; s < strips; ++s) {
+        const auto begin = point.begin() + static_cast<std::ptrdiff_t>(strip_begin[s]);
+        std::sort(begin, begin + static_cast<std::ptrdiff_t>(strip_size[s]),
+                  [px](std::uint32_t a, std::uint32_t b) { return px[a] != px[b] ? px[a] < px[b] : a < b; });
+        for (std::size_t k = strip_begin[s]; k < strip_begin[s] + strip_size[s]; ++k) {
+            const std::uint32_t i = point[k];
+            x[k] = px[i] * scale, y[k] = py[i] * scale;
+            u[k] = (px[i] - x0) / choice.spacing + offset, v[k] = (py[i] - y0) / choice.spacing + offset;
+        }
+        // Pads: out of everyone's reach, the box being at most 1 wide.
+        for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k)
+            x[k] = x0 * scale + 4, y[k] = y0 * scale;
+    }
+    spread_band = static_cast<std::size_t>((design->width + 1) * choice.spacing / height) + 1;
+}
+
+std::unique_ptr<MeshPotential::Parts::Scratch> MeshPotential::Parts::take_scratch() const {
+    {
+        const std::lock_guard lock(mutex);
+        if (!free_scratch.empty()) {
+            auto scratch = std::move(free_scratch.back());
+            free_scratch.pop_back();
+            return scratch;
+        }
+    }
+    auto scratch = std::make_unique<Scratch>();
+    for (auto* array : {&scratch->f, &scratch->near, &scratch->far}) array->assign(point.size(), 0.0);
+    scratch->mesh = fftw_array(far->rows() * far->stride());
+    return scratch;
+}
+
+void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
+    const std::lock_guard lock(mutex);
+    free_scratch.push_back(std::move(scratch));
+}
+
+// Bands of strips, the even ones at once and then the odd ones: no two at work touch the same rows, and every row gets its parts
+// in the same order whatever the threads.
+void MeshPotential::Parts::spread(const double* f, double* mesh) const {
+    const std::size_t strips = strip_size.size(), bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
+    const auto table = pair_kernels().spread;
+#pragma omp parallel if (n > kThreads)
+    {
+#pragma omp for schedule(static)
+        for (std::size_t n = 0; n < far->rows(); ++n) std::fill_n(mesh + n * stride, stride, 0.0);
+        for (std::size_t odd = 0; odd < 2; ++odd) {
+#pragma omp for schedule(dynamic, 1)
+            for (std::size_t band = odd; band < bands; band += 2)
+                for (std::size_t s = band * spread_band; s < std::min(strips, (band + 1) * spread_band); ++s) {
+                    const std::size_t b = strip_begin[s];
+                    table(window, strip_size[s], u.data() + b, v.data() + b, f + b, mesh, stride);
+                }
+        }
+    }
+}
+
+// The same with groups of strips: a group adds to its own strips and the two after it.
+void MeshPotential::Parts::near_field(const double* f, double* phi) const {
+    constexpr std::size_t kGroup = 4;
+    const std::size_t strips = strip_size.size(), groups = (strips + kGroup - 1) / kGroup;
+    const PairKernels& table = pair_kernels();
+#pragma omp parallel if (n > kThreads)
+    for (std::size_t odd = 0; odd < 2; ++odd) {
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t group = odd; group < groups; group += 2)
+            for (std::size_t s = group * kGroup; s < std::min(strips, (group + 1) * kGroup); ++s) {
+                const std::size_t b = strip_begin[s];
+                table.near_own(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
+                for (std::size_t t = s + 1; t < std::min(strips, s + 3); ++t) {
+                    const std::size_t c = strip_begin[t];
+                    table.near_strips(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b, strip_size[t],
+                                      x.data() + c, y.data() + c, f + c, phi + c);
+                }
+            }
+    }
+}
+
+std::size_t MeshPotential::size() const { return parts_->n; }
+
+void MeshPotential::apply(const double* f, double* phi) const {
+    const Parts& p = *parts_;
+    if (!p.far) return p.direct.apply(f, phi);
+    auto scratch = p.take_scratch();
+    const std::size_t strips = p.strip_size.size();
+    double *const sorted = scratch->f.data(), *const near = scratch->near.data(), *const far = scratch->far.data();
+#pragma omp parallel for schedule(static) if (p.n > kThreads)
+    for (std::size_t s = 0; s < strips; ++s) {
+        const std::size_t b = p.strip_begin[s];
+        for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // pads stay without force
+        std::fill(near + b, near + p.strip_begin[s + 1], 0.0);
+    }
+    p.near_field(sorted, near);
+    p.spread(sorted, scratch->mesh.get());
+    p.far->convolve(scratch->mesh.get());
+    const double far_unit = 1 / p.choice.spacing;
+#pragma omp parallel for schedule(static) if (p.n > kThreads)
+    for (std::size_t s = 0; s < strips; ++s) {
+        const std::size_t b = p.strip_begin[s];
+        pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(),
+                                   p.far->stride());
+        for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * p.scale + far[k] * far_unit;
+    }
+    p.give_back(std::move(scratch));
+}
+
+std::size_t MeshPotential::bytes() const {
+    const Parts& p = *parts_;
+    if (!p.far) return p.n * (2 * sizeof(double) + 2 * sizeof(std::int32_t));
+    return p.far->bytes() + p.point.size() * (sizeof(std::uint32_t) + 7 * sizeof(double));
+}
+
+std::size_t MeshPotential::mesh_points() const { return parts_->far ? parts_->far->points() : 0; }
+double MeshPotential::cutoff() const { return parts_->far ? parts_->design->cutoff * parts_->choice.spacing : 0; }
+double MeshPotential::near_pairs() const { return parts_->choice.pairs; }
+double MeshPotential::cost() const { return parts_->choice.cost; }
+
+double MeshPotential::estimated_cost(std::size_t n, double relative_error, double aspect_ratio) {
+    if (n <= kDirect) return 1e-9 * static_cast<double>(n) * static_cast<double>(n);
+    const double side = std::min(aspect_ratio, 1 / aspect_ratio), count = static_cast<double>(n);
+    const auto pairs = [&](double radius) { return count * std::min(count, count * 3.14159 * radius * radius / side); };
+    return choose_spacing(mesh_design(relative_error), n, 1, side, pairs).cost;
+}
+
+}  // namespace rsc

@@ -1,0 +1,52 @@
+// Convolution with the smooth far kernel F on a mesh with free boundary, by pruned Fourier transforms.
+#pragma once
+
+#include <fftw3.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "contact/interaction/mesh_split.hpp"
+#include "rough/fftw_planner.hpp"
+
+namespace rsc {
+
+// Aligned memory from FFTW.
+struct FftwFree {
+    void operator()(void* p) const noexcept { fftw_free(p); }
+};
+using FftwArray = std::unique_ptr<double[], FftwFree>;
+FftwArray fftw_array(std::size_t n);  // uninitialised; Error(no_memory)
+
+class FarField {
+public:
+    // Points within length_x times length_y mesh spacings.
+    FarField(const MeshDesign& design, double length_x, double length_y);
+
+    // The mesh that carries points: `rows` rows of `stride` doubles, room for windows included. A point at distance (x, y) from
+    // the corner of the points' box is at (u, v) = (x + width/2, y + width/2).
+    std::size_t rows() const { return rows_; }
+    std::size_t stride() const { return 2 * columns_; }
+    std::size_t points() const { return period_x_ * period_y_; }
+    std::size_t bytes() const { return (multiplier_size() + rows_ * stride()) * sizeof(double); }
+
+    // Replaces forces spread on the mesh by the potential to interpolate, times the mesh spacing.
+    void convolve(double* mesh) const;
+
+    // The smallest mesh of the doubled box in points, without making it.
+    static double points_needed(const MeshDesign& design, double length_x, double length_y);
+
+private:
+    static constexpr std::size_t kColumns = 8;  // transformed together
+
+    std::size_t multiplier_size() const { return columns_ * (period_y_ / 2 + 1); }
+    void make_multiplier(const MeshDesign& design, double length_x, double length_y);
+
+    std::size_t period_x_, period_y_;  // of the doubled mesh
+    std::size_t rows_, columns_;       // mesh rows in use, complex columns (padded to kColumns)
+    FftwArray multiplier_;             // [column block][wavenumber 0 ... period_y/2][column]
+    FftwPlan row_forward_, row_backward_, column_forward_, column_backward_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,92 @@
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "contact/interaction/mesh.hpp"
+#include "contact/interaction/pairs.hpp"
+#include "contact/interaction/products.hpp"
+
+namespace rsc {
+namespace {
+
+// Every product is taken over the whole working set, with zero forces on its passive points.
+class Mesh final : public Products {
+public:
+    Mesh(double E_star, double full_error, double inner_error)
+        : Products(E_star), scale_(1 / (std::numbers::pi * E_star)), full_error_(full_error), inner_error_(inner_error) {}
+
+    void set_points(int n, const double* x, const double* y) override {
+        const auto size = static_cast<std::size_t>(n);
+        x_.assign(x, x + n);
+        y_.assign(y, y + n);
+        f_.resize(size);
+        phi_.resize(size);
+        inner_.emplace(size, x, y, inner_error_);
+        exact_.reset();
+        if (full_error_ < kFinest) pairs_.assign(size, x, y);
+        else exact_.emplace(size, x, y, full_error_);
+    }
+
+    void set_active(const std::vector<int>& active) override {
+        active_ = active;
+        complement(static_cast<int>(x_.size()));
+    }
+
+    void set_precise(bool precise) override { precise_ = precise; }
+
+    void inner(const double* f, double* phi) override {
+        everywhere(f, precise_);
+        for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = phi_[static_cast<std::size_t>(active_[k])];
+    }
+
+    void inner_passive(const double* f, double* phi) override {
+        everywhere(f, precise_);
+        for (std::size_t k = 0; k < passive_.size(); ++k) phi[k] = phi_[static_cast<std::size_t>(passive_[k])];
+    }
+
+    void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
+        std::vector<double> xa, ya;
+        for (int k : active_) {
+            xa.push_back(x_[static_cast<std::size_t>(k)]);
+            ya.push_back(y_[static_cast<std::size_t>(k)]);
+        }
+        pair_potential_single(static_cast<std::size_t>(n), x, y, xa.size(), xa.data(), ya.data(), f, phi);
+        for (int k = 0; k < n; ++k) phi[k] *= scale_;
+    }
+
+    void full(const double* f, double* phi) override {
+        everywhere(f, true);
+        std::copy(phi_.begin(), phi_.end(), phi);
+    }
+
+    double inner_error() const override { return inner_error_; }
+    double full_error() const override { return exact_ ? full_error_ : 1e-14; }
+
+private:
+    // What the mesh can reach; beyond it full products are direct sums.
+    static constexpr double kFinest = 1e-10;
+
+    void everywhere(const double* f, bool exact) {
+        ++count_;
+        std::fill(f_.begin(), f_.end(), 0.0);
+        for (std::size_t k = 0; k < active_.size(); ++k) f_[static_cast<std::size_t>(active_[k])] = f[k];
+        if (!exact) inner_->apply(f_.data(), phi_.data());
+        else if (exact_) exact_->apply(f_.data(), phi_.data());
+        else pairs_.apply(f_.data(), phi_.data());
+        for (double& phi : phi_) phi *= scale_;
+    }
+
+    double scale_, full_error_, inner_error_;
+    bool precise_ = false;
+    std::vector<double> x_, y_, f_, phi_;
+    std::optional<MeshPotential> inner_, exact_;
+    PairSet pairs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Products> make_mesh_products(double E_star, double full_error, double inner_error) {
+    return std::make_unique<Mesh>(E_star, full_error, inner_error);
+}
+
+}  // namespace rsc

@@ -1,0 +1,145 @@
+#include "contact/law/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "contact/law/bessel_profile.hpp"
+#include "contact/law/ellipse.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+class Hertz final : public Law {
+public:
+    Hertz(const Asperities& asperities, double E_star) : radius_(asperities.radius), E_star_(E_star), c_(asperities.size()) {}
+
+    void prepare(std::span<const int> asperities) override {
+        for (int i : asperities) c_[at(i)] = 4.0 / 3.0 * E_star_ * std::sqrt(radius_[at(i)]);
+    }
+
+    void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
+        for (int k = 0; k < n; ++k) {
+            const double x = std::max(u[k], 0.0);
+            const double c_root = c_[at(asperity[k])] * std::sqrt(x);
+            force[k] = c_root * x;
+            slope[k] = 1.5 * c_root;
+            work[k] = 0.4 * force[k] * x;
+        }
+    }
+
+    double force(int asperity, double u) const override { return u > 0 ? c_[at(asperity)] * u * std::sqrt(u) : 0.0; }
+    double area(int asperity, double u) const override { return u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0; }
+    double axes(int) const override { return 1; }
+    bool beyond(int, double) const override { return false; }
+
+private:
+    const std::vector<double>& radius_;
+    double E_star_;
+    std::vector<double> c_;  // (4/3) E* sqrt(r)
+};
+
+// The elliptic law is the fourth-order one with q = 0.
+class FourthOrder final : public Law {
+public:
+    FourthOrder(const Asperities& asperities, double E_star, bool quartic)
+        : asperities_(asperities), E_star_(E_star), quartic_(quartic), place_(asperities.size(), -1) {}
+
+    void prepare(std::span<const int> asperities) override {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        for (int i : asperities) {
+            if (place_[at(i)] >= 0) continue;
+            const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)], kappa = std::sqrt(kappa1 * kappa2);
+            const double q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
+            const auto ellipse = ellipse_factors(kappa1 / kappa2);
+            Summit s;
+            s.e = E_star_ / ellipse.F2;
+            s.r = 1 / (kappa * ellipse.F2);
+            s.t = q2 / (4 * kappa * ellipse.F2);
+            s.last = ellipse.F2 * (q2 > 0 ? 4 * kappa / q2 : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1) : infinity);
+            s.spot = std::numbers::pi * ellipse.F1 * ellipse.F1;
+            s.axes = ellipse.axes;
+            place_[at(i)] = static_cast<int>(summits_.size());
+            summits_.push_back(s);
+        }
+    }
+
+    void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
+        for (int k = 0; k < n; ++k) {
+            if (!(u[k] > 0)) {
+                force[k] = slope[k] = work[k] = 0;
+                continue;
+            }
+            const Summit& s = summit(asperity[k]);
+            const double smooth = std::min(u[k], s.last), past = u[k] - smooth;
+            const auto shape = profile_.at(s.t * smooth);
+            const double paraboloid = s.e * std::sqrt(s.r * smooth), stiffness = 2 * paraboloid * shape.radius;
+            const double P = 4.0 / 3 * paraboloid * smooth * shape.load;
+            force[k] = P + stiffness * past;
+            slope[k] = stiffness;
+            work[k] = 8.0 / 15 * paraboloid * smooth * smooth * shape.work + P * past + 0.5 * stiffness * past * past;
+        }
+    }
+
+    double force(int asperity, double u) const override {
+        if (!(u > 0)) return 0;
+        const Summit& s = summit(asperity);
+        const double smooth = std::min(u, s.last), t = s.t * smooth, paraboloid = s.e * std::sqrt(s.r * smooth);
+        const double P = 4.0 / 3 * paraboloid * smooth * profile_.load(t);
+        return u > smooth ? P + 2 * paraboloid * profile_.at(t).radius * (u - smooth) : P;
+    }
+
+    double area(int asperity, double u) const override {
+        if (!(u > 0)) return 0;
+        const Summit& s = summit(asperity);
+        const double smooth = std::min(u, s.last), radius = profile_.at(s.t * smooth).radius;
+        return s.spot * s.r * smooth * radius * radius;
+    }
+
+    double axes(int asperity) const override { return summit(asperity).axes; }
+    bool beyond(int asperity, double u) const override { return u > summit(asperity).last; }
+
+private:
+    static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond all sense, and cosh(2 |q| a) does not overflow
+
+    // In terms of u, with delta = u/F2: a^2 = r u and t of BesselProfile = t u; forces are as with the modulus e.
+    struct alignas(64) Summit {
+        double e = 0, r = 0, t = 0;
+        double last = 0;  // u at which the contact reaches the profile's trough
+        double spot = 0;  // pi F1^2: area over a^2
+        double axes = 1;
+    };
+
+    const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }
+
+    const Asperities& asperities_;
+    double E_star_;
+    bool quartic_;
+    const BesselProfile& profile_ = BesselProfile::table();
+    std::vector<int> place_;        // of an asperity in summits_; -1: not prepared
+    std::vector<Summit> summits_;   // few of many asperities, next to each other
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star) {
+    if (kind == LawKind::hertz) return std::make_unique<Hertz>(asperities, E_star);
+    const char* name = kind == LawKind::elliptic ? "elliptic" : "fourth_order";
+    if (asperities.size() > 0 && asperities.kappa1.size() != asperities.size()) {
+        throw Error(Failure::bad_input, std::string("asperities%law = '") + name +
+                                            "' needs the principal curvatures of every asperity; these were given without: only 'hertz' is "
+                                            "possible");
+    }
+    if (kind == LawKind::fourth_order && asperities.size() > 0 && asperities.biharmonic.size() != asperities.size()) {
+        throw Error(Failure::bad_input, "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
+                                        "were given without: 'hertz' and 'elliptic' are possible");
+    }
+    return std::make_unique<FourthOrder>(asperities, E_star, kind == LawKind::fourth_order);
+}
+
+}  // namespace rsc

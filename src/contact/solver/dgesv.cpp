@@ -1,0 +1,109 @@
+#include "contact/solver/dgesv.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+#include <numbers>
+
+#include "contact/solver/lapack.hpp"
+#include "contact/interaction/pairs.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+
+std::unique_ptr<double[]> allocate_matrix(std::size_t n) {
+    try {
+        return std::make_unique_for_overwrite<double[]>(n * n);
+    } catch (const std::bad_alloc&) {
+        throw Error(Failure::no_memory, "solver%method='dgesv' needs a dense matrix of " + std::to_string(n) + " x " +
+                                            std::to_string(n) + " numbers (" + std::to_string(n * n / 131072) +
+                                            " MiB), which was refused; method='direct' needs none");
+    }
+}
+
+// K = I + diag(weight) B, column-major; B_ij = 1/(pi E* d_ij), B_ii = 0.
+void build_matrix(const WorkingSet& set, double E_star, const Vector& weight, double* K) {
+    const std::size_t n = weight.size();
+    for (std::size_t j = 0; j < n; ++j) {
+        double* column = K + j * n;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double dx = set.x[i] - set.x[j], dy = set.y[i] - set.y[j];
+            column[i] = weight[i] / (std::numbers::pi * E_star * std::sqrt(dx * dx + dy * dy));
+        }
+        column[j] = 1;
+    }
+}
+
+}  // namespace
+
+PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set, const PaperMethod& method, Vector& v,
+                            Vector& force) {
+    const int n = set.size();
+    const std::size_t size = static_cast<std::size_t>(n);
+    const auto K = allocate_matrix(size);
+    std::vector<int> pivots;
+    PairSet pairs;
+    pairs.assign(size, set.x.data(), set.y.data());
+
+    Vector m(size), slope(size), rate(size), regular(size), dF(size), work(size), target(size);
+    const auto penetrations = [&] {  // v = g0 - B F
+        pairs.apply(force.data(), v.data());
+        const double scale = std::isinf(E_star) ? 0.0 : 1 / (std::numbers::pi * E_star);
+        for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - scale * v[i];
+    };
+    const auto residual = [&] {
+        law.respond(n, set.asperity.data(), v.data(), target.data(), slope.data(), work.data());
+        for (std::size_t i = 0; i < size; ++i) target[i] = force[i] - target[i];
+        return relative_residual(target, force);
+    };
+
+    v.resize(size);
+    force.resize(size);
+    law.respond(n, set.asperity.data(), set.g0.data(), force.data(), slope.data(), work.data());
+    penetrations();
+
+    PaperOutcome outcome;
+    double delta = method.delta0;
+    while (outcome.iterations < method.max_iterations) {
+        for (std::size_t i = 0; i < size; ++i) {  // m(x, delta) and dm/dx: a smooth, positive <x>
+            const double far = 2 * delta - v[i];
+            m[i] = v[i] < delta ? delta * delta / far : v[i];
+            rate[i] = v[i] < delta ? delta * delta / (far * far) : 1.0;
+        }
+        law.respond(n, set.asperity.data(), m.data(), regular.data(), slope.data(), work.data());
+        double force2 = 0, change2 = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            rate[i] *= slope[i];
+            dF[i] = regular[i] - force[i];
+            force2 += force[i] * force[i];
+        }
+        build_matrix(set, E_star, rate, K.get());
+        ++outcome.iterations;
+        if (!lapack::solve(n, K.get(), dF.data(), pivots)) break;
+        for (std::size_t i = 0; i < size; ++i) {
+            force[i] = std::max(force[i] + dF[i], 0.0);
+            change2 += dF[i] * dF[i];
+        }
+        penetrations();
+        outcome.residual = residual();
+        if (change2 <= method.tolerance * method.tolerance * force2 && outcome.residual <= method.tolerance) {
+            outcome.converged = true;
+            break;
+        }
+        delta = std::max(delta / method.cut, 1e-12 * method.delta0);
+    }
+    // What the regularisation left on asperities out of contact is no contact force.
+    for (std::size_t i = 0; i < size; ++i) {
+        if (v[i] <= 0) force[i] = 0;
+    }
+    penetrations();
+    outcome.residual = residual();
+    outcome.converged = outcome.converged && outcome.residual <= method.tolerance;
+    return outcome;
+}
+
+}  // namespace rsc

@@ -1,0 +1,29 @@
+// The paper's method (section 4): regularised Newton on the forces with the dense matrix, every step solved by LAPACK dgesv.
+#pragma once
+
+#include <vector>
+
+#include "contact/law/law.hpp"
+#include "contact/solver/newton.hpp"
+
+namespace rsc {
+
+struct PaperMethod {
+    double delta0;      // first regularisation length delta [length]
+    double cut;         // delta is divided by this each iteration
+    double tolerance;   // on |dF|/|F| and on the unregularised residual
+    int max_iterations;
+};
+
+struct PaperOutcome {
+    bool converged = false;
+    int iterations = 0;   // dgesv solves
+    double residual = 0;  // |F - f(<g0 - B F>)| / |F|, unregularised
+};
+
+// Forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F. Needs 8 n^2 bytes: throws
+// Error(no_memory) when they are refused.
+PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set, const PaperMethod& method, std::vector<double>& v,
+                            std::vector<double>& force);
+
+}  // namespace rsc

@@ -1,0 +1,85 @@
+#include "contact/solver/lapack.hpp"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <mutex>
+#include <new>
+
+#include "error.hpp"
+
+extern "C" {
+void dgesv_(const int* n, const int* nrhs, double* a, const int* lda, int* ipiv, double* b, const int* ldb, int* info);
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info, std::size_t uplo_length);
+void dstev_(const char* jobz, const int* n, double* d, double* e, double* z, const int* ldz, double* work, int* info,
+            std::size_t jobz_length);
+}
+
+namespace rsc::lapack {
+namespace {
+
+// Whether the system may refuse memory, rather than promise it and kill the process later.
+bool memory_is_limited() {
+    for (const auto what : {RLIMIT_AS, RLIMIT_DATA}) {
+        rlimit limit{};
+        if (getrlimit(what, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) return true;
+    }
+    int overcommit = 0;
+    std::ifstream("/proc/sys/vm/overcommit_memory") >> overcommit;
+    return overcommit == 2;
+}
+
+// OpenBLAS works in a buffer of 128 MiB, kept for later, one for each of the calls that run at the same time; refused it, it asks again
+// without end (0.3.21). Where that can happen, calls come one at a time, and the first only if there is room.
+class Turn {
+public:
+    Turn() {
+        static const bool limited = memory_is_limited();
+        if (!limited) return;
+        static std::mutex mutex;
+        turn_ = std::unique_lock(mutex);
+        static bool taken = false;
+        if (taken) return;
+        constexpr std::size_t room = std::size_t{160} << 20;  // what the other threads take meanwhile included
+        void* const there = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (there == MAP_FAILED) throw std::bad_alloc();
+        munmap(there, room);
+        taken = true;
+    }
+
+private:
+    std::unique_lock<std::mutex> turn_;
+};
+
+}  // namespace
+
+bool solve(int n, double* A, double* b, std::vector<int>& pivots) {
+    pivots.resize(static_cast<std::size_t>(n));
+    const int one = 1;
+    int info = 0;
+    const Turn turn;
+    dgesv_(&n, &one, A, &n, pivots.data(), b, &n, &info);
+    if (info < 0) throw Error(Failure::internal, "dgesv refused argument " + std::to_string(-info));
+    return info == 0;
+}
+
+bool is_positive_definite(int n, double* A) {
+    int info = 0;
+    const Turn turn;
+    dpotrf_("L", &n, A, &n, &info, 1);
+    return info == 0;
+}
+
+double lowest_of_tridiagonal(std::vector<double> alpha, std::vector<double> beta, std::vector<double>& vector) {
+    const int n = static_cast<int>(alpha.size());
+    beta.resize(alpha.size());
+    std::vector<double> z(alpha.size() * alpha.size()), work(2 * alpha.size());
+    int info = 0;
+    dstev_("V", &n, alpha.data(), beta.data(), z.data(), &n, work.data(), &info, 1);
+    if (info != 0) throw Error(Failure::internal, "dstev did not converge");
+    vector.assign(z.begin(), z.begin() + n);
+    return alpha.front();
+}
+
+}  // namespace rsc::lapack

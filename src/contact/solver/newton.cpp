@@ -1,0 +1,287 @@
+#include "contact/solver/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/solver/lanczos.hpp"
+#include "contact/solver/uniqueness.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+
+double dot(const Vector& a, const Vector& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    return sum;
+}
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+double relative_residual(const Vector& error, const Vector& force) {
+    const double error2 = dot(error, error), force2 = dot(force, force);
+    constexpr double smallest = 1e-290, largest = 1e290;
+    if (force2 > smallest && force2 < largest && error2 < largest) return std::sqrt(error2 / force2);
+    double most = 0, e2 = 0, f2 = 0;  // scaled by the largest
+    for (std::size_t k = 0; k < force.size(); ++k) most = std::max({most, std::abs(force[k]), std::abs(error[k])});
+    if (!(most > 0)) return 0;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        e2 += (error[k] / most) * (error[k] / most);
+        f2 += (force[k] / most) * (force[k] / most);
+    }
+    const double residual = std::sqrt(e2 / f2);
+    return std::isfinite(residual) ? residual : 1;
+}
+
+bool Newton::rough_will_do(double residual) const {
+    return products_->inner_error() < 1e-5 && residual > 100 * products_->inner_error();
+}
+
+// Fills everything of the state from its v; in full accuracy if asked, or if the residual turns out too small for less.
+void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
+    const int n = set.size();
+    for (auto* x : {&state.force, &state.slope, &state.work, &state.phi, &state.res}) x->resize(at(n));
+    law_.respond(n, set.asperity.data(), state.v.data(), state.force.data(), state.slope.data(), state.work.data());
+    state.active.clear();
+    for (int k = 0; k < n; ++k) {
+        if (state.force[at(k)] > 0) state.active.push_back(k);
+    }
+    products_->set_active(state.active);
+    active_force_.clear();
+    for (int k : state.active) active_force_.push_back(state.force[at(k)]);
+    if (accurate) products_->full(active_force_.data(), state.phi.data());
+    else products_->inner_everywhere(active_force_.data(), state.phi.data());
+    state.accurate = accurate;
+
+    state.energy = state.scale = 0;
+    error_.resize(at(n));
+    for (std::size_t k = 0; k < at(n); ++k) {
+        const double f = state.force[k], target = set.g0[k] - state.phi[k];
+        state.res[k] = state.v[k] - target;
+        if (f > 0) {
+            state.energy += f * (0.5 * state.phi[k] + state.v[k] - set.g0[k]) - state.work[k];
+            state.scale += f * set.g0[k];
+        }
+        error_[k] = f - (target > 0 ? law_.force(set.asperity[k], target) : 0.0);
+    }
+    state.residual = relative_residual(error_, state.force);
+    if (!accurate && !rough_will_do(state.residual)) evaluate(set, state, true);
+}
+
+void Newton::scale_active(const State& state) {
+    root_.clear();
+    for (int k : state.active) root_.push_back(std::sqrt(state.slope[at(k)]));
+    for (auto* x : {&force_, &phi_, &r_, &p_, &mp_}) x->resize(root_.size());
+}
+
+void Newton::multiply(const Vector& w, Vector& out) {
+    for (std::size_t k = 0; k < root_.size(); ++k) force_[k] = root_[k] * w[k];
+    products_->inner(force_.data(), phi_.data());
+    for (std::size_t k = 0; k < root_.size(); ++k) out[k] = w[k] + root_[k] * phi_[k];
+}
+
+void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w, Step& out) {
+    const std::size_t n = b.size();
+    w.assign(n, 0.0);
+    r_ = b;
+    p_ = r_;
+    double rr = dot(r_, r_);
+    const double goal = forcing * forcing * rr;
+    double ww = 0, wp = 0, pp = rr;
+    out = Step{std::move(out.dv)};
+    const auto to_border = [&] {  // largest t >= 0 with |w + t p| = radius
+        const double t = (-wp + std::sqrt(wp * wp + pp * (radius * radius - ww))) / pp;
+        for (std::size_t k = 0; k < n; ++k) w[k] += t * p_[k];
+        out.border = true;
+        return t;
+    };
+    const int most = static_cast<int>(std::min<std::size_t>(2 * n + 10, 500));
+    for (int i = 0; i < most && rr > goal && rr > 0; ++i) {
+        multiply(p_, mp_);
+        const double curvature = dot(p_, mp_);
+        if (!(curvature > 1e-9 * pp)) {
+            out.negative_curvature = true;
+            const double t = to_border();
+            out.predicted += t * rr - 0.5 * t * t * curvature;
+            break;
+        }
+        const double alpha = rr / curvature;
+        if (ww + 2 * alpha * wp + alpha * alpha * pp >= radius * radius) {
+            const double t = to_border();
+            out.predicted += t * rr - 0.5 * t * t * curvature;
+            break;
+        }
+        double rr_new = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            w[k] += alpha * p_[k];
+            r_[k] -= alpha * mp_[k];
+            rr_new += r_[k] * r_[k];
+        }
+        out.predicted += 0.5 * alpha * rr;
+        ww += 2 * alpha * wp + alpha * alpha * pp;
+        const double beta = rr_new / rr;
+        wp = beta * (wp + alpha * pp);
+        pp = rr_new + beta * beta * pp;
+        rr = rr_new;
+        for (std::size_t k = 0; k < n; ++k) p_[k] = r_[k] + beta * p_[k];
+    }
+    out.norm = std::sqrt(dot(w, w));
+}
+
+// `entering` scales what asperities without force may gain, as the radius bounds what those with force may change.
+void Newton::step(const WorkingSet& set, const State& state, double forcing, double radius, double entering, Step& out) {
+    scale_active(state);
+    const std::size_t n = root_.size();
+    Vector b(n), w;
+    for (std::size_t k = 0; k < n; ++k) b[k] = -root_[k] * state.res[at(state.active[k])];
+    steihaug(b, forcing, radius, w, out);
+    out.dv.assign(at(set.size()), 0.0);
+    df_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        out.dv[at(state.active[k])] = w[k] / root_[k];
+        df_[k] = root_[k] * w[k];
+    }
+    const auto& passive = products_->passive();
+    passive_.resize(passive.size());
+    products_->inner_passive(df_.data(), passive_.data());
+    for (std::size_t k = 0; k < passive.size(); ++k) {
+        const std::size_t i = at(passive[k]);
+        const double change = -state.res[i] - passive_[k];
+        const double reached = state.v[i] + change;
+        out.dv[i] = reached > 0 ? entering * reached - state.v[i] : change;
+    }
+}
+
+NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v, bool ask_minimum) {
+    NewtonOutcome outcome;
+    now_.v = v;
+    evaluate(set, now_, !rough_will_do(1.0));
+    double radius = std::numeric_limits<double>::infinity(), entering = 1.0;
+    Step step_now;
+    for (;; ++outcome.iterations) {
+        outcome.residual = now_.residual;
+        if (now_.residual <= tolerance) {
+            Vector lowest;
+            outcome.minimum = !ask_minimum || positive_definite(set, now_, lowest);
+            if (outcome.minimum || outcome.iterations >= max_iterations) {
+                outcome.converged = outcome.minimum;
+                break;
+            }
+            leave_saddle(set, lowest);
+            continue;
+        }
+        if (outcome.iterations >= max_iterations) {
+            if (!now_.accurate) {
+                evaluate(set, now_, true);
+                outcome.residual = now_.residual;
+            }
+            break;
+        }
+        const double forcing =
+            std::clamp(std::max(std::min(0.1, std::sqrt(now_.residual)), 0.2 * tolerance / now_.residual), 1e-5, 0.3);
+        double size2 = 0;  // |S v|: the natural size of a step
+        for (int k : now_.active) size2 += now_.slope[at(k)] * now_.v[at(k)] * now_.v[at(k)];
+        radius = std::min(radius, 2 * std::sqrt(size2));
+        bool accepted = false;
+        for (int attempt = 0; attempt < 40 && !accepted; ++attempt) {
+            products_->set_active(now_.active);
+            step(set, now_, forcing, radius, entering, step_now);
+            trial_.v.resize(now_.v.size());
+            for (std::size_t k = 0; k < now_.v.size(); ++k) trial_.v[k] = now_.v[k] + step_now.dv[k];
+            // Newton's order is 3/2 at least: that much of the residual is expected to be left.
+            const double expected = std::max(forcing * now_.residual, std::pow(now_.residual, 1.5));
+            evaluate(set, trial_, !rough_will_do(expected));
+            const double decrease = now_.energy - trial_.energy;
+            const bool accurate = now_.accurate && trial_.accurate;
+            const double noise =
+                std::max(1e-11, accurate ? products_->full_error() : products_->inner_error()) * (now_.scale + trial_.scale);
+            accepted = decrease >= 1e-4 * step_now.predicted ||
+                       (decrease >= -noise && trial_.residual < now_.residual && !step_now.negative_curvature);
+            if (!accepted || decrease < 0.1 * step_now.predicted) {
+                radius = 0.25 * step_now.norm;
+                if (!accepted) entering *= 0.25;
+            } else {
+                if (step_now.border && decrease > 0.5 * step_now.predicted) radius *= 3;
+                if (!step_now.border) radius = std::numeric_limits<double>::infinity();
+                entering = std::min(1.0, 4 * entering);
+            }
+            if (!std::isfinite(trial_.energy)) accepted = false;
+        }
+        if (!accepted) break;
+        std::swap(now_, trial_);
+    }
+    v = now_.v;
+    return outcome;
+}
+
+void Newton::take(const WorkingSet& set, const Vector& v) {
+    now_.v = v;
+    evaluate(set, now_, true);
+}
+
+bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector& w) {
+    std::vector<double> x, y, reach;
+    for (int k : state.active) {
+        x.push_back(set.x[at(k)]);
+        y.push_back(set.y[at(k)]);
+        reach.push_back(state.slope[at(k)]);
+    }
+    const double E_star = products_->modulus();
+    if (std::isinf(E_star)) return true;
+    for (double& s : reach) s /= 2 * E_star;
+    if (positive_definite_by_shells(x, y, reach)) return true;
+    products_->set_active(state.active);
+    scale_active(state);
+    Vector image(root_.size());
+    const double lowest = lanczos_lowest(root_.size(), [&](const Vector& in, Vector& out) { multiply(in, out); }, w);
+    return lowest > 0;
+}
+
+// From a saddle along the direction of negative curvature, to both sides until the energy is lower.
+void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
+    double largest = 0;
+    for (std::size_t k = 0; k < w.size(); ++k) {
+        largest = std::max(largest, std::abs(w[k] / root_[k]) / now_.v[at(now_.active[k])]);
+    }
+    double gradient = 0;
+    for (std::size_t k = 0; k < w.size(); ++k) gradient += w[k] * root_[k] * now_.res[at(now_.active[k])];
+    const double downhill = gradient > 0 ? -1.0 : 1.0;
+    for (double length = 0.5; length > 1e-6; length *= 0.5) {
+        for (double side : {downhill, -downhill}) {
+            trial_.v = now_.v;
+            for (std::size_t k = 0; k < w.size(); ++k) {
+                trial_.v[at(now_.active[k])] += side * length / largest * w[k] / root_[k];
+            }
+            evaluate(set, trial_, true);
+            if (trial_.energy < now_.energy) {
+                std::swap(now_, trial_);
+                return;
+            }
+        }
+    }
+}
+
+void Newton::potential_at(std::size_t n, const double* x, const double* y, double* phi) {
+    products_->set_active(now_.active);
+    active_force_.clear();
+    for (int k : now_.active) active_force_.push_back(now_.force[at(k)]);
+    products_->elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
+}
+
+double Newton::stiffness(double tolerance) {
+    products_->set_active(now_.active);
+    scale_active(now_);
+    products_->set_precise(true);
+    Vector b(root_.size()), w;
+    for (std::size_t k = 0; k < b.size(); ++k) b[k] = -root_[k];
+    Step ignored;
+    steihaug(b, tolerance, std::numeric_limits<double>::infinity(), w, ignored);
+    products_->set_precise(false);
+    return -dot(b, w);
+}
+
+}  // namespace rsc

@@ -1,0 +1,289 @@
+#include "contact/solver/uniqueness.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "contact/solver/lapack.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+
+constexpr double kWidening = 3;  // shells of radius rho = kWidening (2/pi) a
+constexpr double kDiagonal = 1 - 1 / kWidening;
+
+struct Pair {
+    std::size_t i, j;
+    double d;
+};
+
+// An element of a symmetric matrix.
+struct Coupling {
+    std::size_t i, j;
+    double value;
+};
+
+// Energy of two unit shells of radii p and q at distance d < p + q: 1/max(r, p) averaged over the shell q.
+double shell_energy(double p, double q, double d) {
+    if (d <= std::abs(p - q)) return 1 / std::max(p, q);
+    const double near = d - q;
+    return ((p * p - near * near) / (2 * p) + d + q - p) / (2 * d * q);
+}
+
+// What the shells of contact radii a and b at distance d take from the diagonal.
+double shell_overlap(double a, double b, double d) {
+    constexpr double scale = kWidening * 2 / std::numbers::pi;
+    if (!(d < scale * (a + b)) || !(a > 0) || !(b > 0)) return 0;
+    return 2 / std::numbers::pi * std::sqrt(a * b) * (1 / d - shell_energy(scale * a, scale * b, d));
+}
+
+// Pairs whose shells overlap.
+std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a) {
+    Vector rho(a);
+    for (double& r : rho) r *= kWidening * 2 / std::numbers::pi;
+    std::vector<Pair> pairs;
+    for_close_pairs(x, y, rho, [&](std::size_t i, std::size_t j, double d) { pairs.push_back({i, j, d}); });
+    return pairs;
+}
+
+// Points connected by overlaps of their shells, one of which at least has a row sum that does not settle it.
+struct Cluster {
+    std::vector<std::size_t> points;
+    std::vector<Pair> pairs;  // i and j are places in `points`
+};
+
+// `pairs` holds all pairs of overlapping shells at least.
+std::vector<Cluster> doubtful_clusters(const std::vector<Pair>& pairs, const Vector& a) {
+    const std::size_t n = a.size();
+    Vector row(n, 0.0);
+    std::vector<double> overlap;
+    overlap.reserve(pairs.size());
+    for (const Pair& p : pairs) {
+        overlap.push_back(shell_overlap(a[p.i], a[p.j], p.d));
+        row[p.i] += overlap.back();
+        row[p.j] += overlap.back();
+    }
+    if (std::all_of(row.begin(), row.end(), [](double sum) { return sum < kDiagonal; })) return {};
+
+    std::vector<std::size_t> parent(n);
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::size_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (overlap[k] > 0) parent[root(pairs[k].i)] = root(pairs[k].j);
+    }
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> cluster_of(n, none), place(n);  // of a root; of a point in its cluster
+    std::vector<Cluster> clusters;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (row[i] < kDiagonal || cluster_of[root(i)] != none) continue;
+        cluster_of[root(i)] = clusters.size();
+        clusters.emplace_back();
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t c = cluster_of[root(i)];
+        if (c == none) continue;
+        place[i] = clusters[c].points.size();
+        clusters[c].points.push_back(i);
+    }
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const std::size_t c = cluster_of[root(pairs[k].i)];
+        if (c != none && overlap[k] > 0) clusters[c].pairs.push_back({place[pairs[k].i], place[pairs[k].j], pairs[k].d});
+    }
+    return clusters;
+}
+
+// By factorisation; `a` of the cluster's points.
+bool positive_definite(const Cluster& cluster, const Vector& a) {
+    constexpr std::size_t largest = 400;
+    const std::size_t m = cluster.points.size();
+    if (m > largest) return false;
+    Vector matrix(m * m, 0.0);
+    for (std::size_t i = 0; i < m; ++i) matrix[i * m + i] = kDiagonal;
+    for (const Pair& p : cluster.pairs) {
+        matrix[p.i * m + p.j] = matrix[p.j * m + p.i] = shell_overlap(a[p.i], a[p.j], p.d);
+    }
+    return lapack::is_positive_definite(static_cast<int>(m), matrix.data());
+}
+
+Vector of_points(const Cluster& cluster, const Vector& values) {
+    Vector own;
+    for (std::size_t i : cluster.points) own.push_back(values[i]);
+    return own;
+}
+
+// out = C x for the symmetric matrix C.
+void couple(const std::vector<Coupling>& C, const Vector& x, Vector& out) {
+    std::fill(out.begin(), out.end(), 0.0);
+    for (const auto& c : C) {
+        out[c.i] += c.value * x[c.j];
+        out[c.j] += c.value * x[c.i];
+    }
+}
+
+// Largest secant of the law, over 2 E*, between the solution v, its force and slope, and anything up to high: that of high itself, for
+// forces are convex.
+double secant(const Law& law, double E_star, int asperity, double v, double force, double slope, double high) {
+    if (v <= 0 && high <= 0) return 0;
+    const double rise = high - v;
+    if (std::abs(rise) <= 1e-6 * std::max(high, v)) return slope / (2 * E_star);
+    return (law.force(asperity, high) - force) / rise / (2 * E_star);
+}
+
+// Whether a cluster, in the field of all others, has the given solution only: the box of what its penetrations may be is cut into
+// parts, until each is seen either to hold no solution or to be too small for two.
+class Search {
+public:
+    Search(const Law& law, double E_star, const Cluster& cluster, const std::vector<Coupling>& close, const std::vector<int>& asperity,
+           const Vector& v, const Vector& slope, double noise)
+        : law_(law), E_star_(E_star), cluster_(cluster), v_(of_points(cluster, v)), slope_(of_points(cluster, slope)), noise_(noise) {
+        for (std::size_t i : cluster.points) asperity_.push_back(asperity[i]);
+        std::vector<std::size_t> place(v.size(), v.size());
+        for (std::size_t k = 0; k < cluster.points.size(); ++k) place[cluster.points[k]] = k;
+        for (const auto& c : close) {
+            const std::size_t i = place[c.i], j = place[c.j];
+            if (i < v.size() && j < v.size()) inside_.push_back({i, j, c.value});
+        }
+        force_ = forces(v_);
+        f_low_ = f_high_ = change_ = relief_ = force_;
+    }
+
+    // `low` and `high`: bounds on the penetrations of the cluster's points.
+    bool finds_one(Vector low, Vector high) { return within(std::move(low), std::move(high), 12); }
+
+private:
+    Vector forces(const Vector& v) const {
+        Vector f(v.size());
+        for (std::size_t k = 0; k < v.size(); ++k) f[k] = law_.force(asperity_[k], v[k]);
+        return f;
+    }
+
+    // Narrows the bounds by the equation v = v0 - B (F - F0); false: there is no solution between them.
+    bool narrow(Vector& low, Vector& high) {
+        // What the others, further away, give way to: a part of what the cluster itself may change.
+        constexpr double give = 0.1;
+        f_low_ = forces(low);
+        f_high_ = forces(high);
+        Vector& up = relief_;
+        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = std::max(f_high_[k] - force_[k], force_[k] - f_low_[k]);
+        couple(inside_, change_, up);
+        Vector slack(up);
+        for (double& s : slack) s = give * s + noise_;
+        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = force_[k] - f_low_[k];
+        couple(inside_, change_, up);
+        for (std::size_t k = 0; k < v_.size(); ++k) high[k] = std::min(high[k], v_[k] + up[k] + slack[k]);
+        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = f_high_[k] - force_[k];
+        couple(inside_, change_, up);
+        for (std::size_t k = 0; k < v_.size(); ++k) low[k] = std::max(low[k], v_[k] - up[k] - slack[k]);
+        for (std::size_t k = 0; k < v_.size(); ++k) {
+            if (low[k] > high[k]) return false;
+        }
+        return true;
+    }
+
+    bool within(Vector low, Vector high, int deepest) {
+        constexpr int parts = 200, narrowings = 3;
+        if (++parts_ > parts) return false;
+        for (int i = 0; i < narrowings; ++i) {
+            if (!narrow(low, high)) return true;
+        }
+        Vector a(v_.size());
+        for (std::size_t k = 0; k < a.size(); ++k) a[k] = secant(law_, E_star_, asperity_[k], v_[k], force_[k], slope_[k], high[k]);
+        if (positive_definite(cluster_, a)) return true;
+        if (deepest == 0) return false;
+        std::size_t widest = 0;
+        double range = -1;
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            const double wide = law_.force(asperity_[k], high[k]) - law_.force(asperity_[k], low[k]);
+            if (wide > range) {
+                widest = k;
+                range = wide;
+            }
+        }
+        const double middle = 0.5 * (std::max(low[widest], 0.0) + high[widest]);
+        Vector below(high), above(low);
+        below[widest] = above[widest] = middle;
+        // A second solution, if there is one, shows sooner where the first is not.
+        if (v_[widest] > middle) return within(low, below, deepest - 1) && within(above, high, deepest - 1);
+        return within(above, high, deepest - 1) && within(low, below, deepest - 1);
+    }
+
+    const Law& law_;
+    double E_star_;
+    const Cluster& cluster_;
+    Vector v_, slope_, force_;
+    double noise_;
+    std::vector<int> asperity_;
+    std::vector<Coupling> inside_;
+    int parts_ = 0;
+    Vector f_low_, f_high_, change_, relief_;
+};
+
+}  // namespace
+
+bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector& a) {
+    for (const Cluster& cluster : doubtful_clusters(shell_pairs(x, y, a), a)) {
+        if (!positive_definite(cluster, of_points(cluster, a))) return false;
+    }
+    return true;
+}
+
+bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v,
+                      const Vector& force, const Vector& slope) {
+    if (std::isinf(E_star) || v.empty()) return true;
+    const std::size_t n = v.size();
+    // Partners beyond `near` contact radii cannot be the other half of a second solution: there S B S < 0.16.
+    constexpr double near = 2.0;
+    constexpr double touch = 1e-300;  // passive points have no radius of their own but are found by the others' reach
+    Vector reach(n);
+    for (std::size_t i = 0; i < n; ++i) reach[i] = std::max(near * slope[i] / (2 * E_star), touch);
+    // Penetrations of candidates far from touching come from single precision: partners that nearly coincide are beyond its judgement.
+    constexpr double resolved = 1e-6, precision = 1e-4;
+    const double nearest = resolved * std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
+                                               *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
+    const double noise = precision * *std::max_element(v.begin(), v.end());
+    bool told_apart = true;
+    std::vector<Coupling> close;
+    for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) {
+        told_apart = told_apart && d > nearest;
+        if (d > 0) close.push_back({i, j, 1 / (std::numbers::pi * E_star * d)});
+    });
+    if (!told_apart) return false;
+
+    // Bounds on the penetrations of any other solution: at most those with every close partner gone, hence at least ..., and so on.
+    Vector alone(v), relief(n), high, low(n), f(n), a(n);
+    couple(close, force, relief);
+    for (std::size_t i = 0; i < n; ++i) alone[i] += relief[i];
+    high = alone;
+    const auto secants = [&] {
+        for (std::size_t i = 0; i < n; ++i) {
+            a[i] = std::max(secant(law, E_star, asperity[i], v[i], force[i], slope[i], high[i]), slope[i] / (2 * E_star));
+        }
+    };
+    secants();
+    const auto pairs = shell_pairs(x, y, a);  // of the widest shells: the bounds only close in
+    auto doubtful = doubtful_clusters(pairs, a);
+    const auto settled = [&](const Cluster& cluster) { return positive_definite(cluster, of_points(cluster, a)); };
+    std::erase_if(doubtful, settled);
+    if (doubtful.empty()) return true;
+    for (auto [from, to] : {std::pair{&high, &low}, std::pair{&low, &high}}) {
+        for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], (*from)[i]);
+        couple(close, f, relief);
+        for (std::size_t i = 0; i < n; ++i) (*to)[i] = alone[i] - relief[i];
+    }
+    secants();
+    doubtful = doubtful_clusters(pairs, a);
+    std::erase_if(doubtful, settled);
+    return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
+        return Search(law, E_star, cluster, close, asperity, v, slope, noise)
+            .finds_one(of_points(cluster, low), of_points(cluster, high));
+    });
+}
+
+}  // namespace rsc

@@ -1,0 +1,374 @@
+#include "file/netcdf_file.hpp"
+
+#include <fcntl.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <span>
+#include <system_error>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path folder_of(const std::string& path) {
+    const fs::path parent = fs::path(path).parent_path();
+    return parent.empty() ? fs::path(".") : parent;
+}
+
+std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
+
+[[noreturn]] void fail(const std::string& path, const std::string& why, const std::string& remedy) {
+    throw Error(Failure::file_system, "cannot write '" + path + "': " + why + "; " + remedy);
+}
+
+// An error of the system, with what to do about it.
+[[noreturn]] void fail_system(const std::string& path, int error) {
+    const std::string folder = folder_of(path).string();
+    if (error == ENOSPC)
+        fail(path, "the disk that holds folder '" + folder + "' is full",
+             "make room there or let &output file name another disk, and run again");
+    if (error == EDQUOT)
+        fail(path, "the disk quota for folder '" + folder + "' is used up",
+             "make room there or let &output file name another disk, and run again");
+    if (error == EFBIG)
+        fail(path, "the file grows beyond the limit of file sizes (see ulimit -f)",
+             "raise the limit, or write less (&output contacts, heights)");
+    fail(path, reason(error), "see whether folder '" + folder + "' can be written to");
+}
+
+void check(int status, const std::string& path) {
+    if (status == NC_NOERR) return;
+    if (status == NC_EVARSIZE || status == NC_EDIMSIZE)
+        fail(path, "a variable is too large for &output format='classic'", "use format='netcdf4' or 'cdf5'");
+    if (status == NC_ENOMEM || status == ENOMEM)
+        throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
+    // The file is put together in memory, where NetCDF and HDF5 have little else to fail for, whatever error they name.
+    throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
+                "'" + path + "' cannot be put together (" + nc_strerror(status) +
+                    "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
+}
+
+// The work in progress beside the file: removed unless it became the file.
+class Part {
+public:
+    explicit Part(const std::string& path) : path_(path), name_(path + ".part-" + std::to_string(::getpid())) {
+        fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (fd_ < 0) fail_system(path_, errno);
+    }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+    ~Part() {
+        if (fd_ >= 0) ::close(fd_);
+        std::error_code ignored;
+        if (!renamed_) fs::remove(name_, ignored);
+    }
+    const std::string& name() const { return name_; }
+    void write(std::span<const char> bytes) {
+        constexpr std::size_t most = std::size_t{1} << 30;  // one call writes less than 2 GiB
+        while (!bytes.empty()) {
+            const ssize_t n = ::write(fd_, bytes.data(), std::min(bytes.size(), most));
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) fail_system(path_, errno);
+            bytes = bytes.subspan(static_cast<std::size_t>(n));
+        }
+    }
+    std::vector<char> read() {
+        std::vector<char> bytes(static_cast<std::size_t>(std::max<off_t>(::lseek(fd_, 0, SEEK_END), 0)));
+        const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), 0);
+        if (n < 0 || static_cast<std::size_t>(n) != bytes.size()) fail_system(path_, n < 0 ? errno : EIO);
+        return bytes;
+    }
+    void clear() {
+        if (::ftruncate(fd_, 0) != 0 || ::lseek(fd_, 0, SEEK_SET) != 0) fail_system(path_, errno);
+    }
+    // Makes sure that the bytes are on the disk, and only then gives the file its name.
+    void finish() {
+        if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOSYS) fail_system(path_, errno);  // some file systems lack it
+        if (::close(std::exchange(fd_, -1)) != 0) fail_system(path_, errno);  // network disks report a full disk here
+        if (std::rename(name_.c_str(), path_.c_str()) != 0) fail_system(path_, errno);
+        renamed_ = true;
+        const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder < 0) return;  // the name may then reach the disk a little later
+        ::fsync(folder);
+        ::close(folder);
+    }
+
+private:
+    std::string path_, name_;
+    int fd_ = -1;
+    bool renamed_ = false;
+};
+
+// A file put together in memory. HDF5 cannot be trusted with a disk that fills up: closing a file that could not be written
+// crashes it (1.10), and the reason of the failure is lost. The bytes go to the disk by plain system calls instead, which can
+// fail in peace.
+class MemoryFile {
+public:
+    MemoryFile(const std::string& path, Part& part, int mode) : path_(path) {
+        if ((mode & NC_NETCDF4) == 0) {
+            check(nc_create_mem(path.c_str(), mode, 1 << 16, &ncid_), path);
+            return;
+        }
+        // A netCDF-4 file born in memory forgets the order in which its variables are defined; one born empty on the disk and
+        // taken into memory keeps it. The disk is known to have room for that little: it just held more.
+        part.write(std::vector<char>(1 << 16));
+        part.clear();
+        check(nc_create(part.name().c_str(), mode, &ncid_), path);
+        check(nc_close(std::exchange(ncid_, -1)), path);
+        const std::vector<char> empty = part.read();
+        part.clear();
+        image_.size = empty.size();
+        image_.memory = std::malloc(empty.size());  // NetCDF reallocates it as the file grows
+        if (image_.memory == nullptr) throw Error(Failure::no_memory, "no memory to put '" + path + "' together");
+        std::copy(empty.begin(), empty.end(), static_cast<char*>(image_.memory));
+        const int status = nc_open_memio(path.c_str(), NC_WRITE, &image_, &ncid_);
+        if (status == NC_NOERR) image_ = {};  // owned by NetCDF until nc_close_memio
+        check(status, path);
+        check(nc_redef(ncid_), path);
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() {
+        if (ncid_ >= 0) nc_abort(ncid_);
+        std::free(image_.memory);
+    }
+    int id() const { return ncid_; }
+    // Ends the writing; the bytes of the file, which live as long as this does.
+    std::span<const char> close() {
+        NC_memio image{};  // after a failure it may name memory that is released already
+        check(nc_close_memio(std::exchange(ncid_, -1), &image), path_);
+        image_ = image;
+        return {static_cast<const char*>(image_.memory), file_size()};
+    }
+
+private:
+    // HDF5's memory is padded; its superblock (version 2 or 3, 8-byte offsets) holds where the file ends.
+    std::size_t file_size() const {
+        const auto* bytes = static_cast<const unsigned char*>(image_.memory);
+        if (image_.size < 48 || bytes[0] != 0x89 || bytes[1] != 'H' || bytes[8] < 2 || bytes[9] != 8) return image_.size;
+        std::uint64_t end = 0;
+        for (int i = 7; i >= 0; --i) end = end << 8 | bytes[28 + i];
+        return end >= 48 && end <= image_.size ? static_cast<std::size_t>(end) : image_.size;
+    }
+
+    std::string path_;
+    int ncid_ = -1;
+    NC_memio image_{};
+};
+
+// HDF5 may crash, now or when the program ends, where it is refused memory: what it is going to need is asked for first.
+// The image of the file is copied when it grows, and once more to be read.
+void require_memory(double bytes, const std::string& path) {
+    const double wanted = 3 * bytes + (32 << 20);
+    void* const probe = wanted < 9e18 ? std::malloc(static_cast<std::size_t>(wanted)) : nullptr;
+    if (probe == nullptr)
+        throw Error(Failure::no_memory, "no memory to put '" + path + "' together (some " + std::to_string(std::lround(wanted / 1e6)) +
+                                            " MB); write less (&output contacts, heights, map_cells)");
+    std::free(probe);
+}
+
+void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAttribute& value, const std::string& path) {
+    if (const auto* text = std::get_if<std::string>(&value))
+        check(nc_put_att_text(ncid, varid, name.c_str(), text->size(), text->c_str()), path);
+    else if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+        check(nc_put_att_double(ncid, varid, name.c_str(), NC_DOUBLE, numbers->size(), numbers->data()), path);
+    else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&value))
+        check(nc_put_att_int(ncid, varid, name.c_str(), NC_INT, integers->size(), integers->data()), path);
+}
+
+// HDF5 keeps this much of a variable together; maps are read a level at a time, heights a band of rows.
+std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
+    constexpr std::size_t target = 1u << 17;  // values, 1 MiB
+    std::vector<std::size_t> chunk(shape.size(), 1);
+    std::size_t held = 1;
+    for (std::size_t d = shape.size(); d-- > 0;) {
+        if (shape.size() == 3 && d == 0) break;
+        chunk[d] = std::clamp<std::size_t>(target / held, 1, shape[d]);
+        held *= chunk[d];
+    }
+    return chunk;
+}
+
+void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<std::size_t>& shape, const std::string& path) {
+    if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
+        check(nc_put_var_int(ncid, varid, integers->data()), path);
+    } else if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
+        std::vector<double> filled;
+        const bool absent =
+            v.may_be_absent && std::any_of(doubles->begin(), doubles->end(), [](double x) { return std::isnan(x); });
+        if (absent) {
+            filled = *doubles;
+            for (double& x : filled)
+                if (std::isnan(x)) x = NC_FILL_DOUBLE;
+        }
+        check(nc_put_var_double(ncid, varid, absent ? filled.data() : doubles->data()), path);
+    } else if (const auto* rows = std::get_if<StridedRows>(&v.values)) {
+        for (std::size_t j = 0; j < shape[0]; ++j) {
+            const std::size_t start[2] = {j, 0}, count[2] = {1, shape[1]};
+            check(nc_put_vara_double(ncid, varid, start, count, rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride),
+                  path);
+        }
+    } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
+        std::string padded;
+        for (const std::string& text : *texts) padded.append(text).append(shape[1] - text.size(), '\0');
+        check(nc_put_var_text(ncid, varid, padded.data()), path);
+    }
+}
+
+// The nearest folder above `path` that exists.
+fs::path existing_ancestor(fs::path folder) {
+    std::error_code error;
+    while (!fs::exists(folder, error)) {
+        const fs::path parent = folder.parent_path();
+        if (parent.empty() || parent == folder) return ".";
+        folder = parent;
+    }
+    return folder;
+}
+
+}  // namespace
+
+std::mutex& netcdf_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+void NetcdfFile::dimension(const std::string& name, std::size_t length) { dimensions_.emplace_back(name, length); }
+
+bool NetcdfFile::has_dimension(const std::string& name) const {
+    return std::any_of(dimensions_.begin(), dimensions_.end(), [&](const auto& d) { return d.first == name; });
+}
+
+void NetcdfFile::attribute(const std::string& name, NetcdfAttribute value) { attributes_.emplace_back(name, std::move(value)); }
+
+std::size_t NetcdfFile::length(const std::string& dimension) const {
+    for (const auto& [name, n] : dimensions_)
+        if (name == dimension) return n;
+    throw Error(Failure::internal, "result file: no dimension '" + dimension + "'");
+}
+
+void NetcdfFile::variable(NetcdfVariable v) {
+    check_values(v);
+    variables_.push_back(std::move(v));
+}
+
+void NetcdfFile::check_values(const NetcdfVariable& v) const {
+    std::size_t size = 1;
+    for (const std::string& d : v.dimensions) size *= length(d);
+    const auto bad = [&v](double x) { return std::isinf(x) || (std::isnan(x) && !v.may_be_absent); };
+    bool finite = true, fits = true;
+    if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
+        fits = doubles->size() == size;
+        finite = std::none_of(doubles->begin(), doubles->end(), bad);
+    } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
+        fits = integers->size() == size;
+    } else if (const auto* rows = std::get_if<StridedRows>(&v.values)) {
+        fits = v.dimensions.size() == 2;
+        for (std::size_t j = 0; fits && finite && j < length(v.dimensions[0]); ++j) {
+            const double* row = rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride;
+            finite = std::none_of(row, row + length(v.dimensions[1]), bad);
+        }
+    } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
+        fits = v.dimensions.size() == 2 && texts->size() == length(v.dimensions[0]) &&
+               std::none_of(texts->begin(), texts->end(), [&](const auto& t) { return t.size() > length(v.dimensions[1]); });
+    }
+    if (!fits) throw Error(Failure::internal, "result file: the values of '" + v.name + "' do not fill its dimensions");
+    if (!finite) throw Error(Failure::internal, "result file: '" + v.name + "' holds a value that is not a finite number");
+}
+
+void NetcdfFile::define_and_put(int ncid, Format format, int compression, const std::string& path) const {
+    int old_fill = 0;
+    check(nc_set_fill(ncid, NC_NOFILL, &old_fill), path);  // every value is written below
+    std::vector<std::pair<std::string, int>> dimids;
+    for (const auto& [name, n] : dimensions_) {
+        dimids.emplace_back(name, -1);
+        check(nc_def_dim(ncid, name.c_str(), n, &dimids.back().second), path);
+    }
+    for (const auto& [name, value] : attributes_) put_attribute(ncid, NC_GLOBAL, name, value, path);
+
+    std::vector<int> varids;
+    std::vector<std::vector<std::size_t>> shapes;
+    for (const NetcdfVariable& v : variables_) {
+        std::vector<int> ids;
+        std::vector<std::size_t> shape;
+        for (const std::string& d : v.dimensions) {
+            ids.push_back(std::find_if(dimids.begin(), dimids.end(), [&](const auto& p) { return p.first == d; })->second);
+            shape.push_back(length(d));
+        }
+        const nc_type type = std::holds_alternative<std::vector<std::int32_t>>(v.values)  ? NC_INT
+                             : std::holds_alternative<std::vector<std::string>>(v.values) ? NC_CHAR
+                                                                                          : NC_DOUBLE;
+        int varid = -1;
+        check(nc_def_var(ncid, v.name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &varid), path);
+        if (v.may_be_absent) put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
+        if (format == Format::netcdf4 && !shape.empty()) {
+            check(nc_def_var_chunking(ncid, varid, NC_CHUNKED, chunks(shape).data()), path);
+            if (compression > 0) check(nc_def_var_deflate(ncid, varid, 1, 1, compression), path);
+        }
+        put_attribute(ncid, varid, "long_name", v.long_name, path);
+        if (!v.units.empty()) put_attribute(ncid, varid, "units", v.units, path);  // texts have none
+        for (const auto& [name, value] : v.attributes) put_attribute(ncid, varid, name, value, path);
+        varids.push_back(varid);
+        shapes.push_back(std::move(shape));
+    }
+    check(nc_enddef(ncid), path);
+    for (std::size_t k = 0; k < variables_.size(); ++k) put_values(ncid, varids[k], variables_[k], shapes[k], path);
+}
+
+void NetcdfFile::write(const std::string& path, Format format, int compression) const {
+    const std::lock_guard lock(netcdf_mutex());
+    std::error_code error;
+    const fs::path folder = folder_of(path);
+    fs::create_directories(folder, error);
+    if (error)
+        fail(path, "folder '" + folder.string() + "' cannot be made: " + error.message(), "let &output file name another folder");
+    if (fs::is_directory(path, error)) fail(path, "it is a folder", "let &output file name a file in it");
+
+    double bytes = 0;
+    for (const NetcdfVariable& v : variables_) {
+        double size = 8;
+        for (const std::string& d : v.dimensions) size *= static_cast<double>(length(d));
+        bytes += size;
+    }
+    require_memory(bytes, path);
+    int mode = NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL;
+    if (format == Format::cdf5) mode = NC_CLOBBER | NC_64BIT_DATA;
+    if (format == Format::classic)
+        mode = bytes < 1.9e9 ? NC_CLOBBER : NC_CLOBBER | NC_64BIT_OFFSET;  // offsets of 32 bits reach 2 GiB
+
+    Part part(path);
+    MemoryFile memory(path, part, mode);
+    define_and_put(memory.id(), format, compression, path);
+    part.write(memory.close());
+    part.finish();
+}
+
+void check_output(const std::string& path) {
+    const auto refuse = [&path](const std::string& why) {
+        throw Error(Failure::bad_input, "&output file='" + path + "': " + why);
+    };
+    if (path.empty()) refuse("a file name is expected");
+    std::error_code error;
+    if (fs::is_directory(path, error))
+        refuse("this is a folder; name a file in it, such as '" + (fs::path(path) / "rsc.nc").string() + "'");
+    if (path.back() == '/') refuse("a file name is expected after the last '/'");
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("something that is not a plain file has this name");
+    const fs::path folder = folder_of(path), ancestor = existing_ancestor(folder);
+    if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
+    if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
+        refuse("folder '" + folder.string() + "' does not exist; make it first");
+    if (::access(ancestor.c_str(), W_OK | X_OK) != 0)
+        refuse("folder '" + ancestor.string() + "' cannot be written to: " + reason(errno));
+}
+
+}  // namespace rsc

@@ -1,0 +1,64 @@
+// A NetCDF file in the making: described first, written in one go, and under its final name only when it is whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "case/case.hpp"
+
+namespace rsc {
+
+// NetCDF and HDF5 are not safe to call from several threads: whoever calls them holds this.
+std::mutex& netcdf_mutex();
+
+using NetcdfAttribute = std::variant<std::string, std::vector<double>, std::vector<std::int32_t>>;
+using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;
+
+// Rows of doubles with room between them: row j begins at data + j*stride.
+struct StridedRows {
+    const double* data = nullptr;
+    std::ptrdiff_t stride = 0;
+};
+
+struct NetcdfVariable {
+    std::string name;
+    std::vector<std::string> dimensions;  // slowest first; none for a scalar
+    std::string units, long_name;
+    // StridedRows: two dimensions; texts: two, the last one their longest length in bytes (shorter ones end in zeros)
+    std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows, std::vector<std::string>> values;
+    NetcdfAttributes attributes;
+    bool may_be_absent = false;  // NaN is an absent value, written as _FillValue; elsewhere it is an internal error
+};
+
+class NetcdfFile {
+public:
+    void dimension(const std::string& name, std::size_t length);
+    bool has_dimension(const std::string& name) const;
+    void attribute(const std::string& name, NetcdfAttribute value);
+    void variable(NetcdfVariable variable);
+
+    // Writes everything to `path`.part-<process id>, brings it to the disk and renames it to `path`; missing folders are made.
+    // Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system), saying what to do, and leaves nothing
+    // behind; Error(internal) for an infinite value or an unexpected NaN.
+    void write(const std::string& path, Format format, int compression) const;
+
+private:
+    std::size_t length(const std::string& dimension) const;
+    void check_values(const NetcdfVariable& v) const;
+    void define_and_put(int ncid, Format format, int compression, const std::string& path) const;
+
+    std::vector<std::pair<std::string, std::size_t>> dimensions_;
+    NetcdfAttributes attributes_;
+    std::vector<NetcdfVariable> variables_;
+};
+
+// Can a file be written there? Changes nothing on the disk. Throws Error(bad_input) saying what is in the way: no name, a folder
+// or a device of that name, a folder that is missing above an absolute path, is no folder, or may not be written to.
+void check_output(const std::string& path);
+
+}  // namespace rsc

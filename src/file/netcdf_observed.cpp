@@ -1,0 +1,246 @@
+// The second half of the table: maps, radial means, distributions, asperities, contacts, heights.
+#include <netcdf.h>
+
+#include <cmath>
+
+#include "observe/regimes.hpp"
+#include "file/netcdf_table.hpp"
+
+namespace rsc {
+namespace {
+
+// Attributes of one fitted distribution: a value a pdf_level each. NaN becomes the fill value, like NaN in a variable.
+template <typename Get>
+std::vector<double> of_fits(const std::vector<FittedDistributions>& fits, Get get) {
+    std::vector<double> values;
+    for (const FittedDistributions& f : fits) {
+        const double value = get(f);
+        values.push_back(std::isnan(value) ? NC_FILL_DOUBLE : value);
+    }
+    return values;
+}
+
+template <typename Get>
+NetcdfAttributes moment_attributes(const std::vector<FittedDistributions>& fits, Get moments) {
+    return {{"mean", of_fits(fits, [&](const auto& f) { return moments(f).mean; })},
+            {"standard_deviation", of_fits(fits, [&](const auto& f) { return moments(f).deviation; })},
+            {"skewness", of_fits(fits, [&](const auto& f) { return moments(f).skewness; })},
+            {"kurtosis", of_fits(fits, [&](const auto& f) { return moments(f).kurtosis; })}};
+}
+
+}  // namespace
+
+void ResultTable::maps() {
+    const MapGrid& g = o_.options.map;
+    file_.dimension("y", static_cast<std::size_t>(g.ny));
+    file_.dimension("x", static_cast<std::size_t>(g.nx));
+    std::vector<double> x, y;
+    for (int i = 0; i < g.nx; ++i) x.push_back(g.x(i));
+    for (int j = 0; j < g.ny; ++j) y.push_back(g.y(j));
+    add("y", {"y"}, unit(1), "y of the cell centres", y, {{"axis", "Y"}});
+    add("x", {"x"}, unit(1), "x of the cell centres", x, {{"axis", "X"}});
+    add("map_cell_side", {}, unit(1), "side of the square cells of the map, w", std::vector<double>{g.side});
+    const Names dims{"step", "y", "x"};
+    add("map_area_fraction", dims, "1", "contact area over cell area, mean over realizations", o_.map_area_fraction,
+        comment("A' = sum of pi a^2/w^2 over the asperities in the cell"));
+    add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations", o_.map_pressure,
+        comment("p = sum of f/w^2 over the asperities in the cell"));
+}
+
+void ResultTable::radial() {
+    if (o_.radii.empty()) return;  // the tip is not over the map
+    file_.dimension("radius", o_.radii.size());
+    add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
+        comment("middles of rings of equal width, from the tip to the largest circle in the map"));
+    const Names dims{"step", "radius"};
+    const std::string how = "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres";
+    add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
+    add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
+    std::vector<double> hertz;
+    for (double N : o_.force_mean)
+        for (double r : o_.radii)
+            hertz.push_back(std::isfinite(r_.indenter.R) && std::isfinite(N)
+                                ? hertz_contact(N, r_.indenter.R, r_.indenter.E_star).pressure(r)
+                                : kAbsent);
+    add_absent("hertz_pressure", dims, unit(-2, 1), "pressure of the smooth sphere at force_mean (Hertz)", hertz,
+               "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); absent for flat on flat");
+}
+
+void ResultTable::bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width) {
+    std::vector<double> centres;
+    for (int b = 0; b < o_.options.pdf.bins; ++b) centres.push_back((b + 0.5) * width);
+    add(name, {"bin"}, units, long_name, centres, {{"bin_width", std::vector<double>{width}}});
+}
+
+void ResultTable::distributions() {
+    if (o_.distributions.empty()) return;
+    file_.dimension("pdf_level", o_.distributions.size());
+    file_.dimension("bin", static_cast<std::size_t>(o_.options.pdf.bins));
+    std::vector<double> wanted, used;
+    std::vector<std::int32_t> step, bin;
+    for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
+    for (const FittedDistributions& f : o_.distributions) {
+        used.push_back(f.sum.separation / static_cast<double>(f.sum.levels) / r_.sigma);
+        step.push_back(f.sum.step + 1);
+    }
+    for (int b = 1; b <= o_.options.pdf.bins; ++b) bin.push_back(b);
+    add("pdf_level", {"pdf_level"}, "1", "Z0/sigma asked for", wanted);
+    add("pdf_separation_sigma", {"pdf_level"}, "1", "Z0/sigma of the nearest level run, which the distributions are of", used,
+        comment("mean over realizations under force control"));
+    add("pdf_step", {"pdf_level"}, "1", "number of that level", step,
+        {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "0: it differs between realizations (force control)"}});
+    add("bin", {"bin"}, "1", "number of the bin", bin);
+    const PdfBins& bins = o_.options.pdf;
+    bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf", bins.mean_pressure_width());
+    bin_axis("pressure_bin", unit(-2, 1), "middle of the bins of pressure_pdf", bins.pressure_width());
+    bin_axis("spot_area_bin", unit(2), "middle of the bins of spot_area_pdf", bins.area_width());
+    mean_pressure();
+    pressure();
+    spot_area();
+}
+
+void ResultTable::counts(const std::string& name, const std::string& axis, const std::string& long_name,
+                         CountHistogram Distributions::*which) {
+    std::vector<double> values;
+    std::vector<double> overflow;
+    for (const FittedDistributions& f : o_.distributions) {
+        for (std::int64_t n : (f.sum.*which).count) values.push_back(static_cast<double>(n));
+        overflow.push_back(static_cast<double>((f.sum.*which).overflow));
+    }
+    add(name, {"pdf_level", "bin"}, "1", long_name, values,
+        {{"coordinates", axis},
+         {"overflow", overflow},
+         {"comment", "whole numbers; overflow: contacts beyond the last bin, one value a pdf_level"}});
+}
+
+void ResultTable::density(const std::string& name, const std::string& axis, const std::string& units,
+                          const std::string& long_name, std::vector<double> FittedDistributions::*which,
+                          NetcdfAttributes attributes, const std::string& note) {
+    std::vector<double> values;
+    for (const FittedDistributions& f : o_.distributions) values.insert(values.end(), (f.*which).begin(), (f.*which).end());
+    NetcdfAttributes all{{"coordinates", axis}};
+    append(all, std::move(attributes));
+    append(all, comment(note + "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one value a pdf_level; " +
+                        kAbsentMeans));
+    file_.variable({name, {"pdf_level", "bin"}, units, long_name, std::move(values), std::move(all), true});
+}
+
+void ResultTable::mean_pressure() {
+    const auto& fits = o_.distributions;
+    counts("pressure_mean_count", "pressure_mean_bin", "contacts by mean pressure, all realizations",
+           &Distributions::mean_pressure);
+    NetcdfAttributes a{{"rayleigh_scale", of_fits(fits, [](const auto& f) { return f.rayleigh.scale; })},
+                       {"rayleigh_scale_error", of_fits(fits, [](const auto& f) { return f.rayleigh.scale_error; })},
+                       {"ks_distance", of_fits(fits, [](const auto& f) { return f.rayleigh.ks_distance; })}};
+    append(a, moment_attributes(fits, [](const auto& f) { return f.mean_pressure_moments; }));
+    density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1),
+            "probability density of the mean pressure of a contact, f/(pi a^2)", &FittedDistributions::mean_pressure_pdf,
+            std::move(a),
+            "fit: Rayleigh, (p/s^2) exp(-p^2/(2 s^2)), s = rayleigh_scale by maximum likelihood, with its standard error");
+}
+
+void ResultTable::pressure() {
+    const auto& fits = o_.distributions;
+    std::vector<double> values, overflow, equal;
+    for (const FittedDistributions& f : fits) {
+        values.insert(values.end(), f.sum.pressure.area.begin(), f.sum.pressure.area.end());
+        overflow.push_back(f.sum.pressure.overflow);
+        equal.push_back(f.sum.pressure.squares > 0 ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares : 0);
+    }
+    add("pressure_area", {"pdf_level", "bin"}, unit(2), "contact area by pressure, summed over realizations", values,
+        {{"coordinates", "pressure_bin"},
+         {"overflow", overflow},
+         {"comment", "overflow: area beyond the last bin, one value a pdf_level"}});
+    const auto parameter = [&](const std::string& name, double GammaFit::*p) {
+        return std::pair<std::string, NetcdfAttribute>{name, of_fits(fits, [p](const auto& f) { return f.gamma.*p; })};
+    };
+    NetcdfAttributes a{parameter("alpha", &GammaFit::alpha),
+                       parameter("alpha_error", &GammaFit::alpha_error),
+                       parameter("beta", &GammaFit::beta),
+                       parameter("beta_error", &GammaFit::beta_error),
+                       parameter("delta", &GammaFit::delta),
+                       parameter("delta_error", &GammaFit::delta_error),
+                       parameter("gamma", &GammaFit::gamma),
+                       parameter("gamma_error", &GammaFit::gamma_error),
+                       parameter("ks_distance", &GammaFit::ks_distance),
+                       {"independent_contacts", equal}};
+    append(a, moment_attributes(fits, [](const auto& f) { return f.pressure_moments; }));
+    density("pressure_pdf", "pressure_bin", unit(2, -1),
+            "probability density of the pressure at a random point of the contact area", &FittedDistributions::pressure_pdf,
+            std::move(a),
+            "each contact contributes 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2), weighted by its area; fit: gamma p^alpha "
+            "exp(-(p/delta)^beta), "
+            "maximum likelihood of the bins; errors are those of independent_contacts = (sum A)^2/sum A^2 draws");
+}
+
+void ResultTable::spot_area() {
+    const auto& fits = o_.distributions;
+    counts("spot_area_count", "spot_area_bin", "contacts by area, all realizations", &Distributions::spot_area);
+    NetcdfAttributes a{{"exponential_scale", of_fits(fits, [](const auto& f) { return f.exponential.scale; })},
+                       {"exponential_scale_error", of_fits(fits, [](const auto& f) { return f.exponential.scale_error; })},
+                       {"ks_distance", of_fits(fits, [](const auto& f) { return f.exponential.ks_distance; })}};
+    append(a, moment_attributes(fits, [](const auto& f) { return f.spot_area_moments; }));
+    density("spot_area_pdf", "spot_area_bin", unit(-2), "probability density of the area of a contact, pi a^2",
+            &FittedDistributions::spot_area_pdf, std::move(a),
+            "fit: exponential, exp(-A/s)/s, s = exponential_scale by maximum likelihood, with its standard error");
+}
+
+void ResultTable::asperities() {
+    const Asperities& a = r_.asperities;
+    if (a.size() == 0) return;
+    file_.dimension("asperity", a.size());
+    const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
+                            const std::vector<double>& values) {
+        if (!values.empty()) add(name, {"asperity"}, units, long_name, values);
+    };
+    column("asperity_x", unit(1), "x of the summit", a.x);
+    column("asperity_y", unit(1), "y of the summit", a.y);
+    column("asperity_z", unit(1), "height of the summit", a.z);
+    column("asperity_radius", unit(1), "radius of the asperity", a.radius);
+    column("asperity_kappa1", unit(-1), "larger principal curvature, positive for a peak", a.kappa1);
+    column("asperity_kappa2", unit(-1), "smaller principal curvature, positive for a peak", a.kappa2);
+    column("asperity_angle", "radian", "direction of the axis of kappa2, the long axis of the contact ellipse, from x", a.angle);
+    column("asperity_biharmonic", unit(-3), "biharmonic of the height at the summit, nabla^4 z", a.biharmonic);
+}
+
+void ResultTable::contacts() {
+    const PackedContacts& c = r_.contacts;
+    if (c.start.empty()) return;
+    const NetcdfAttributes from_one{{"start_index", std::vector<std::int32_t>{1}}};
+    const auto plus_one = [](std::vector<std::int32_t> v) {
+        for (std::int32_t& i : v) ++i;
+        return v;
+    };
+    NetcdfAttributes start = from_one;
+    append(start, comment("level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"));
+    add("contact_start", {"step"}, "1", "first contact of the level in contact_asperity, contact_force, contact_radius",
+        plus_one(c.start), start);
+    add("contact_count", {"step"}, "1", "contacts kept of the level", c.count);
+    if (c.asperity.empty()) return;
+    file_.dimension("contact", c.asperity.size());
+    add("contact_asperity", {"contact"}, "1", "asperity of the contact", plus_one(c.asperity), from_one);
+    add("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
+    add("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
+}
+
+void ResultTable::heights() {
+    if (!r_.heights) return;
+    const HeightMap& h = *r_.heights;
+    // The maps own the dimensions x and y; the heights lie on a finer grid.
+    file_.dimension("height_y", static_cast<std::size_t>(h.ny));
+    file_.dimension("height_x", static_cast<std::size_t>(h.nx));
+    std::vector<double> x, y;
+    for (int i = 0; i < h.nx; ++i) x.push_back(h.x0 + i * h.dx);
+    for (int j = 0; j < h.ny; ++j) y.push_back(h.y0 + j * h.dy);
+    add("height_y", {"height_y"}, unit(1), "y of the points of height", y);
+    add("height_x", {"height_x"}, unit(1), "x of the points of height", x);
+    file_.variable({"height",
+                    {"height_y", "height_x"},
+                    unit(1),
+                    "height of the surface",
+                    StridedRows{h.data.get(), h.stride},
+                    comment(h.periodic ? "periodic in x and y" : ""),
+                    false});
+}
+
+}  // namespace rsc

@@ -1,0 +1,116 @@
+// The table of variables of a result file, one function a group of them. Internal to the writer.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "file/netcdf_writer.hpp"
+
+namespace rsc {
+
+// In the comment of every variable that may lack values.
+inline constexpr const char* kAbsentMeans = "_FillValue: absent";
+
+// The classic data model has no longer integers; counts stop at its largest.
+inline std::int32_t clamped(std::int64_t n) {
+    return static_cast<std::int32_t>(std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
+}
+
+class ResultTable {
+public:
+    explicit ResultTable(const Result& result)
+        : r_(result), o_(result.observations), length_(result.length_unit), force_(result.force_unit) {}
+
+    // In the order in which ncdump prints them.
+    NetcdfFile make(const std::string& history) {
+        global_attributes(history);
+        axes();
+        levels();
+        means();
+        surfaces();
+        theory();
+        regimes();
+        maps();
+        radial();
+        distributions();
+        asperities();
+        contacts();
+        heights();
+        return std::move(file_);
+    }
+
+private:
+    using Names = std::vector<std::string>;
+
+    // netcdf_levels.cpp
+    void global_attributes(const std::string& history);
+    void axes();
+    void levels();
+    void means();
+    void surfaces();
+    void theory();
+    void regimes();
+    // netcdf_observed.cpp
+    void maps();
+    void radial();
+    void distributions();
+    void bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width);
+    void counts(const std::string& name, const std::string& axis, const std::string& long_name,
+                CountHistogram Distributions::*which);
+    void density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
+                 std::vector<double> FittedDistributions::*which, NetcdfAttributes attributes, const std::string& note);
+    void mean_pressure();
+    void pressure();
+    void spot_area();
+    void asperities();
+    void contacts();
+    void heights();
+
+    std::string unit(int length_power, int force_power = 0) const { return unit_of(length_, length_power, force_, force_power); }
+
+    static NetcdfAttributes comment(const std::string& text) {
+        return text.empty() ? NetcdfAttributes{} : NetcdfAttributes{{"comment", text}};
+    }
+    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
+             std::vector<double> values, NetcdfAttributes attributes = {}) {
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
+    }
+    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
+             std::vector<std::int32_t> values, NetcdfAttributes attributes = {}) {
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
+    }
+    // One that may lack values.
+    void add_absent(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
+                    std::vector<double> values, std::string note = "") {
+        note = note.empty() ? kAbsentMeans : note + "; " + kAbsentMeans;
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values), comment(note), true});
+    }
+
+    template <typename T, typename Get>
+    std::vector<T> of_rows(Get get) const {
+        std::vector<T> values;
+        values.reserve(o_.rows.size());
+        for (const LevelRow& row : o_.rows) values.push_back(get(row));
+        return values;
+    }
+    template <typename Get>
+    std::vector<double> of_surfaces(Get get) const {
+        std::vector<double> values;
+        for (const SurfaceStatistics& s : o_.surface) values.push_back(get(s));
+        return values;
+    }
+    static void append(NetcdfAttributes& to, NetcdfAttributes more) {
+        for (auto& a : more) to.push_back(std::move(a));
+    }
+
+    const Result& r_;
+    const Observations& o_;
+    std::string length_, force_;
+    NetcdfFile file_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,78 @@
+// Everything a result file holds, in memory: R realizations x S levels of one case.
+//
+// The way there, from a case to a file:
+//
+//     check_output(c.output.file);                              // early: the file can be written, or Error(bad_input)
+//     const Contacts keep = contacts_kept(c);                   // likewise early: what the case may keep
+//     ObserveOptions options = observe_options(c, domain, indenter, sigma, sqrt_m4);
+//     Accumulators sums(options, steps);
+//     for each realization k in order:                          // made by whichever thread, added in order
+//         sums.add(observe(options, k, surface_statistics, asperities, levels, stiffness));
+//     Result result = make_result(c, case_text, indenter, sigma, theory, sums.finish());
+//     if there is one realization:
+//         keep_contacts(result, levels, keep);                  // before the asperities are moved in
+//         result.asperities = std::move(asperities);
+//         if (c.output.heights) result.heights = std::move(map);
+//     write_result(result, c.output.file, {c.output.format, c.output.compression, command});     // netcdf_writer.hpp
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "observe/record.hpp"
+#include "rough/surface.hpp"
+#include "case/case.hpp"
+
+namespace rsc {
+
+// The rectangle of the surface.
+struct Domain {
+    double x0 = 0, y0 = 0, Lx = 0, Ly = 0;  // [length]
+};
+
+// The contacts of the levels one after the other; level s has contacts start[s] ... start[s] + count[s] - 1, numbered from 0 here
+// and from 1 in the file.
+struct PackedContacts {
+    std::vector<std::int32_t> start, count;  // [step]; empty: contacts are not kept
+    std::vector<std::int32_t> asperity;      // index of the asperity, from 0
+    std::vector<double> force, radius;
+};
+
+struct Result {
+    std::string title, case_text, length_unit, force_unit;
+    std::int64_t seed = 1;
+    bool force_control = false;  // the separation of a level then differs between realizations
+    Indenter indenter;
+    double sigma = kAbsent;         // the length separations are divided by
+    std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
+    Observations observations;
+    // Of one realization only:
+    Asperities asperities;             // empty: not written
+    PackedContacts contacts;           // empty: not written
+    std::optional<HeightMap> heights;  // none: not written
+};
+
+// What the case keeps of the contacts: `automatic` resolved to all for one realization and none for more.
+// Throws Error(bad_input) when contacts or heights are asked for with several realizations.
+Contacts contacts_kept(const Case& c);
+
+// sqrt_m4 sets the ranges of the distributions: sqrt(m4) in theory for a synthetic surface, of the grid for a measured one, and
+// typical_sqrt_m4(asperities) for asperities given without a surface.
+ObserveOptions observe_options(const Case& c, const Domain& domain, const Indenter& indenter, double sigma, double sqrt_m4);
+
+// 0.9 over the mean radius: inverts <1/kappa_g> = 0.900/sqrt(m4) of isotropic Gaussian surfaces [1/length].
+double typical_sqrt_m4(const Asperities& asperities);
+
+Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma, std::optional<Moments> theory,
+                   Observations observations);
+
+// Packs the contacts of all levels, of the last one (the others then have none), or of no level.
+void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep);
+
+// The moments the regimes are drawn with: the closed forms, otherwise the means of m2 and m4 over the realizations; NaN if there
+// are none.
+Moments regime_moments(const Result& result);
+
+}  // namespace rsc
