@@ -6,12 +6,12 @@
 #include <memory>
 #include <new>
 
-#include "error.hpp"
-#include "run/campaign_manifest.hpp"
-#include "run/campaign_study.hpp"
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
+#include "error.hpp"
+#include "run/campaign_manifest.hpp"
+#include "run/campaign_study.hpp"
 #include "run/signals.hpp"
 #ifdef RSC_MPI
 #include "run/mpi_team.hpp"

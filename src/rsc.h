@@ -179,8 +179,8 @@ RSC_API int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, doubl
 
 /* The grid. All outputs may be null. surface: the surface; nx, ny: points; dx, dy: steps [length]; x0, y0: place of the first
  * point [length]; periodic: 1 or 0. Errors: -1 null. */
-RSC_API int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0,
-                                 double* y0, int32_t* periodic);
+RSC_API int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0,
+                                 int32_t* periodic);
 
 /* The heights. surface: the surface; n: length of the array, nx*ny; heights (out): x fastest [length].
  * Errors: -1 null; -2 n is not nx*ny; -3 null. */
@@ -233,8 +233,7 @@ RSC_API int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, 
 /* Reads the curvatures back. asperities: the asperities; n: length of each array, their number; kappa1, kappa2 (out, may be null)
  * [1/length]; angle (out, may be null) [rad].
  * Errors: -1 null, or asperities that were given without curvatures; -2 n is not their number. */
-RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2,
-                                          double* angle);
+RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle);
 
 /* ---- contact
  * -------------------------------------------------------------------------------------------------------------------- */
@@ -246,8 +245,8 @@ RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int6
  * indentation%selection, indentation%selection_factor and, where they need an rms height, surface%sigma (unless set: that of the
  * surface the asperities come from, otherwise of their heights); null for the defaults.
  * Errors: -1, -2 null; -3, -4 out of range; -5, -6 not finite; -7 keys that are refused; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0,
-                                   double y0, const rsc_case* a_case);
+RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
+                                   const rsc_case* a_case);
 
 /* The same with E* and R from the keys of &solids, and the tip at indentation%centre, by default above the middle of the surface
  * (of the smallest rectangle that holds them, for asperities that were given). contact (out): the handle; asperities: as above;
@@ -288,8 +287,7 @@ RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* se
 /* The last level. All outputs may be null. contact: the contact; separation: Z0 [length]; force: N = sum f [force]; area:
  * A = sum pi a^2, with elliptic spots the area of their union [length^2]; contacts: number of asperities in contact. Errors: -1 null;
  * RSC_NO_RESULT. */
-RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area,
-                                   int64_t* contacts);
+RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts);
 
 /* How the last level was reached. All outputs may be null. contact: the contact; level_status: of RSC_LEVEL_LIST; candidates:
  * asperities that the sphere would penetrate without interaction; iterations: of the solver, of all levels visited when pressing;
@@ -319,16 +317,14 @@ RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t
 /* The same for every asperity: 0 where there is no contact.
  * contact: the contact; n: length of each array, the number of asperities; force, radius, penetration (out, may be null): as
  * above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
-RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius,
-                                         double* penetration);
+RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration);
 
 /* The lowering of the surface by the contact forces, at any points: sum of f/(pi E* d) over the contacts, d being the distance.
  * Within a spot, d < a, its own share is that of its Hertz pressure, 3f/(8 E* a) (2 - d^2/a^2): at a summit in contact the sum is
  * then the penetration without interaction. contact: the contact; n: number of points, >= 0; x, y: places [length]; deflection
  * (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or not finite; -5 null with n > 0;
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y,
-                                       double* deflection);
+RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
 #ifdef __cplusplus
 }

@@ -34,11 +34,14 @@ inline int summary() {
 
 #define CHECK(condition) check::that((condition), #condition, __FILE__, __LINE__)
 #define CHECK_CLOSE(a, b, tolerance) check::close((a), (b), (tolerance), #a " = " #b, __FILE__, __LINE__)
-#define CHECK_RELATIVE(a, b, tolerance) \
-    check::close((a), (b), (tolerance) * std::abs(b), #a " = " #b " (relative)", __FILE__, __LINE__)
-#define CHECK_THROWS(expression, type)                                        \
-    do {                                                                      \
-        bool thrown = false;                                                  \
-        try { (void)(expression); } catch (const type&) { thrown = true; }    \
+#define CHECK_RELATIVE(a, b, tolerance) check::close((a), (b), (tolerance)*std::abs(b), #a " = " #b " (relative)", __FILE__, __LINE__)
+#define CHECK_THROWS(expression, type)                                         \
+    do {                                                                       \
+        bool thrown = false;                                                   \
+        try {                                                                  \
+            (void)(expression);                                                \
+        } catch (const type&) {                                                \
+            thrown = true;                                                     \
+        }                                                                      \
         check::that(thrown, #expression " throws " #type, __FILE__, __LINE__); \
     } while (0)

@@ -22,8 +22,7 @@ void require_sound(const Case& settings, std::initializer_list<std::string_view>
     for (const Problem& problem : check_case(settings)) {
         const Key& key = *problem.keys.front();
         const std::string group = key.group, full = group + "%" + key.name;
-        if (std::none_of(names.begin(), names.end(), [&](std::string_view name) { return name == group || name == full; }))
-            continue;
+        if (std::none_of(names.begin(), names.end(), [&](std::string_view name) { return name == group || name == full; })) continue;
         text += (text.empty() ? "&" : "\n&") + group + ": " + problem.text;
     }
     if (!text.empty()) throw Error(Failure::bad_input, text);
@@ -123,8 +122,7 @@ int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
         how.command = "rsc_case_run";
         const long failed = rsc::run_case(a_case->settings, how);
         put(failed_levels, failed);
-        if (failed > 0)
-            throw Outcome{RSC_NOT_CONVERGED, "some levels did not converge; their values are in the file with status = 4"};
+        if (failed > 0) throw Outcome{RSC_NOT_CONVERGED, "some levels did not converge; their values are in the file with status = 4"};
     });
 }
 

@@ -33,8 +33,7 @@ SolverOptions options_of(const Case& settings, const rsc_asperities::Content& on
 }
 
 void require_contact_keys(const Case& settings) {
-    require_sound(settings,
-                  {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma"});
+    require_sound(settings, {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma"});
 }
 
 const Level& level_of(const rsc_contact* contact) {
@@ -202,8 +201,7 @@ int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
     });
 }
 
-int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius,
-                          double* penetration) {
+int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
         if (n < static_cast<int64_t>(level.asperity.size())) {
@@ -247,8 +245,7 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
             for (std::size_t k = 0; k < level.asperity.size(); ++k) {
                 const auto j = static_cast<std::size_t>(level.asperity[k]);
                 const double dx = x[i] - on.x[j], dy = y[i] - on.y[j], d2 = dx * dx + dy * dy, a2 = level.a[k] * level.a[k];
-                sum +=
-                    d2 < a2 ? level.f[k] * 0.375 / level.a[k] * (2 - d2 / a2) : level.f[k] / (std::numbers::pi * std::sqrt(d2));
+                sum += d2 < a2 ? level.f[k] * 0.375 / level.a[k] * (2 - d2 / a2) : level.f[k] / (std::numbers::pi * std::sqrt(d2));
             }
             deflection[i] = sum / E_star;
         }

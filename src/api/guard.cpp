@@ -16,12 +16,10 @@ thread_local char last_message[kMessageSize];
 const char* meaning(std::int32_t status) {
     switch (status) {
 #define RSC_CASE(name, value, text) \
-    case value:                     \
-        return text;
+    case value: return text;
         RSC_STATUS_LIST(RSC_CASE)
 #undef RSC_CASE
-        default:
-            return status < 0 ? "" : "not a status of rsc";
+        default: return status < 0 ? "" : "not a status of rsc";
     }
 }
 
@@ -36,16 +34,11 @@ void remember(std::string_view message) noexcept {
 
 std::int32_t status_of(const Error& error, int input) noexcept {
     switch (error.kind()) {
-        case Failure::bad_input:
-            return input > 0 ? -input : RSC_INTERNAL;
-        case Failure::not_converged:
-            return RSC_NOT_CONVERGED;
-        case Failure::no_memory:
-            return RSC_NO_MEMORY;
-        case Failure::file_system:
-            return RSC_FILE;
-        case Failure::internal:
-            break;
+        case Failure::bad_input: return input > 0 ? -input : RSC_INTERNAL;
+        case Failure::not_converged: return RSC_NOT_CONVERGED;
+        case Failure::no_memory: return RSC_NO_MEMORY;
+        case Failure::file_system: return RSC_FILE;
+        case Failure::internal: break;
     }
     return RSC_INTERNAL;
 }
@@ -57,8 +50,7 @@ void refuse(int argument, const char* name, const char* why) {
 void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {
-        if (!usable(values[k]))
-            refuse(argument, name, (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
+        if (!usable(values[k])) refuse(argument, name, (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
     }
 }
 
@@ -92,8 +84,7 @@ int32_t rsc_message(char* buffer, int64_t size, int64_t* length) {
 
 int32_t rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] {
-        const std::string text =
-            status < 0 ? "argument " + std::to_string(-static_cast<int64_t>(status)) + " is wrong" : meaning(status);
+        const std::string text = status < 0 ? "argument " + std::to_string(-static_cast<int64_t>(status)) + " is wrong" : meaning(status);
         put_text(text, buffer, size, length, 2);
     });
 }

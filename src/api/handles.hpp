@@ -6,11 +6,11 @@
 #include <optional>
 #include <string_view>
 
+#include "case/case.hpp"
 #include "contact/contact.hpp"
 #include "rough/asperities.hpp"
 #include "rough/surface.hpp"
 #include "rsc.h"
-#include "case/case.hpp"
 
 struct rsc_case {
     rsc::Case settings;
@@ -18,7 +18,7 @@ struct rsc_case {
 
 struct rsc_surface {
     rsc::HeightMap map;
-    double points_per_wave = 0;  // grid steps in the shortest wave of a synthetic surface; 0: not known
+    double points_per_wave = 0;          // grid steps in the shortest wave of a synthetic surface; 0: not known
     std::optional<rsc::Moments> theory;  // of synthetic surfaces
     double sigma = 0;                    // rms height that is meant: the one asked for, or that of the heights
 };
@@ -35,8 +35,7 @@ struct rsc_asperities {
 };
 
 struct rsc_contact {
-    rsc_contact(std::shared_ptr<const rsc_asperities::Content> on_, const rsc::Indenter& indenter,
-                const rsc::SolverOptions& options_)
+    rsc_contact(std::shared_ptr<const rsc_asperities::Content> on_, const rsc::Indenter& indenter, const rsc::SolverOptions& options_)
         : on(std::move(on_)), options(options_), contact(on->asperities, indenter, options) {}
     std::shared_ptr<const rsc_asperities::Content> on;
     rsc::SolverOptions options;

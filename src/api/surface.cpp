@@ -6,8 +6,8 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "rough/magnitude.hpp"
 #include "read/inputs.hpp"
+#include "rough/magnitude.hpp"
 
 namespace rsc::api {
 namespace {
@@ -49,14 +49,12 @@ void require_apart(const Asperities& a) {
     std::vector<std::size_t> order(a.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-        return std::pair(a.x[i], a.y[i]) != std::pair(a.x[j], a.y[j]) ? std::pair(a.x[i], a.y[i]) < std::pair(a.x[j], a.y[j])
-                                                                      : i < j;
+        return std::pair(a.x[i], a.y[i]) != std::pair(a.x[j], a.y[j]) ? std::pair(a.x[i], a.y[i]) < std::pair(a.x[j], a.y[j]) : i < j;
     });
     for (std::size_t k = 1; k < order.size(); ++k) {
         const std::size_t i = order[k - 1], j = order[k];
         if (a.x[i] == a.x[j] && a.y[i] == a.y[j]) {
-            refuse(3, "x",
-                   ("and y: entries " + std::to_string(i) + " and " + std::to_string(j) + " are at the same place").c_str());
+            refuse(3, "x", ("and y: entries " + std::to_string(i) + " and " + std::to_string(j) + " are at the same place").c_str());
         }
     }
 }
@@ -78,15 +76,15 @@ int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, in
             const rsc::Spectrum spectrum = spectrum_of(settings);
             made->sigma = spectrum.sigma;
             made->points_per_wave = settings.surface.n / spectrum.L_lambda_s;
-            made->map = rsc::synthesize(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization,
-                                        nullptr, threads_of(settings));
+            made->map = rsc::synthesize(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization, nullptr,
+                                        threads_of(settings));
             return made.release();
         });
     });
 }
 
-int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0,
-                         int32_t periodic, const double* heights) {
+int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0, int32_t periodic,
+                         const double* heights) {
     return guarded(0, [&] {
         construct(surface, "surface", [&] {
             if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
@@ -172,8 +170,7 @@ int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heigh
         const rsc::HeightMap& map = surface->map;
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
-        for (int j = 0; j < map.ny; ++j)
-            std::copy(map.row(j), map.row(j) + map.nx, heights + static_cast<std::ptrdiff_t>(j) * map.nx);
+        for (int j = 0; j < map.ny; ++j) std::copy(map.row(j), map.row(j) + map.nx, heights + static_cast<std::ptrdiff_t>(j) * map.nx);
     });
 }
 
@@ -194,14 +191,12 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
             const rsc::Case& settings = settings_of(a_case);
             const rsc::HeightMap& map = surface->map;
             rsc_asperities::Content content;
-            content.asperities = rsc::find_asperities(map, settings.asperities.curvature, nullptr, threads_of(settings), detail_of(settings),
-                                                      surface->points_per_wave);
-            if (content.asperities.size() == 0)
-                refuse(2, "surface", "has no summit: no point lies strictly above its 8 neighbours");
+            content.asperities = rsc::find_asperities(map, settings.asperities.curvature, nullptr, threads_of(settings),
+                                                      detail_of(settings), surface->points_per_wave);
+            if (content.asperities.size() == 0) refuse(2, "surface", "has no summit: no point lies strictly above its 8 neighbours");
             content.sigma = surface->sigma;
-            content.mean_spacing = surface->theory
-                                       ? surface->theory->mean_spacing()
-                                       : std::sqrt(map.Lx() * map.Ly() / static_cast<double>(content.asperities.size()));
+            content.mean_spacing = surface->theory ? surface->theory->mean_spacing()
+                                                   : std::sqrt(map.Lx() * map.Ly() / static_cast<double>(content.asperities.size()));
             content.x_middle = map.x0 + 0.5 * map.Lx();
             content.y_middle = map.y0 + 0.5 * map.Ly();
             return share(std::move(content));
@@ -228,9 +223,8 @@ int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
     });
 }
 
-int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z,
-                            const double* radius, const double* kappa1, const double* kappa2, const double* angle,
-                            const double* biharmonic) {
+int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z, const double* radius,
+                            const double* kappa1, const double* kappa2, const double* angle, const double* biharmonic) {
     return guarded(0, [&] {
         construct(asperities, "asperities", [&] {
             if (n < 1 || n > kMost) refuse(2, "n", "must be from 1 to 2147483647");

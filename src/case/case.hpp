@@ -33,7 +33,7 @@ struct Case {
     struct Surface {
         Source source = Source::synthetic;
         std::string file;
-        std::optional<double> L;      // default 1.0; for heights and asperities: from the file unless set
+        std::optional<double> L;  // default 1.0; for heights and asperities: from the file unless set
         int n = 2048;
         double hurst = 0.8, L_lambda_l = 24.0, L_lambda_s = 512.0;
         bool plateau = false;
@@ -51,8 +51,8 @@ struct Case {
         int steps = 100;
         LevelUnit unit = LevelUnit::sigma;
         Spacing spacing = Spacing::linear;
-        std::vector<double> levels;                // explicit list instead, in `unit`; empty: start, stop, steps
-        std::optional<double> centre[2];           // default: the middle of the surface
+        std::vector<double> levels;       // explicit list instead, in `unit`; empty: start, stop, steps
+        std::optional<double> centre[2];  // default: the middle of the surface
         Selection selection = Selection::overlap;
         double selection_factor = 1.5;
     } indentation;

@@ -113,8 +113,7 @@ private:
     }
     void unknown_group(const std::string& name, std::size_t sign) {
         const std::string_view near = nearest(name, known_);
-        fault(sign, "unknown group '&" + name.substr(0, 63) + "'" +
-                        (near.empty() ? "" : "; did you mean '&" + std::string(near) + "'?"));
+        fault(sign, "unknown group '&" + name.substr(0, 63) + "'" + (near.empty() ? "" : "; did you mean '&" + std::string(near) + "'?"));
     }
 
     // --- separators, the way gfortran does them ---------------------------------------------------------------------------
@@ -274,15 +273,13 @@ private:
             if (c == ',') return "'" + a.key + "' has one dimension";
             if (!ends && c != ':') {
                 back(c);
-                return "the subscript of '" + a.key + "' must be (first), (first:last) or (first:last:step), found '" +
-                       excerpt(at_) + "'";
+                return "the subscript of '" + a.key + "' must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
             }
             if (c == ':') s.section = true;
             if (part == 0) s.first = number;
             if (part == 1) s.last = number;
             if (part == 2) {
-                if (!ends || !number || *number == 0)
-                    return "the step in the subscript of '" + a.key + "' must be an integer other than 0";
+                if (!ends || !number || *number == 0) return "the step in the subscript of '" + a.key + "' must be an integer other than 0";
                 s.step = *number;
             }
             if (ends) {
@@ -350,8 +347,7 @@ private:
 
     void add(Assignment& a, Item item) {
         if (a.items.size() == kMostItems)
-            report(document_.faults, item.at,
-                   "more than " + std::to_string(kMostItems) + " values for '" + a.key.substr(0, 63) + "'");
+            report(document_.faults, item.at, "more than " + std::to_string(kMostItems) + " values for '" + a.key.substr(0, 63) + "'");
         if (a.items.size() <= kMostItems) a.items.push_back(std::move(item));
     }
 
@@ -422,9 +418,7 @@ private:
     // Whether a key, perhaps with a subscript, and '=' stand here.
     bool key_follows() const {
         std::size_t i = at_;
-        const auto look = [&](std::size_t k) {
-            return k < text_.size() ? static_cast<int>(static_cast<unsigned char>(text_[k])) : kEnd;
-        };
+        const auto look = [&](std::size_t k) { return k < text_.size() ? static_cast<int>(static_cast<unsigned char>(text_[k])) : kEnd; };
         if (!is_letter(look(i)) && look(i) != '_') return false;
         while (is_name(look(i))) ++i;
         if (look(i) == '(') {
@@ -465,9 +459,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-Document parse(std::string_view text, const std::vector<std::string_view>& known_groups) {
-    return Parser(text, known_groups).document();
-}
+Document parse(std::string_view text, const std::vector<std::string_view>& known_groups) { return Parser(text, known_groups).document(); }
 
 Document parse_assignments(std::string_view text) {
     const std::vector<std::string_view> none;

@@ -3,8 +3,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "error.hpp"
 #include "case/namelist.hpp"
+#include "error.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -31,8 +31,7 @@ const Flag& find_long(std::string_view name) {
         names.push_back(flag.name);
     }
     const std::string_view near = namelist::nearest(name, names);
-    refuse("unknown option '--" + std::string(name) + "'" +
-           (near.empty() ? "" : "; did you mean '--" + std::string(near) + "'?"));
+    refuse("unknown option '--" + std::string(name) + "'" + (near.empty() ? "" : "; did you mean '--" + std::string(near) + "'?"));
 }
 
 const Flag& find_short(char letter) {

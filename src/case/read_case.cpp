@@ -56,8 +56,7 @@ std::string limited_text(std::istream& in, const std::string& name) {
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
         text.append(buffer, static_cast<std::size_t>(in.gcount()));
         if (text.size() > namelist::kLargestText)
-            throw Error(Failure::bad_input,
-                        name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+            throw Error(Failure::bad_input, name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
     }
     if (in.bad()) throw Error(Failure::bad_input, name + ": cannot be read");
     return text;
@@ -102,8 +101,8 @@ Reading read_namelist(std::string_view text) {
             if (const Key* key = find_key(group.name, assignment.key))
                 assign(reading.settings, *key, assignment, reading.ledger, reading.faults);
             else
-                reading.faults.push_back({assignment.at, "&" + group.name + ": unknown key '" + assignment.key.substr(0, 63) +
-                                                             "'" + suggest_key(group.name, assignment.key)});
+                reading.faults.push_back({assignment.at, "&" + group.name + ": unknown key '" + assignment.key.substr(0, 63) + "'" +
+                                                             suggest_key(group.name, assignment.key)});
         }
     }
     finish_lists(reading.settings, reading.ledger, reading.faults);
@@ -127,8 +126,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
 
     for (const Problem& problem : check_case(settings))
         if (!concerns_faulty(reading.ledger, problem) && !(reading.study && varied(*reading.study, problem)))
-            faults.push_back(
-                {place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
+            faults.push_back({place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
     if (reading.study) {
         if (!kStudiesAvailable)
             faults.push_back({reading.study->at, "&study is not available yet"});
@@ -162,8 +160,7 @@ ReadCase read_case(const Options& options) {
     std::ifstream in(options.case_path, std::ios::binary);
     if (!in) throw Error(Failure::bad_input, options.case_path + ": cannot be opened");
     // A directory opens and then cannot be read.
-    if (in.peek() == std::ifstream::traits_type::eof() && in.bad())
-        throw Error(Failure::bad_input, options.case_path + ": cannot be read");
+    if (in.peek() == std::ifstream::traits_type::eof() && in.bad()) throw Error(Failure::bad_input, options.case_path + ": cannot be read");
     in.clear();
     return read_case(in, options.case_path, options);
 }

@@ -32,20 +32,16 @@ Slot choice_slot(E& object) {
 
 using enum Type;
 
-Key scalar(const char* group, const char* name, Type type, const char* unit, Bounds bounds, const char* meaning,
-           Slot (*slot)(Case&)) {
+Key scalar(const char* group, const char* name, Type type, const char* unit, Bounds bounds, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, type, 1, false, 0, unit, bounds, {}, "", meaning, slot};
 }
-Key array(const char* group, const char* name, int size, const char* unit, Bounds bounds, const char* meaning,
-          Slot (*slot)(Case&)) {
+Key array(const char* group, const char* name, int size, const char* unit, Bounds bounds, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, real, size, false, 0, unit, bounds, {}, "", meaning, slot};
 }
-Key list(const char* group, const char* name, int most, const char* unit, const char* unset, const char* meaning,
-         Slot (*slot)(Case&)) {
+Key list(const char* group, const char* name, int most, const char* unit, const char* unset, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, real, most, true, 0, unit, kAny, {}, unset, meaning, slot};
 }
-Key optional(const char* group, const char* name, int size, Bounds bounds, const char* unset, const char* meaning,
-             Slot (*slot)(Case&)) {
+Key optional(const char* group, const char* name, int size, Bounds bounds, const char* unset, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, real, size, false, 0, "length", bounds, {}, unset, meaning, slot};
 }
 Key text(const char* group, const char* name, int length, const char* meaning, Slot (*slot)(Case&)) {
@@ -59,8 +55,7 @@ Key one_of(const char* group, const char* name, std::vector<const char*> choices
 std::vector<Key> make_registry() {
     return {
         text("run", "title", 1024, "title of the result file", RSC_SLOT(run.title)),
-        scalar("run", "seed", long_integer, "1", kAny, "seed of the noise: with `realization` it is the surface",
-               RSC_SLOT(run.seed)),
+        scalar("run", "seed", long_integer, "1", kAny, "seed of the noise: with `realization` it is the surface", RSC_SLOT(run.seed)),
         scalar("run", "realizations", integer, "1", between(1, 1e7), "number of surfaces", RSC_SLOT(run.realizations)),
         scalar("run", "first_realization", integer, "1", between(1, 2147483647.0),
                "number of the first surface; realization k of a seed is the same surface whatever the rest",
@@ -82,33 +77,30 @@ std::vector<Key> make_registry() {
                  "side of the surface (x extent of a map)", RSC_SLOT(surface.L)),
         scalar("surface", "n", integer, "1", between(2, 32768), "points along a side, even", RSC_SLOT(surface.n)),
         scalar("surface", "hurst", real, "1", between(0, 1), "Hurst exponent H", RSC_SLOT(surface.hurst)),
-        scalar("surface", "L_lambda_l", real, "1", between(1, 32768),
-               "L / lambda_l: the longest wavelength of the self-affine band", RSC_SLOT(surface.L_lambda_l)),
+        scalar("surface", "L_lambda_l", real, "1", between(1, 32768), "L / lambda_l: the longest wavelength of the self-affine band",
+               RSC_SLOT(surface.L_lambda_l)),
         scalar("surface", "L_lambda_s", real, "1", between(1, 32768), "L / lambda_s: the shortest wavelength",
                RSC_SLOT(surface.L_lambda_s)),
-        scalar("surface", "plateau", logical, "", kAny,
-               "constant spectrum between the wavelengths L and lambda_l instead of none there", RSC_SLOT(surface.plateau)),
+        scalar("surface", "plateau", logical, "", kAny, "constant spectrum between the wavelengths L and lambda_l instead of none there",
+               RSC_SLOT(surface.plateau)),
         optional("surface", "sigma", 1, kPositive, "0.01; for heights and asperities the rms of what was read",
-                 "rms height to make; for heights and asperities the length that unit = 'sigma' and delta0 mean",
-                 RSC_SLOT(surface.sigma)),
+                 "rms height to make; for heights and asperities the length that unit = 'sigma' and delta0 mean", RSC_SLOT(surface.sigma)),
         one_of("surface", "normalise", {"sample", "ensemble"}, "sigma holds for each surface exactly, or in expectation",
                RSC_CHOICE(surface.normalise)),
         one_of("surface", "detrend", {"none", "mean", "plane"},
                "what to subtract from heights read; separation is measured from z = 0 after it", RSC_CHOICE(surface.detrend)),
 
-        one_of("asperities", "curvature", {"geometric", "algebraic"},
-               "mean of the principal curvatures that gives an asperity its radius", RSC_CHOICE(asperities.curvature)),
+        one_of("asperities", "curvature", {"geometric", "algebraic"}, "mean of the principal curvatures that gives an asperity its radius",
+               RSC_CHOICE(asperities.curvature)),
         one_of("asperities", "law", {"hertz", "elliptic", "fourth_order"},
                "what an asperity is: a sphere on a grid point (the paper's), or at the summit between the points an elliptic "
                "paraboloid, or one flattened as the summit is; the latter two count once what elliptic spots share",
                RSC_CHOICE(asperities.law)),
 
-        one_of("indentation", "control", {"separation", "force"}, "what start, stop and levels are",
-               RSC_CHOICE(indentation.control)),
+        one_of("indentation", "control", {"separation", "force"}, "what start, stop and levels are", RSC_CHOICE(indentation.control)),
         scalar("indentation", "start", real, "`unit`", kAny, "first level", RSC_SLOT(indentation.start)),
         scalar("indentation", "stop", real, "`unit`", kAny, "last level", RSC_SLOT(indentation.stop)),
-        scalar("indentation", "steps", integer, "1", between(1, 1e6), "number of levels, both ends included",
-               RSC_SLOT(indentation.steps)),
+        scalar("indentation", "steps", integer, "1", between(1, 1e6), "number of levels, both ends included", RSC_SLOT(indentation.steps)),
         one_of("indentation", "unit", {"sigma", "length"}, "unit of the levels; with force control they are forces",
                RSC_CHOICE(indentation.unit)),
         one_of("indentation", "spacing", {"linear", "log"}, "spacing of the levels", RSC_CHOICE(indentation.spacing)),
@@ -126,26 +118,20 @@ std::vector<Key> make_registry() {
                "dgesv: the paper's method; direct and mesh: matrix-free, by pairs or by transforms", RSC_CHOICE(solver.method)),
         scalar("solver", "tolerance", real, "1", between(1e-14, 0.1),
                "relative residual of F - C<G0 - B F>^(3/2); for dgesv also on |dF|/|F|", RSC_SLOT(solver.tolerance)),
-        scalar("solver", "max_iterations", integer, "1", between(1, 1e6), "Newton steps at a level",
-               RSC_SLOT(solver.max_iterations)),
-        scalar("solver", "delta0", real, "sigma", above(0, 1e3), "first regularisation of the paper's method",
-               RSC_SLOT(solver.delta0)),
+        scalar("solver", "max_iterations", integer, "1", between(1, 1e6), "Newton steps at a level", RSC_SLOT(solver.max_iterations)),
+        scalar("solver", "delta0", real, "sigma", above(0, 1e3), "first regularisation of the paper's method", RSC_SLOT(solver.delta0)),
         one_of("solver", "interaction", {"point", "hertz", "none"},
-               "how an asperity lowers the surface elsewhere: as a point force, as a Hertz spot, or not",
-               RSC_CHOICE(solver.interaction)),
+               "how an asperity lowers the surface elsewhere: as a point force, as a Hertz spot, or not", RSC_CHOICE(solver.interaction)),
 
         text("output", "file", 4096, "the result file", RSC_SLOT(output.file)),
         one_of("output", "format", {"netcdf4", "cdf5", "classic"}, "format of the result file", RSC_CHOICE(output.format)),
         one_of("output", "contacts", {"auto", "none", "last", "all"},
-               "levels whose contacts are written; auto: all for one realization, none for a campaign",
-               RSC_CHOICE(output.contacts)),
+               "levels whose contacts are written; auto: all for one realization, none for a campaign", RSC_CHOICE(output.contacts)),
         scalar("output", "heights", logical, "", kAny, "write the height map, too", RSC_SLOT(output.heights)),
-        scalar("output", "map_cells", integer, "1", between(1, 4096), "cells along a side of the coarse maps",
-               RSC_SLOT(output.map_cells)),
-        scalar("output", "radial_bins", integer, "1", between(1, 100000), "points of the radial means",
-               RSC_SLOT(output.radial_bins)),
-        list("output", "pdf_levels", 100, "sigma", "",
-             "separations whose distributions are written: the nearest level run to each", RSC_SLOT(output.pdf_levels)),
+        scalar("output", "map_cells", integer, "1", between(1, 4096), "cells along a side of the coarse maps", RSC_SLOT(output.map_cells)),
+        scalar("output", "radial_bins", integer, "1", between(1, 100000), "points of the radial means", RSC_SLOT(output.radial_bins)),
+        list("output", "pdf_levels", 100, "sigma", "", "separations whose distributions are written: the nearest level run to each",
+             RSC_SLOT(output.pdf_levels)),
         scalar("output", "pdf_bins", integer, "1", between(1, 100000), "bins of the distributions", RSC_SLOT(output.pdf_bins)),
         scalar("output", "compression", integer, "1", between(0, 9), "deflate level of netcdf4", RSC_SLOT(output.compression)),
     };

@@ -35,8 +35,7 @@ struct ChoiceSlot {
 };
 
 // Where a key lives in a Case: the value, the first of `size` values, or a list.
-using Slot =
-    std::variant<bool*, int*, std::int64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*, ChoiceSlot>;
+using Slot = std::variant<bool*, int*, std::int64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*, ChoiceSlot>;
 
 struct Key {
     const char* group;
@@ -96,8 +95,7 @@ private:
 };
 
 // Stores the values of one assignment and reports what is wrong with them. Lists are stored by finish_lists.
-void assign(Case& settings, const Key& key, const namelist::Assignment& assignment, Ledger& ledger,
-            std::vector<namelist::Fault>& faults);
+void assign(Case& settings, const Key& key, const namelist::Assignment& assignment, Ledger& ledger, std::vector<namelist::Fault>& faults);
 void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& faults);
 
 // Sets "group%key", "group%key(2)" or "group%key(1:2)" to a value (or values) in namelist syntax. Checks type, choice, shape and

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "error.hpp"
-#include "rough/magnitude.hpp"
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
+#include "error.hpp"
+#include "rough/magnitude.hpp"
 
 namespace rsc {
 namespace {
@@ -99,8 +99,7 @@ private:
                 problems_.push_back({{&key}, 0, std::string(u.name) + " = '" + u.choice + "' is not available yet"});
         }
         if (c_.run.realizations > 1 && !kCampaignsAvailable)
-            complain({"run%realizations"},
-                     "realizations = " + std::to_string(c_.run.realizations) + " is not available yet: only 1 is");
+            complain({"run%realizations"}, "realizations = " + std::to_string(c_.run.realizations) + " is not available yet: only 1 is");
     }
 
     void check_solids() {
@@ -111,8 +110,7 @@ private:
     void check_surface() {
         const Case::Surface& s = c_.surface;
         if (s.source != Source::synthetic) {
-            if (s.file.empty())
-                complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
+            if (s.file.empty()) complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
             if (c_.run.realizations > 1 && kCampaignsAvailable)
                 complain({"run%realizations", "surface%source"}, "realizations: a surface that is read is one realization");
             return;
@@ -123,15 +121,14 @@ private:
                      "L_lambda_s = " + namelist::from_real(s.L_lambda_s) +
                          ": must be larger than L_lambda_l = " + namelist::from_real(s.L_lambda_l));
         if (!(s.n > 2 * s.L_lambda_s))
-            complain({"surface%n", "surface%L_lambda_s"}, "n = " + std::to_string(s.n) + ": must be larger than 2 L_lambda_s = " +
-                                                              namelist::from_real(2 * s.L_lambda_s) +
-                                                              " for the grid to carry the shortest wavelength");
+            complain({"surface%n", "surface%L_lambda_s"},
+                     "n = " + std::to_string(s.n) + ": must be larger than 2 L_lambda_s = " + namelist::from_real(2 * s.L_lambda_s) +
+                         " for the grid to carry the shortest wavelength");
         const double L = s.L.value_or(1.0);
         for (const std::optional<double>& x : c_.indentation.centre)
             if (x && (*x < 0 || *x > L)) {
                 complain({"indentation%centre", "surface%L"},
-                         "centre = " + get_key(c_, "indentation%centre") +
-                             ": must lie on the surface, 0 to L = " + namelist::from_real(L));
+                         "centre = " + get_key(c_, "indentation%centre") + ": must lie on the surface, 0 to L = " + namelist::from_real(L));
                 break;
             }
     }
@@ -159,25 +156,20 @@ private:
     }
 
     void check_sizes() {
-        const double levels =
-            c_.indentation.levels.empty() ? c_.indentation.steps : static_cast<double>(c_.indentation.levels.size());
+        const double levels = c_.indentation.levels.empty() ? c_.indentation.steps : static_cast<double>(c_.indentation.levels.size());
         const double cells = c_.output.map_cells;
         const char* by = c_.indentation.levels.empty() ? "indentation%steps" : "indentation%levels";
         if (levels * cells * cells > kMostMapValues)
-            complain({"output%map_cells", by}, "map_cells = " + std::to_string(c_.output.map_cells) + ": the maps of " +
-                                                   count(levels) + " levels would hold more than " + count(kMostMapValues) +
-                                                   " values");
+            complain({"output%map_cells", by}, "map_cells = " + std::to_string(c_.output.map_cells) + ": the maps of " + count(levels) +
+                                                   " levels would hold more than " + count(kMostMapValues) + " values");
         if (levels * c_.output.radial_bins > kMostMapValues)
-            complain({"output%radial_bins", by}, "radial_bins = " + std::to_string(c_.output.radial_bins) +
-                                                     ": the radial means of " + count(levels) + " levels would hold more than " +
-                                                     count(kMostMapValues) + " values");
+            complain({"output%radial_bins", by}, "radial_bins = " + std::to_string(c_.output.radial_bins) + ": the radial means of " +
+                                                     count(levels) + " levels would hold more than " + count(kMostMapValues) + " values");
         if (levels * c_.run.realizations > kMostLevelValues)
-            complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " +
-                                                   count(levels) + " levels more than " + count(kMostLevelValues) +
-                                                   " values of each curve");
+            complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " + count(levels) +
+                                                   " levels more than " + count(kMostLevelValues) + " values of each curve");
         if (double(c_.run.first_realization) + c_.run.realizations - 1 > 2147483647.0)
-            complain({"run%first_realization", "run%realizations"},
-                     "first_realization: the last realization would be beyond 2147483647");
+            complain({"run%first_realization", "run%realizations"}, "first_realization: the last realization would be beyond 2147483647");
         if (c_.output.file.empty()) complain({"output%file"}, "file: must not be empty");
     }
 

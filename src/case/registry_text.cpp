@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "error.hpp"
 #include "case/registry.hpp"
+#include "error.hpp"
 
 namespace rsc {
 namespace {
@@ -17,18 +17,12 @@ std::string full_name(const Key& key) { return std::string(key.group) + "%" + ke
 
 const char* type_name(Type type) {
     switch (type) {
-        case Type::logical:
-            return "logical";
-        case Type::integer:
-            return "integer";
-        case Type::long_integer:
-            return "integer (64 bits)";
-        case Type::real:
-            return "real";
-        case Type::string:
-            return "text";
-        case Type::choice:
-            return "choice";
+        case Type::logical: return "logical";
+        case Type::integer: return "integer";
+        case Type::long_integer: return "integer (64 bits)";
+        case Type::real: return "real";
+        case Type::string: return "text";
+        case Type::choice: return "choice";
     }
     return "";
 }
@@ -116,9 +110,7 @@ std::string describe(std::string_view name) {
     }
     const std::string_view key_name = name.substr(percent + 1);
     const Key* key = find_key(group, key_name);
-    if (!key)
-        throw Error(Failure::bad_input,
-                    "&" + group + ": unknown key '" + std::string(key_name) + "'" + suggest_key(group, key_name));
+    if (!key) throw Error(Failure::bad_input, "&" + group + ": unknown key '" + std::string(key_name) + "'" + suggest_key(group, key_name));
     out << "&" << group << "\n";
     describe_key(out, *key);
     return out.str();

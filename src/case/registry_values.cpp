@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "error.hpp"
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
+#include "error.hpp"
 
 namespace rsc {
 namespace {
@@ -98,8 +98,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
             return {};
         }
         case Type::string:
-        case Type::choice:
-            break;
+        case Type::choice: break;
     }
     // gfortran takes a text without quotes when a digit or a repeat count comes first.
     if (!item.quoted && (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
@@ -114,8 +113,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     const auto found = std::find_if(key.choices.begin(), key.choices.end(), [&](const char* c) { return word == c; });
     if (found == key.choices.end()) {
         const std::string_view near = namelist::nearest(word, {key.choices.begin(), key.choices.end()});
-        return quote(item) + " is none of " + list_choices(key) +
-               (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
+        return quote(item) + " is none of " + list_choices(key) + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
     }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
     choice.set(choice.object, static_cast<int>(found - key.choices.begin()));
@@ -217,8 +215,8 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {
                 const long element = walk.first + (done + k) * walk.step;
-                const std::string problem = is_text && a.subscript ? store_substring(slot, key, walk, item, entry)
-                                                                   : store(slot, key, element, item, entry);
+                const std::string problem =
+                    is_text && a.subscript ? store_substring(slot, key, walk, item, entry) : store(slot, key, element, item, entry);
                 if (!problem.empty()) {
                     fault(item.at, problem);
                     break;
@@ -261,8 +259,7 @@ struct Named {
 
 Named named(std::string_view name, std::string_view value) {
     const std::size_t percent = name.find('%');
-    if (percent == std::string_view::npos)
-        throw Error(Failure::bad_input, "expected group%key, found '" + std::string(name) + "'");
+    if (percent == std::string_view::npos) throw Error(Failure::bad_input, "expected group%key, found '" + std::string(name) + "'");
     const auto strip = [](std::string_view s) {
         while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
         while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
@@ -271,8 +268,8 @@ Named named(std::string_view name, std::string_view value) {
     const std::string_view group = strip(name.substr(0, percent)), rest = strip(name.substr(percent + 1));
     if (!group_meaning(namelist::lower_case(group))) {
         const std::string_view near = namelist::nearest(group, group_names());
-        throw Error(Failure::bad_input, "unknown group '" + std::string(group) + "'" +
-                                            (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+        throw Error(Failure::bad_input,
+                    "unknown group '" + std::string(group) + "'" + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
     }
     const std::string_view bare = strip(rest.substr(0, rest.find('(')));
     const Key* key = find_key(group, bare);
@@ -332,8 +329,7 @@ std::string get_key(const Case& settings, std::string_view name) {
     Walk walk{1, 1, size};
     if (assignment.subscript) {
         if (key->size == 1) throw Error(Failure::bad_input, std::string(key->name) + " is no array: it takes no subscript");
-        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty())
-            throw Error(Failure::bad_input, problem);
+        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty()) throw Error(Failure::bad_input, problem);
         if (!assignment.subscript->section) walk.count = 1;
     }
     std::string text;

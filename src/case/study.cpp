@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "error.hpp"
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
+#include "error.hpp"
 
 namespace rsc {
 namespace {
@@ -60,9 +60,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
     bool mode_given = false;
     for (const namelist::Assignment& a : group.assignments) {
         if (faults.size() >= namelist::kMostFaults) break;
-        const auto fault = [&](const namelist::Position& at, const std::string& text) {
-            faults.push_back({at, "&study: " + text});
-        };
+        const auto fault = [&](const namelist::Position& at, const std::string& text) { faults.push_back({at, "&study: " + text}); };
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
             mode_given = true;
@@ -127,8 +125,7 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
             try {
                 set_key(trial, axis.key, axis.values[i]);
             } catch (const Error& error) {
-                faults.push_back(
-                    {i < axis.places.size() ? axis.places[i] : axis.at, "&study: " + axis.key + ": " + error.what()});
+                faults.push_back({i < axis.places.size() ? axis.places[i] : axis.at, "&study: " + axis.key + ": " + error.what()});
             }
         }
     const std::size_t length = study.axes.front().values.size();
@@ -136,10 +133,8 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
         for (const Study::Axis& axis : study.axes)
             if (axis.values.size() != length)
                 faults.push_back({axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) + " values, " +
-                                               study.axes.front().key + " has " + std::to_string(length) +
-                                               ": mode = 'zip' wants as many"});
-    if (member_count(study) > kMostMembers)
-        faults.push_back({study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
+                                               study.axes.front().key + " has " + std::to_string(length) + ": mode = 'zip' wants as many"});
+    if (member_count(study) > kMostMembers) faults.push_back({study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
     return faults;
 }
 

@@ -6,12 +6,12 @@
 #include <limits>
 #include <numeric>
 
-#include "contact/solver/dgesv.hpp"
 #include "contact/interaction/mesh.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/ranking.hpp"
-#include "contact/spots.hpp"
+#include "contact/solver/dgesv.hpp"
 #include "contact/solver/uniqueness.hpp"
+#include "contact/spots.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -327,8 +327,7 @@ Level Contact::Impl::report(double Z0) const {
     for (std::size_t k = 0; k < force.size(); ++k) {
         if (force[k] > 0) order.push_back(k);
     }
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return candidates.asperity[a] < candidates.asperity[b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return candidates.asperity[a] < candidates.asperity[b]; });
     Vector x, y;
     for (std::size_t k : order) {
         const double area = law->area(candidates.asperity[k], v[k]);
@@ -343,8 +342,10 @@ Level Contact::Impl::report(double Z0) const {
         x.push_back(candidates.x[k]);
         y.push_back(candidates.y[k]);
     }
-    if (options.law == LawKind::hertz) level.overlapping_pairs = count_overlapping(x, y, level.a);
-    else level.area = union_area(spots(level), &level.overlapping_pairs);
+    if (options.law == LawKind::hertz)
+        level.overlapping_pairs = count_overlapping(x, y, level.a);
+    else
+        level.area = union_area(spots(level), &level.overlapping_pairs);
     if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     return level;
@@ -424,8 +425,10 @@ Level Contact::at_force(double N) {
     while (my.law->force(highest, depth) < N) depth *= 2;
     double Z0 = above - 0.25 * depth;
     if (!my.force.empty()) {
-        if (!my.past.empty()) Z0 = my.past.front().separation;
-        else if (!my.carried.phi.empty() && my.carried.separation < above) Z0 = my.carried.separation;
+        if (!my.past.empty())
+            Z0 = my.past.front().separation;
+        else if (!my.carried.phi.empty() && my.carried.separation < above)
+            Z0 = my.carried.separation;
     }
     Level level;
     int iterations = 0;
@@ -472,9 +475,7 @@ void Contact::move_tip(double x0, double y0) {
     impl_->ranking.assign(impl_->asperities, impl_->indenter);
 }
 
-double Contact::first_touch() const {
-    return impl_->ranking.highest();
-}
+double Contact::first_touch() const { return impl_->ranking.highest(); }
 
 const Indenter& Contact::indenter() const { return impl_->indenter; }
 

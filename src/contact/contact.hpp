@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "contact/indentation.hpp"
-#include "contact/law/law.hpp"
-#include "contact/solver/newton.hpp"
 #include "contact/interaction/products.hpp"
+#include "contact/law/law.hpp"
 #include "contact/ranking.hpp"
+#include "contact/solver/newton.hpp"
 
 namespace rsc {
 

@@ -33,7 +33,8 @@ struct Interval {
     double from, to;
 };
 
-constexpr double kStart = 0.3, kEnd = kStart + 2 * pi;  // of the parameter t along a border: no axis, where spots touch if anywhere
+constexpr double kStart = 0.3,
+                 kEnd = kStart + 2 * pi;  // of the parameter t along a border: no axis, where spots touch if anywhere
 
 // Along a border: finer than its extrema against another, four at most, usually are apart.
 struct Samples {
@@ -79,15 +80,19 @@ public:
             const bool in = values[k - 1] < 0, stays = in == (values[k] < 0), sinks = slopes[k - 1] < 0;
             if (!stays) {
                 const double t = root(low, high, low - values[k - 1] * (high - low) / (values[k] - values[k - 1]), in, value);
-                if (in) covered.push_back({from, t});
-                else from = t;
+                if (in)
+                    covered.push_back({from, t});
+                else
+                    from = t;
             } else if (sinks != in && sinks != (slopes[k] < 0) && std::abs(values[k]) < 0.08 * scale_) {
                 // An extremum between the two may reach beyond 0 (f'' is at most 4 scale_): two more roots, but for a mere touch.
                 const double top = root(low, high, 0.5 * (low + high), sinks, slope), f_top = ask({std::cos(top), std::sin(top)}).f;
                 if ((f_top < 0) == in || std::abs(f_top) < 1e-13 * scale_) continue;
                 const double first = root(low, top, 0.5 * (low + top), in, value), last = root(top, high, 0.5 * (top + high), !in, value);
-                if (in) covered.push_back({from, first}), from = last;
-                else covered.push_back({first, last});
+                if (in)
+                    covered.push_back({from, first}), from = last;
+                else
+                    covered.push_back({first, last});
             }
         }
         if (values.back() < 0) covered.push_back({from, kEnd});

@@ -94,7 +94,7 @@ public:
     // Makes sure that the bytes are on the disk, and only then gives the file its name.
     void finish() {
         if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOSYS) fail_system(path_, errno);  // some file systems lack it
-        if (::close(std::exchange(fd_, -1)) != 0) fail_system(path_, errno);  // network disks report a full disk here
+        if (::close(std::exchange(fd_, -1)) != 0) fail_system(path_, errno);                     // network disks report a full disk here
         if (std::rename(name_.c_str(), path_.c_str()) != 0) fail_system(path_, errno);
         renamed_ = true;
         const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -204,8 +204,7 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
         check(nc_put_var_int(ncid, varid, integers->data()), path);
     } else if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
         std::vector<double> filled;
-        const bool absent =
-            v.may_be_absent && std::any_of(doubles->begin(), doubles->end(), [](double x) { return std::isnan(x); });
+        const bool absent = v.may_be_absent && std::any_of(doubles->begin(), doubles->end(), [](double x) { return std::isnan(x); });
         if (absent) {
             filled = *doubles;
             for (double& x : filled)
@@ -215,8 +214,7 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
     } else if (const auto* rows = std::get_if<StridedRows>(&v.values)) {
         for (std::size_t j = 0; j < shape[0]; ++j) {
             const std::size_t start[2] = {j, 0}, count[2] = {1, shape[1]};
-            check(nc_put_vara_double(ncid, varid, start, count, rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride),
-                  path);
+            check(nc_put_vara_double(ncid, varid, start, count, rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride), path);
         }
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
         std::string padded;
@@ -330,8 +328,7 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     std::error_code error;
     const fs::path folder = folder_of(path);
     fs::create_directories(folder, error);
-    if (error)
-        fail(path, "folder '" + folder.string() + "' cannot be made: " + error.message(), "let &output file name another folder");
+    if (error) fail(path, "folder '" + folder.string() + "' cannot be made: " + error.message(), "let &output file name another folder");
     if (fs::is_directory(path, error)) fail(path, "it is a folder", "let &output file name a file in it");
 
     double bytes = 0;
@@ -343,8 +340,7 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     require_memory(bytes, path);
     int mode = NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL;
     if (format == Format::cdf5) mode = NC_CLOBBER | NC_64BIT_DATA;
-    if (format == Format::classic)
-        mode = bytes < 1.9e9 ? NC_CLOBBER : NC_CLOBBER | NC_64BIT_OFFSET;  // offsets of 32 bits reach 2 GiB
+    if (format == Format::classic) mode = bytes < 1.9e9 ? NC_CLOBBER : NC_CLOBBER | NC_64BIT_OFFSET;  // offsets of 32 bits reach 2 GiB
 
     Part part(path);
     MemoryFile memory(path, part, mode);
@@ -354,9 +350,7 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
 }
 
 void check_output(const std::string& path) {
-    const auto refuse = [&path](const std::string& why) {
-        throw Error(Failure::bad_input, "&output file='" + path + "': " + why);
-    };
+    const auto refuse = [&path](const std::string& why) { throw Error(Failure::bad_input, "&output file='" + path + "': " + why); };
     if (path.empty()) refuse("a file name is expected");
     std::error_code error;
     if (fs::is_directory(path, error))
@@ -367,8 +361,7 @@ void check_output(const std::string& path) {
     if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
     if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
         refuse("folder '" + folder.string() + "' does not exist; make it first");
-    if (::access(ancestor.c_str(), W_OK | X_OK) != 0)
-        refuse("folder '" + ancestor.string() + "' cannot be written to: " + reason(errno));
+    if (::access(ancestor.c_str(), W_OK | X_OK) != 0) refuse("folder '" + ancestor.string() + "' cannot be written to: " + reason(errno));
 }
 
 }  // namespace rsc

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "observe/regimes.hpp"
 #include "file/netcdf_table.hpp"
+#include "observe/regimes.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -63,30 +63,30 @@ void ResultTable::levels() {
     integers("contacts", "number of asperities in contact", [](const LevelRow& l) { return l.contacts; });
     integers("candidates", "number of asperities given to the solver", [](const LevelRow& l) { return l.candidates; });
     integers("iterations", "Newton iterations", [](const LevelRow& l) { return l.iterations; });
-    add("residual", dims, "1", "relative residual of F - C<G0 - B F>^(3/2)",
-        of_rows<double>([](const LevelRow& l) { return l.residual; }),
+    add("residual", dims, "1", "relative residual of F - C<G0 - B F>^(3/2)", of_rows<double>([](const LevelRow& l) { return l.residual; }),
         comment("unregularised, over all candidates: it says whether the forces are right"));
-    integers("status", "how the level ended", [](const LevelRow& l) { return l.status; },
-             {{"flag_values", std::vector<std::int32_t>{0, 1, 2, 3, 4}},
-              {"flag_meanings", "converged out_of_validity overlapping not_unique not_converged"},
-              {"comment",
-               "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, perhaps not the "
-               "only one; "
-               "4: do not use. The larger is the more serious and hides the smaller"}});
+    integers(
+        "status", "how the level ended", [](const LevelRow& l) { return l.status; },
+        {{"flag_values", std::vector<std::int32_t>{0, 1, 2, 3, 4}},
+         {"flag_meanings", "converged out_of_validity overlapping not_unique not_converged"},
+         {"comment",
+          "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, perhaps not the "
+          "only one; "
+          "4: do not use. The larger is the more serious and hides the smaller"}});
     integers("method", "solver used", [](const LevelRow& l) { return l.method; },
              {{"flag_values", std::vector<std::int32_t>{1, 2, 3}}, {"flag_meanings", "dgesv direct mesh"}});
     integers("products", "products with the interaction matrix B (direct, mesh) or solves (dgesv)",
              [](const LevelRow& l) { return clamped(l.products); });
-    integers("overlapping_pairs", "pairs of contacts with d < a_i + a_j",
-             [](const LevelRow& l) { return clamped(l.overlapping_pairs); });
+    integers("overlapping_pairs", "pairs of contacts with d < a_i + a_j", [](const LevelRow& l) { return clamped(l.overlapping_pairs); });
     integers(
         "large_contacts", "contacts with a > <d>/4", [](const LevelRow& l) { return l.large_contacts; },
         comment("<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"));
-    integers("beyond_law", "contacts past the range in which the law describes a summit",
-             [](const LevelRow& l) { return clamped(l.beyond_law); },
-             comment("asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
-                     "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its "
-                     "radius stays and the stiffness with it; 0 for the other laws"));
+    integers(
+        "beyond_law", "contacts past the range in which the law describes a summit",
+        [](const LevelRow& l) { return clamped(l.beyond_law); },
+        comment("asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
+                "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its "
+                "radius stays and the stiffness with it; 0 for the other laws"));
     integers(
         "crowded_cells", "cells of the map with an area fraction above pi/16", [](const LevelRow& l) { return l.crowded_cells; },
         comment("19.6 %: beyond it point forces do not describe the interaction well"));
@@ -104,26 +104,24 @@ void ResultTable::means() {
     add("force_mean", {"step"}, unit(0, 1), "mean force over realizations", o_.force_mean);
     add_absent("force_std", {"step"}, unit(0, 1), "standard deviation of the force over realizations", o_.force_std, deviation);
     add("contact_area_mean", {"step"}, unit(2), "mean contact area over realizations", o_.area_mean);
-    add_absent("contact_area_std", {"step"}, unit(2), "standard deviation of the contact area over realizations", o_.area_std,
-               deviation);
+    add_absent("contact_area_std", {"step"}, unit(2), "standard deviation of the contact area over realizations", o_.area_std, deviation);
 }
 
 void ResultTable::surfaces() {
     const Names dims{"realization"};
     const std::string origin = r_.theory ? "exact sum over the modes drawn" : "finite differences on the grid of heights";
     add_absent("sigma", dims, unit(1), "rms height of the surface", of_surfaces([](const auto& s) { return s.sigma; }));
-    add_absent("m2", dims, "1", "second profile moment: half the mean square gradient",
-               of_surfaces([](const auto& s) { return s.m2; }), origin);
+    add_absent("m2", dims, "1", "second profile moment: half the mean square gradient", of_surfaces([](const auto& s) { return s.m2; }),
+               origin);
     add_absent("m4", dims, unit(-2), "fourth profile moment: mean square profile curvature",
                of_surfaces([](const auto& s) { return s.m4; }), origin + ", (m40 + m04 + 3 m22)/3");
-    add_absent("m2_grid", dims, "1", "second profile moment from finite differences",
-               of_surfaces([](const auto& s) { return s.m2_grid; }),
+    add_absent("m2_grid", dims, "1", "second profile moment from finite differences", of_surfaces([](const auto& s) { return s.m2_grid; }),
                "its distance from m2 says how well the grid resolves the shortest waves");
     add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",
                of_surfaces([](const auto& s) { return s.m4_grid; }),
                "its distance from m4 says how well the grid resolves the shortest waves");
-    add_absent("rms_slope", dims, "1", "rms gradient of the surface",
-               of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }), "sqrt(2 m2); the theory is one of small slopes");
+    add_absent("rms_slope", dims, "1", "rms gradient of the surface", of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
+               "sqrt(2 m2); the theory is one of small slopes");
     std::vector<std::int32_t> summits, saddles;
     for (const SurfaceStatistics& s : o_.surface) summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
     add("summits", dims, "1", "number of asperities", summits);
@@ -144,8 +142,7 @@ void ResultTable::theory() {
     scalar("m0_theory", unit(2), "mean square height of the continuous spectrum", m.m0, "");
     scalar("m2_theory", "1", "second profile moment of the continuous spectrum", m.m2, "");
     scalar("m4_theory", unit(-2), "fourth profile moment of the continuous spectrum", m.m4, "");
-    scalar("nayak_theory", "1", "Nayak's bandwidth parameter of the continuous spectrum", known ? m.nayak() : kAbsent,
-           "m0 m4/m2^2");
+    scalar("nayak_theory", "1", "Nayak's bandwidth parameter of the continuous spectrum", known ? m.nayak() : kAbsent, "m0 m4/m2^2");
     scalar("density_theory", unit(-2), "density of summits of the continuous spectrum", known ? m.summit_density() : kAbsent,
            "sqrt(3) m4/(18 pi m2)");
     const double R = r_.indenter.R;
@@ -169,8 +166,8 @@ void ResultTable::regimes() {
         second.push_back(known ? area_proportional(N, m.m2, E) : kAbsent);
         hertz.push_back(std::isfinite(R) && std::isfinite(N) ? hertz_contact(N, R, E).area() : kAbsent);
     }
-    add_absent("transition_force", {}, unit(0, 1), "force at which area_I = area_II, N*",
-               {known ? transition_force(m, E) : kAbsent}, "212.66 m2^(3/2) E*/m4, with " + which);
+    add_absent("transition_force", {}, unit(0, 1), "force at which area_I = area_II, N*", {known ? transition_force(m, E) : kAbsent},
+               "212.66 m2^(3/2) E*/m4, with " + which);
     add_absent("area_I", {"step"}, unit(2), "contact area of one mean asperity at force_mean, A_I", first,
                "pi (3 r_g N/(4 E*))^(2/3), r_g = 0.737/sqrt(m4), with " + which);
     add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II", second,

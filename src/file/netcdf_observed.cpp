@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "observe/regimes.hpp"
 #include "file/netcdf_table.hpp"
+#include "observe/regimes.hpp"
 
 namespace rsc {
 namespace {
@@ -113,29 +113,26 @@ void ResultTable::counts(const std::string& name, const std::string& axis, const
          {"comment", "whole numbers; overflow: contacts beyond the last bin, one value a pdf_level"}});
 }
 
-void ResultTable::density(const std::string& name, const std::string& axis, const std::string& units,
-                          const std::string& long_name, std::vector<double> FittedDistributions::*which,
-                          NetcdfAttributes attributes, const std::string& note) {
+void ResultTable::density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
+                          std::vector<double> FittedDistributions::*which, NetcdfAttributes attributes, const std::string& note) {
     std::vector<double> values;
     for (const FittedDistributions& f : o_.distributions) values.insert(values.end(), (f.*which).begin(), (f.*which).end());
     NetcdfAttributes all{{"coordinates", axis}};
     append(all, std::move(attributes));
-    append(all, comment(note + "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one value a pdf_level; " +
-                        kAbsentMeans));
+    append(all,
+           comment(note + "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one value a pdf_level; " + kAbsentMeans));
     file_.variable({name, {"pdf_level", "bin"}, units, long_name, std::move(values), std::move(all), true});
 }
 
 void ResultTable::mean_pressure() {
     const auto& fits = o_.distributions;
-    counts("pressure_mean_count", "pressure_mean_bin", "contacts by mean pressure, all realizations",
-           &Distributions::mean_pressure);
+    counts("pressure_mean_count", "pressure_mean_bin", "contacts by mean pressure, all realizations", &Distributions::mean_pressure);
     NetcdfAttributes a{{"rayleigh_scale", of_fits(fits, [](const auto& f) { return f.rayleigh.scale; })},
                        {"rayleigh_scale_error", of_fits(fits, [](const auto& f) { return f.rayleigh.scale_error; })},
                        {"ks_distance", of_fits(fits, [](const auto& f) { return f.rayleigh.ks_distance; })}};
     append(a, moment_attributes(fits, [](const auto& f) { return f.mean_pressure_moments; }));
-    density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1),
-            "probability density of the mean pressure of a contact, f/(pi a^2)", &FittedDistributions::mean_pressure_pdf,
-            std::move(a),
+    density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1), "probability density of the mean pressure of a contact, f/(pi a^2)",
+            &FittedDistributions::mean_pressure_pdf, std::move(a),
             "fit: Rayleigh, (p/s^2) exp(-p^2/(2 s^2)), s = rayleigh_scale by maximum likelihood, with its standard error");
 }
 
@@ -165,9 +162,8 @@ void ResultTable::pressure() {
                        parameter("ks_distance", &GammaFit::ks_distance),
                        {"independent_contacts", equal}};
     append(a, moment_attributes(fits, [](const auto& f) { return f.pressure_moments; }));
-    density("pressure_pdf", "pressure_bin", unit(2, -1),
-            "probability density of the pressure at a random point of the contact area", &FittedDistributions::pressure_pdf,
-            std::move(a),
+    density("pressure_pdf", "pressure_bin", unit(2, -1), "probability density of the pressure at a random point of the contact area",
+            &FittedDistributions::pressure_pdf, std::move(a),
             "each contact contributes 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2), weighted by its area; fit: gamma p^alpha "
             "exp(-(p/delta)^beta), "
             "maximum likelihood of the bins; errors are those of independent_contacts = (sum A)^2/sum A^2 draws");
@@ -213,8 +209,8 @@ void ResultTable::contacts() {
     };
     NetcdfAttributes start = from_one;
     append(start, comment("level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"));
-    add("contact_start", {"step"}, "1", "first contact of the level in contact_asperity, contact_force, contact_radius",
-        plus_one(c.start), start);
+    add("contact_start", {"step"}, "1", "first contact of the level in contact_asperity, contact_force, contact_radius", plus_one(c.start),
+        start);
     add("contact_count", {"step"}, "1", "contacts kept of the level", c.count);
     if (c.asperity.empty()) return;
     file_.dimension("contact", c.asperity.size());

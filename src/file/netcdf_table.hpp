@@ -59,8 +59,7 @@ private:
     void radial();
     void distributions();
     void bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width);
-    void counts(const std::string& name, const std::string& axis, const std::string& long_name,
-                CountHistogram Distributions::*which);
+    void counts(const std::string& name, const std::string& axis, const std::string& long_name, CountHistogram Distributions::*which);
     void density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
                  std::vector<double> FittedDistributions::*which, NetcdfAttributes attributes, const std::string& note);
     void mean_pressure();
@@ -75,8 +74,8 @@ private:
     static NetcdfAttributes comment(const std::string& text) {
         return text.empty() ? NetcdfAttributes{} : NetcdfAttributes{{"comment", text}};
     }
-    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
-             std::vector<double> values, NetcdfAttributes attributes = {}) {
+    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name, std::vector<double> values,
+             NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
     }
     void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,

@@ -32,8 +32,7 @@ std::string unit_of(const std::string& length_unit, int length_power, const std:
         if (power == 0 || unit.empty() || unit == "1") return;
         bool plain = true;
         for (char c : unit)
-            plain =
-                plain && (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || static_cast<unsigned char>(c) >= 0x80);
+            plain = plain && (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || static_cast<unsigned char>(c) >= 0x80);
         if (!text.empty()) text += ' ';
         text += plain ? unit : "(" + unit + ")";
         if (power != 1) text += std::to_string(power);
@@ -49,8 +48,7 @@ std::string history_text(const std::string& command) { return date() + " " + (co
 
 void write_result(const Result& result, const std::string& path, const WriteOptions& options) {
     const Observations& o = result.observations;
-    if (o.realizations == 0 || o.steps == 0)
-        throw Error(Failure::internal, "result file: there is nothing to write, no level was run");
+    if (o.realizations == 0 || o.steps == 0) throw Error(Failure::internal, "result file: there is nothing to write, no level was run");
     ResultTable(result).make(history_text(options.command)).write(path, options.format, options.compression);
 }
 

@@ -11,8 +11,7 @@ Contacts contacts_kept(const Case& c) {
     const bool one = c.run.realizations == 1;
     if (!one && (c.output.contacts == Contacts::last || c.output.contacts == Contacts::all))
         throw Error(Failure::bad_input, "&output contacts: contacts are kept for one realization only, and this case has " +
-                                            std::to_string(c.run.realizations) +
-                                            "; use contacts='none' or 'auto', or realizations=1");
+                                            std::to_string(c.run.realizations) + "; use contacts='none' or 'auto', or realizations=1");
     if (!one && c.output.heights)
         throw Error(Failure::bad_input, "&output heights: heights are kept for one realization only, and this case has " +
                                             std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");

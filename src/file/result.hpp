@@ -21,9 +21,9 @@
 #include <string>
 #include <vector>
 
+#include "case/case.hpp"
 #include "observe/record.hpp"
 #include "rough/surface.hpp"
-#include "case/case.hpp"
 
 namespace rsc {
 

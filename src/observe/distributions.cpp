@@ -149,8 +149,8 @@ FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& 
     out.pressure_pdf = density(pressure);
     out.pressure_moments = moments_of(sum.pressure.total, sum.pressure.power);
     if (sum.pressure.squares > 0)
-        out.gamma = fit_generalised_gamma(pressure, out.pressure_moments.mean,
-                                          sum.pressure.total * sum.pressure.total / sum.pressure.squares);
+        out.gamma =
+            fit_generalised_gamma(pressure, out.pressure_moments.mean, sum.pressure.total * sum.pressure.total / sum.pressure.squares);
     return out;
 }
 

@@ -95,8 +95,7 @@ double gamma_normalisation(const Parameters& theta) {
 }
 
 // One step of Fisher scoring, halved until the likelihood does not fall; false at the end of the road.
-bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width,
-             double& size) {
+bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width, double& size) {
     const Score s = score(theta, weight, p, width);
     Matrix inverse;
     if (!invert(s.information, inverse)) return false;
@@ -196,8 +195,7 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
 
     // <x> = delta Gamma((alpha+2)/beta) / Gamma((alpha+1)/beta)
     const double alpha = 2.0 / 3.0, beta = 1.5;
-    Parameters theta{std::log(alpha + 1), std::log(beta),
-                     std::log(std::tgamma((alpha + 1) / beta) / std::tgamma((alpha + 2) / beta))};
+    Parameters theta{std::log(alpha + 1), std::log(beta), std::log(std::tgamma((alpha + 1) / beta) / std::tgamma((alpha + 2) / beta))};
     std::vector<double> p = probabilities(theta, binned.weight.size(), width);
     double likelihood = log_likelihood(weight, p), size = 1;
     if (!std::isfinite(likelihood)) return fit;

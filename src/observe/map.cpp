@@ -25,8 +25,7 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     const double rows = std::floor(Ly / grid.side * (1 + 8 * std::numeric_limits<double>::epsilon()));
     if (rows < 1)
         throw Error(Failure::bad_input, "coarse map: a cell of side " + std::to_string(grid.side) +
-                                            " is larger than the surface's extent " + std::to_string(Ly) +
-                                            " along y; take more map_cells");
+                                            " is larger than the surface's extent " + std::to_string(Ly) + " along y; take more map_cells");
     if (rows * cells > 1e8) throw Error(Failure::bad_input, "coarse map: more than 1e8 cells; take fewer map_cells");
     grid.ny = static_cast<int>(rows);
     return grid;

@@ -28,12 +28,10 @@ LevelRow row_of(const Level& level) {
 }
 
 void require_finite(const Level& level, std::size_t step) {
-    bool finite = std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) &&
-                  std::isfinite(level.residual);
-    for (std::size_t k = 0; k < level.asperity.size(); ++k)
-        finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
-    if (!finite)
-        throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
+    bool finite =
+        std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual);
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
+    if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
 }
 
 // Mean and sample deviation of one quantity over realizations, two passes in their order.
@@ -58,8 +56,8 @@ void mean_and_deviation(const Observations& o, Get get, std::vector<double>& mea
 std::int32_t nearest_level(const std::vector<Level>& levels, double separation) {
     std::int32_t best = -1;
     for (std::size_t s = 0; s < levels.size(); ++s)
-        if (best < 0 || std::abs(levels[s].separation - separation) <
-                            std::abs(levels[static_cast<std::size_t>(best)].separation - separation))
+        if (best < 0 ||
+            std::abs(levels[s].separation - separation) < std::abs(levels[static_cast<std::size_t>(best)].separation - separation))
             best = static_cast<std::int32_t>(s);
     return best;
 }
@@ -80,8 +78,7 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
     }
     for (double wanted : options.pdf_levels) {
         const std::int32_t step = nearest_level(levels, wanted);
-        if (step >= 0)
-            record.distributions.push_back(distributions_of(options.pdf, levels[static_cast<std::size_t>(step)], step));
+        if (step >= 0) record.distributions.push_back(distributions_of(options.pdf, levels[static_cast<std::size_t>(step)], step));
     }
     return record;
 }
@@ -97,8 +94,8 @@ void Accumulators::add(const RealizationRecord& record) {
         throw Error(Failure::internal, "realization " + std::to_string(record.realization) + " has " +
                                            std::to_string(record.levels.size()) + " levels, the others " + std::to_string(steps));
     if (!realization.empty() && record.realization <= realization.back())
-        throw Error(Failure::internal, "realization " + std::to_string(record.realization) + " added after realization " +
-                                           std::to_string(realization.back()));
+        throw Error(Failure::internal,
+                    "realization " + std::to_string(record.realization) + " added after realization " + std::to_string(realization.back()));
     realization.push_back(record.realization);
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());

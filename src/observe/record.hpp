@@ -27,9 +27,9 @@ struct ObserveOptions {
 
 // The surface of a realization; NaN is absent (asperities read from a file have no m2, say).
 struct SurfaceStatistics {
-    double sigma = kAbsent;                       // rms height [length]
-    double m2 = kAbsent, m4 = kAbsent;            // profile moments from the modes drawn (synthetic) or the grid (measured)
-    double m2_grid = kAbsent, m4_grid = kAbsent;  // from finite differences
+    double sigma = kAbsent;                                 // rms height [length]
+    double m2 = kAbsent, m4 = kAbsent;                      // profile moments from the modes drawn (synthetic) or the grid (measured)
+    double m2_grid = kAbsent, m4_grid = kAbsent;            // from finite differences
     double mean_kappa_g = kAbsent, mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
     std::int64_t summits = 0, saddles = 0;
 };

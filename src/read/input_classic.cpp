@@ -121,21 +121,16 @@ private:
         switch (type) {
             case NC_BYTE:
             case NC_CHAR:
-            case NC_UBYTE:
-                return 1;
+            case NC_UBYTE: return 1;
             case NC_SHORT:
-            case NC_USHORT:
-                return 2;
+            case NC_USHORT: return 2;
             case NC_INT:
             case NC_UINT:
-            case NC_FLOAT:
-                return 4;
+            case NC_FLOAT: return 4;
             case NC_DOUBLE:
             case NC_INT64:
-            case NC_UINT64:
-                return 8;
-            default:
-                damaged();
+            case NC_UINT64: return 8;
+            default: damaged();
         }
     }
 
@@ -151,8 +146,8 @@ void check_classic_length(const std::string& path) {
     ClassicHeader header(path);
     const std::uint64_t wanted = header.wanted_length();
     if (header.length() < wanted)
-        throw Error(Failure::bad_input, path + ": ends at byte " + std::to_string(header.length()) + " of the " +
-                                            std::to_string(wanted) + " its header announces; the file is not whole");
+        throw Error(Failure::bad_input, path + ": ends at byte " + std::to_string(header.length()) + " of the " + std::to_string(wanted) +
+                                            " its header announces; the file is not whole");
 }
 
 }  // namespace rsc

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "error.hpp"
-#include "read/input_classic.hpp"
 #include "file/netcdf_file.hpp"
+#include "read/input_classic.hpp"
 
 namespace rsc {
 namespace {
@@ -53,8 +53,7 @@ bool is_netcdf(const std::string& path) {
         file.read(start.data(), start.size());
         const auto count = file.gcount();
         if (offset == 0 && count == 0) refuse(path + ": is empty");
-        if (offset == 0 && count >= 4 && std::memcmp(start.data(), "CDF", 3) == 0 &&
-            (start[3] == 1 || start[3] == 2 || start[3] == 5))
+        if (offset == 0 && count >= 4 && std::memcmp(start.data(), "CDF", 3) == 0 && (start[3] == 1 || start[3] == 2 || start[3] == 5))
             return true;
         if (count == 8 && start == kHdf5) return true;
         if (count < 8) break;
@@ -116,8 +115,7 @@ std::optional<std::vector<double>> NetcdfInput::numbers_attribute(const Variable
     const int status = nc_inq_att(id_, v.id, name, &type, &length);
     if (status == NC_ENOTATT) return std::nullopt;
     must(status, v.name + ":" + name);
-    if (type == NC_CHAR || type == NC_STRING)
-        refuse(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
+    if (type == NC_CHAR || type == NC_STRING) refuse(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
     std::vector<double> values(length);
     if (length > 0) must(nc_get_att_double(id_, v.id, name, values.data()), v.name + ":" + name);
     return values;
@@ -171,8 +169,7 @@ void NetcdfInput::read(const Variable& v, double* out) const {
     for (std::size_t i = 0; i < count; ++i) {
         const double stored = out[i];
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) +
-                   "); every value must be known");
+            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) + "); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) refuse(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

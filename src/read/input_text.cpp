@@ -53,8 +53,7 @@ std::size_t parse(std::string_view text, const std::string& path, long line, std
         while (i < text.size() && blank(text[i])) ++i;
         if (i == text.size()) break;
         if (separator(text[i])) {
-            if (expecting || count == 0)
-                refuse(path, line, "nothing between the separators at column " + std::to_string(count + 1));
+            if (expecting || count == 0) refuse(path, line, "nothing between the separators at column " + std::to_string(count + 1));
             expecting = true;
             ++i;
             continue;
@@ -81,15 +80,13 @@ TextTable read_table(const std::string& path, std::size_t columns) {
         ++line;
         std::string_view view(text);
         if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // the mark some editors put before UTF-8
-        if (view.find('\0') != std::string_view::npos)
-            refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
+        if (view.find('\0') != std::string_view::npos) refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
         const std::size_t count = parse(view, path, line, table.values);
         if (count == 0) continue;
         if (table.columns == 0) table.columns = count;
         if (count != table.columns) {
-            const std::string wanted = columns > 0
-                                           ? std::to_string(columns)
-                                           : std::to_string(table.columns) + " as in line " + std::to_string(table.line[0]);
+            const std::string wanted =
+                columns > 0 ? std::to_string(columns) : std::to_string(table.columns) + " as in line " + std::to_string(table.line[0]);
             refuse(path, line, std::to_string(count) + " values where " + wanted + " were expected");
         }
         table.line.push_back(line);

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "error.hpp"
-#include "rough/magnitude.hpp"
 #include "read/input_netcdf.hpp"
 #include "read/input_text.hpp"
+#include "rough/magnitude.hpp"
 
 namespace rsc {
 namespace {
@@ -74,8 +74,7 @@ struct Axis {
 std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variable& heights, std::size_t dimension) {
     const std::string& name = heights.axes[dimension];
     const auto variable = file.find(name);
-    if (!variable || variable->dimensions != std::vector<int>{heights.dimensions[dimension]} || !variable->numeric())
-        return std::nullopt;
+    if (!variable || variable->dimensions != std::vector<int>{heights.dimensions[dimension]} || !variable->numeric()) return std::nullopt;
     const std::size_t n = variable->lengths[0];
     std::vector<double> c(n);
     file.read(*variable, c.data());
@@ -84,17 +83,16 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     if (axis.reversed) std::reverse(c.begin(), c.end());
     axis.first = c.front();
     axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
-    if (!(axis.step > 0))
-        refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text(c.front()));
+    if (!(axis.step > 0)) refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text(c.front()));
     // Coordinates stored in single precision are as uniform as that allows.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (std::size_t i = 0; i < n; ++i) {
         const double uniform = axis.first + static_cast<double>(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
-            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text(axis.step) + ": " + name +
-                   "(" + std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text(c[i]) + " where " +
-                   text(uniform) + " was expected");
+            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text(axis.step) + ": " + name + "(" +
+                   std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text(c[i]) + " where " + text(uniform) +
+                   " was expected");
     }
     return axis;
 }
@@ -113,8 +111,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file) {
             maps.push_back(v);
         }
     if (maps.empty()) refuse(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
-    if (maps.size() > 1)
-        refuse(file.path() + ": there is no variable height(y, x), and it cannot be told which is meant: " + names);
+    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and it cannot be told which is meant: " + names);
     return maps[0];
 }
 
@@ -142,8 +139,7 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L) 
     check_size(path, variable.lengths[1], variable.lengths[0]);
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
-        refuse(path + ": " + variable.shape() +
-               " has a coordinate variable for one dimension alone; for both or neither was expected");
+        refuse(path + ": " + variable.shape() + " has a coordinate variable for one dimension alone; for both or neither was expected");
     if (!x && !L) refuse(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
     HeightMap map = allocate(variable.lengths[1], variable.lengths[0]);
     if (L) {
@@ -155,8 +151,8 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L) 
         check_units(file, variable, variable.axes[0]);
         const double extent = map.nx * x->step;
         if (L && !(std::abs(extent - *L) <= kSameL * *L))
-            refuse(path + ": its coordinate " + variable.axes[1] + " spans " + std::to_string(map.nx) + " steps of " +
-                   text(x->step) + " = " + text(extent) + ", but L = " + text(*L) + " was given");
+            refuse(path + ": its coordinate " + variable.axes[1] + " spans " + std::to_string(map.nx) + " steps of " + text(x->step) +
+                   " = " + text(extent) + ", but L = " + text(*L) + " was given");
         map.x0 = x->first;
         map.y0 = y->first;
         map.dx = x->step;
@@ -175,11 +171,8 @@ Asperities read_netcdf_asperities(const std::string& path) {
     const auto take = [&](const char* name, std::vector<double>& values, bool required) {
         const auto v = file.find(name);
         if (!v && !required) return;
-        if (!v)
-            refuse(path + ": there is no variable " + name +
-                   "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
-        if (v->lengths.size() != 1 || !v->numeric())
-            refuse(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
+        if (!v) refuse(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
+        if (v->lengths.size() != 1 || !v->numeric()) refuse(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
         if (size && *size != v->lengths[0])
             refuse(path + ": " + v->shape() + ": " + std::to_string(*size) + " values as of asperity_x were expected");
         if (v->lengths[0] > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -231,9 +224,7 @@ HeightMap read_heights(const std::string& path, std::optional<double> L) {
     return map;
 }
 
-Asperities read_asperities(const std::string& path) {
-    return is_netcdf(path) ? read_netcdf_asperities(path) : read_text_asperities(path);
-}
+Asperities read_asperities(const std::string& path) { return is_netcdf(path) ? read_netcdf_asperities(path) : read_text_asperities(path); }
 
 Extent extent(const Asperities& a) {
     Extent e;

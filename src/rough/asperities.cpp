@@ -179,8 +179,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
 }
 
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                           Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail,
-                           Moments* differences) {
+                           Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences) {
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     int fine = n;
@@ -200,7 +199,8 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
             // Twice the rows kept from one filling of the window to the next: moving them costs little then.
             const int held = 4 * climber.margin() + RowSource::kBlock;
             visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
-                climber.climb(j, [&](int d) { return z + d * stride; }, parts[static_cast<std::size_t>(t)].refined);
+                climber.climb(
+                    j, [&](int d) { return z + d * stride; }, parts[static_cast<std::size_t>(t)].refined);
             });
         });
         return join_refined(parts, fine, fine, true, count);

@@ -51,8 +51,7 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
     total = sums;
 }
 
-RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude),
-             (s, kx, ky_first, amplitude))
+RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude), (s, kx, ky_first, amplitude))
 RSC_DISPATCH(add_energies, add_energies_body,
              (const double* amplitude, const double* re, const double* im, const double* difference, int ky_first, Lanes& total),
              (amplitude, re, im, difference, ky_first, total))
@@ -64,8 +63,8 @@ double sum(const double* lanes) {
 }
 
 // The modes (kx, first..last) into coefficient[0..last-first].
-void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, const Differences& differences, int kx, int first,
-              int last, std::complex<double>* coefficient, Lanes& lanes) {
+void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, const Differences& differences, int kx, int first, int last,
+              std::complex<double>* coefficient, Lanes& lanes) {
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
     const double x2 = static_cast<double>(kx) * kx;
     for (int ky = first; ky <= last; ky += kBatch) {

@@ -12,13 +12,13 @@ namespace rsc {
 
 // Sums over modes, wavevectors in integers, amplitudes relative to Phi0 = 1.
 struct ModeSums {
-    double expected = 0;  // mean square height in expectation
-    double m0 = 0;        // mean square height, continuous in x and y
-    double m2 = 0;        // (m20 + m02)/2
-    double m4 = 0;        // (m40 + m04 + 3 m22)/3
+    double expected = 0;        // mean square height in expectation
+    double m0 = 0;              // mean square height, continuous in x and y
+    double m2 = 0;              // (m20 + m02)/2
+    double m4 = 0;              // (m40 + m04 + 3 m22)/3
     double m2_differences = 0;  // m2 and m4 from finite differences, in units of the step of the differences
     double m4_differences = 0;
-    double grid = 0;      // mean square height over the n x n points (differs from m0 by the modes at the grid's Nyquist limit)
+    double grid = 0;  // mean square height over the n x n points (differs from m0 by the modes at the grid's Nyquist limit)
     void add(const ModeSums& other);
 };
 

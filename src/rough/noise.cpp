@@ -54,8 +54,7 @@ RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::in
     }
 }
 
-RSC_ALWAYS_INLINE void column_noise_body(const NoiseKey& key, std::int32_t kx, std::int32_t ky_first, int count, double* re,
-                                         double* im) {
+RSC_ALWAYS_INLINE void column_noise_body(const NoiseKey& key, std::int32_t kx, std::int32_t ky_first, int count, double* re, double* im) {
     int done = 0;
     for (; done + kBatch <= count; done += kBatch) noise_batch(key, kx, ky_first + done, re + done, im + done);
     if (done < count) {

@@ -13,8 +13,8 @@ constexpr int kOrders = Stencil::kOrders;
 constexpr int kLanes = 8;  // partial sums, fixed so that a sum has the same bits on every machine
 
 // derivative[p][q]: orders p in x and q in y (indices into Stencil::kOrder) from the points at `corner`, `points` a side.
-RSC_ALWAYS_INLINE void contract_body(const double* corner, int points, int orders, const double (*wx)[kTaps],
-                                     const double (*wy)[kTaps], double (*derivative)[kOrders]) {
+RSC_ALWAYS_INLINE void contract_body(const double* corner, int points, int orders, const double (*wx)[kTaps], const double (*wy)[kTaps],
+                                     double (*derivative)[kOrders]) {
     for (int q = 0; q < orders; ++q) {
         double line[kTaps] = {};
         for (int j = 0; j < points; ++j) {
@@ -88,8 +88,8 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
             // Half of gradient times step is what is left to the top.
-            return RefinedSummit{x + s.x,  y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2],
-                                 d[3][0], d[2][2], d[0][3]};
+            return RefinedSummit{x + s.x, y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2], d[3][0],
+                                 d[2][2], d[0][3]};
         }
         last = s.peak && length <= kNear;
         x += s.x;

@@ -18,8 +18,7 @@ struct Halves {
     alignas(64) double part[2][Stencil::kOrders][kHalf];
 };
 
-RSC_ALWAYS_INLINE void add_series_body(const double (*centre)[kHalf], int derivatives, const double* power, int orders,
-                                       Halves& halves) {
+RSC_ALWAYS_INLINE void add_series_body(const double (*centre)[kHalf], int derivatives, const double* power, int orders, Halves& halves) {
     for (int o = 0; o < orders; ++o) {
         const int p = Stencil::kOrder[o];
         double even[kHalf] = {}, odd[kHalf] = {};
@@ -34,8 +33,7 @@ RSC_ALWAYS_INLINE void add_series_body(const double (*centre)[kHalf], int deriva
     }
 }
 
-RSC_DISPATCH(add_series, add_series_body,
-             (const double (*centre)[kHalf], int derivatives, const double* power, int orders, Halves& halves),
+RSC_DISPATCH(add_series, add_series_body, (const double (*centre)[kHalf], int derivatives, const double* power, int orders, Halves& halves),
              (centre, derivatives, power, orders, halves))
 
 // Least squares by modified Gram and Schmidt: columns in place become orthonormal, R goes to the upper triangle.
@@ -125,8 +123,8 @@ double Stencil::fit(double cutoff) {
 
 Stencil Stencil::band_limited(double points_per_wave) {
     if (!(points_per_wave >= 4 * (1 - 1e-12)))
-        throw Error(Failure::bad_input,
-                    "summits between grid points need at least 4 points in the shortest wavelength, not " + std::to_string(points_per_wave));
+        throw Error(Failure::bad_input, "summits between grid points need at least 4 points in the shortest wavelength, not " +
+                                            std::to_string(points_per_wave));
     constexpr double kWanted = 1e-8;
     for (int reach = 4;; ++reach) {
         Stencil stencil(reach);
@@ -167,7 +165,8 @@ Stencil Stencil::polynomial(int reach) {
     for (int n = 0; n < points; ++n)
         if (place(n) >= 0)
             for (int q = 0; q < stencil.derivatives_; ++q)
-                stencil.centre_[q][place(n)] = place(n) == 0 && q % 2 == 1 ? 0.0 : w[static_cast<std::size_t>(n)][static_cast<std::size_t>(q)];
+                stencil.centre_[q][place(n)] =
+                    place(n) == 0 && q % 2 == 1 ? 0.0 : w[static_cast<std::size_t>(n)][static_cast<std::size_t>(q)];
     return stencil;
 }
 

@@ -10,7 +10,7 @@ namespace rsc {
 class Stencil {
 public:
     static constexpr int kMostReach = 15;
-    static constexpr int kHalf = kMostReach + 1;     // weights W_q of the points 0 ... reach, padded with zeros
+    static constexpr int kHalf = kMostReach + 1;      // weights W_q of the points 0 ... reach, padded with zeros
     static constexpr int kTaps = 2 * kMostReach + 2;  // weights of the points -reach ... reach, padded with zeros
     static constexpr int kOrders = 4;
     static constexpr int kOrder[kOrders] = {0, 1, 2, 4};  // the derivatives weights() knows

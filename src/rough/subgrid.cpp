@@ -135,7 +135,7 @@ void SummitClimber::climb(int j, const std::function<const double*(int)>& row, R
 }
 
 long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
-    constexpr double kSame = 1e-3;  // grid steps; one summit is reached to 1e-7, two are never that near
+    constexpr double kSame = 1e-3;              // grid steps; one summit is reached to 1e-7, two are never that near
     constexpr int kReach = Patch::kTravel + 1;  // a start lies no further from its summit
     const auto apart = [&](double a, double b, int n) {
         const double d = std::abs(a - b);

@@ -13,11 +13,11 @@ namespace rsc {
 // Summits found in some rows, in the order of the points they were reached from.
 struct RefinedSummits {
     Asperities found;
-    std::vector<int> row, column;      // of the start
-    std::vector<char> maximum;         // the start is a maximum of the grid
-    std::vector<double> u, v;          // place in grid steps, x = x0 + u dx, y = y0 + v dy
-    std::vector<double> moved;         // from the start, the larger of both directions [grid steps]
-    long saddles = 0;                  // grid maxima without a summit in reach
+    std::vector<int> row, column;  // of the start
+    std::vector<char> maximum;     // the start is a maximum of the grid
+    std::vector<double> u, v;      // place in grid steps, x = x0 + u dx, y = y0 + v dy
+    std::vector<double> moved;     // from the start, the larger of both directions [grid steps]
+    long saddles = 0;              // grid maxima without a summit in reach
     void append(const RefinedSummits& other);
 };
 

@@ -17,8 +17,7 @@ constexpr double kNearStep = 1.0;
 constexpr int kGroup = 8;  // points tested together: one in a hundred is a summit, so most groups end with one test
 
 // Sets flags[g] where the group of points 1 + g*kGroup ... holds one that is above its eight neighbours.
-RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, const double* above, int groups,
-                                        std::uint64_t* flags) {
+RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, const double* above, int groups, std::uint64_t* flags) {
     for (int g = 0; g < groups; ++g) {
         const int first = 1 + g * kGroup;
         std::uint64_t above_all[kGroup];
@@ -35,8 +34,7 @@ RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, co
     }
 }
 
-RSC_DISPATCH(flag_groups, flag_groups_body,
-             (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
+RSC_DISPATCH(flag_groups, flag_groups_body, (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
              (below, z, above, groups, flags))
 
 // Bits of flags[k] for the points k = 0 ... points - 1: 1 where the paraboloid of the second differences has its top within kNearStep
@@ -126,8 +124,8 @@ void find_starts(const RowPlace& place, const double* below, const double* z, co
     std::uint64_t near[kBuffer];
     const auto test = [&](int l, int i, int r) {
         const double h = z[i];
-        const bool maximum = h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] &&
-                             h > above[r];
+        const bool maximum =
+            h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] && h > above[r];
         if (maximum) starts.push_back({i, true});
         return maximum;
     };

@@ -38,16 +38,15 @@ void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
         throw Error(Failure::bad_input, "height map: " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points with " +
                                             std::to_string(stride_) + " a row");
     if (stride_ > (std::ptrdiff_t{1} << 44) / ny_)
-        throw Error(Failure::no_memory,
-                    "no memory for a height map of " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points");
+        throw Error(Failure::no_memory, "no memory for a height map of " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points");
     data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_), "a height map"));
     nx = nx_;
     ny = ny_;
     stride = stride_;
 }
 
-HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                     Moments* sampled, int threads) {
+HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, Moments* sampled,
+                     int threads) {
     threads = std::max(threads, 1);
     const RowSource source(spectrum, n, normalise, seed, realization, threads);
     HeightMap map;

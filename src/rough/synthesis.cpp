@@ -45,8 +45,8 @@ double* allocate_doubles(std::size_t n, const char* purpose) {
     return static_cast<double*>(p);
 }
 
-RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                     int threads, double difference_step) {
+RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+                     double difference_step) {
     validate(spectrum);
     if (n < 2 || n % 2 != 0) throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
     columns_ = band(spectrum).highest_kx + 1;

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "error.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/netcdf_writer.hpp"
 #include "run/campaign_archive.hpp"
 #include "run/campaign_screen.hpp"
 #include "run/checkpoint.hpp"
-#include "file/netcdf_file.hpp"
-#include "file/netcdf_writer.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "version.h"
@@ -100,8 +100,7 @@ std::string how_far(const Progressing& state, const Case& settings) {
 
 }  // namespace
 
-RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member,
-                        std::shared_ptr<const Job> job) {
+RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member, std::shared_ptr<const Job> job) {
     const auto start = Clock::now();
     const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     const std::string& file = settings.output.file;

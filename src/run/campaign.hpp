@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "run/campaign_team.hpp"
 #include "case/case.hpp"
+#include "run/campaign_team.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
 
@@ -17,8 +17,7 @@ namespace rsc {
 // Throws Error(bad_input) before anything is run (output not writable, a checkpoint in the way or of another case), Error with
 // the number of the realization that failed, Interrupted. After any of the last two the checkpoint holds all realizations that
 // were finished.
-RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member,
-                        std::shared_ptr<const Job> job);
+RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member, std::shared_ptr<const Job> job);
 
 // Of a campaign or a single case: is its result file there and whole, made from the same case by this version? The summary of
 // what it holds then (of which only levels and failed are known).

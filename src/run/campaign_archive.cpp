@@ -52,9 +52,7 @@ public:
     }
 
 private:
-    [[noreturn]] static void broken() {
-        throw Error(Failure::internal, "a record of a realization has not the length it should have");
-    }
+    [[noreturn]] static void broken() { throw Error(Failure::internal, "a record of a realization has not the length it should have"); }
     const char* take(std::size_t n) {
         if (n > bytes_.size()) broken();
         const char* p = bytes_.data();
@@ -163,8 +161,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "1," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
-           std::to_string(sizeof(LevelRow));
+    return "1," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelRow));
 }
 
 }  // namespace rsc

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <system_error>
 
+#include "case/registry.hpp"
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
 #include "file/netcdf_writer.hpp"
-#include "case/registry.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -71,11 +71,9 @@ void add_axis(NetcdfFile& file, const std::string& axis, const std::vector<Membe
             values.push_back(std::stod(text));
             whole.push_back(static_cast<std::int32_t>(values.back()));
         }
-        if (finite && key.type == Type::integer)
-            return file.variable({name, {"member"}, "1", key.meaning, whole, attributes, false});
+        if (finite && key.type == Type::integer) return file.variable({name, {"member"}, "1", key.meaning, whole, attributes, false});
         if (finite)
-            return file.variable(
-                {name, {"member"}, units_of(key, members.front().settings), key.meaning, values, attributes, false});
+            return file.variable({name, {"member"}, units_of(key, members.front().settings), key.meaning, values, attributes, false});
     }
     std::vector<std::string> values;
     for (const Member& member : members) values.push_back(member.values[number].second);
@@ -89,13 +87,11 @@ void write_text(const std::string& path, const std::string& text) {
     const auto fail = [&](int error) {
         std::error_code ignored;
         fs::remove(part, ignored);
-        throw Error(Failure::file_system,
-                    "cannot write '" + path + "': " + std::error_code(error, std::generic_category()).message());
+        throw Error(Failure::file_system, "cannot write '" + path + "': " + std::error_code(error, std::generic_category()).message());
     };
     std::FILE* const out = std::fopen(part.c_str(), "we");
     if (!out) fail(errno);
-    const bool whole =
-        std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0 && ::fsync(fileno(out)) == 0;
+    const bool whole = std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0 && ::fsync(fileno(out)) == 0;
     const int error = errno;
     if (std::fclose(out) != 0 || !whole) fail(whole ? errno : error);
     if (std::rename(part.c_str(), path.c_str()) != 0) fail(errno);
@@ -128,8 +124,7 @@ std::string manifest_file(const std::string& output_file) {
 }
 
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command) {
-    const std::string path = manifest_file(read.settings.output.file),
-                      text_path = fs::path(path).replace_extension(".txt").string();
+    const std::string path = manifest_file(read.settings.output.file), text_path = fs::path(path).replace_extension(".txt").string();
     const std::string text = text_manifest(members, path);
     std::error_code ignored;
     if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
@@ -138,13 +133,11 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
     base.run.threads = Case{}.run.threads;
     NetcdfFile file;
     file.attribute("Conventions", "CF-1.10");
-    file.attribute("title",
-                   read.settings.run.title.empty() ? "Manifest of a study" : read.settings.run.title + ": manifest of the study");
+    file.attribute("title", read.settings.run.title.empty() ? "Manifest of a study" : read.settings.run.title + ": manifest of the study");
     file.attribute("source", "rsc " RSC_VERSION);
     file.attribute("history", history_text(command));
-    file.attribute(
-        "comment",
-        "member k of the study is `file`(k), beside this one; the other variables are the keys that differ between members");
+    file.attribute("comment",
+                   "member k of the study is `file`(k), beside this one; the other variables are the keys that differ between members");
     file.attribute("case", effective_namelist(base) + effective_namelist(*read.study));
     file.dimension("member", members.size());
     std::vector<std::int32_t> numbers;

@@ -47,8 +47,8 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
     out << format("%d realizations of %zu levels, %zu at a time", run.realizations, job.levels.size(), workers);
     if (done > 0) out << format("; %zu of them are done", done);
     out << "\n\nMeans over the realizations so far at the last level; scatter is the standard deviation of one realization.\n"
-        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations", format("N [%s]", run.force_unit.c_str()).c_str(),
-                  "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed", "a second")
+        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
+                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed", "a second")
         << std::flush;
 }
 
@@ -57,20 +57,19 @@ void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double
     const auto row = [&](std::size_t k) -> const LevelRow& { return sums.rows[(k + 1) * sums.steps - 1]; };
     const Spread force = spread(count, [&](std::size_t k) { return row(k).force; });
     const Spread area = spread(count, [&](std::size_t k) { return row(k).area; });
-    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean, force.deviation, area.mean,
-                  area.deviation, duration(seconds).c_str(), static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
+    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean, force.deviation, area.mean, area.deviation,
+                  duration(seconds).c_str(), static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
 
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o, double seconds, const std::string& file) {
     const auto& run = job.settings.run;
     out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n", o.realizations, "level",
-                  format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma",
-                  format("N [%s]", run.force_unit.c_str()).c_str(), "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(),
-                  "scatter");
+                  format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(),
+                  "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
     for (const std::size_t s : shown_steps(o.steps))
-        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation_mean[s],
-                      o.separation_mean[s] / job.sigma, o.force_mean[s], o.force_std[s], o.area_mean[s], o.area_std[s]);
+        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation_mean[s], o.separation_mean[s] / job.sigma,
+                      o.force_mean[s], o.force_std[s], o.area_mean[s], o.area_std[s]);
 
     std::map<LevelStatus, long> statuses;
     long long crowded = 0;
@@ -81,8 +80,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     out << '\n' << o.realizations << " realizations, " << o.rows.size() << " levels in " << duration(seconds) << '\n';
     print_statuses(out, statuses, static_cast<long>(o.rows.size()));
     if (crowded > 0)
-        out << "  " << crowded
-            << " map cells (over all levels) with an area fraction above pi/16 = 19.6 %: contacts there would merge.\n";
+        out << "  " << crowded << " map cells (over all levels) with an area fraction above pi/16 = 19.6 %: contacts there would merge.\n";
     out << "result: " << file << "\npicture: python3 output/plot/plot.py " << file << std::endl;
 }
 

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "error.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/result.hpp"
 #include "run/campaign.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/checkpoint.hpp"
-#include "file/netcdf_file.hpp"
-#include "file/result.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 
@@ -92,8 +92,8 @@ public:
 
     void already(const Member& member, const RunSummary& summary) {
         if (options_.messages)
-            *options_.messages << "rsc: " << (member.values.empty() ? "" : member_name(member) + ": ") << "'"
-                               << member.settings.output.file << "' is there and whole: nothing to do\n";
+            *options_.messages << "rsc: " << (member.values.empty() ? "" : member_name(member) + ": ") << "'" << member.settings.output.file
+                               << "' is there and whole: nothing to do\n";
         add(summary);
     }
 
@@ -111,9 +111,8 @@ private:
         if (table_) {
             char line[200];
             const auto& run = member.settings.run;
-            std::snprintf(line, sizeof line, ": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force,
-                          run.force_unit.c_str(), summary.area, run.length_unit.c_str(), summary.separation,
-                          run.length_unit.c_str());
+            std::snprintf(line, sizeof line, ": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, run.force_unit.c_str(),
+                          summary.area, run.length_unit.c_str(), summary.separation, run.length_unit.c_str());
             *table_ << member_name(member) << line << member.settings.output.file << std::endl;
         }
         if (summary.failed > 0 && options_.messages) *options_.messages << "rsc: " << member_name(member) << ":\n";
@@ -151,8 +150,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
     for (const Member& member : all)
         if (!only || member.index == *only) wanted.push_back(&member);
     if (only && (!read.study || wanted.empty()))
-        throw Error(Failure::bad_input, read.study ? "--member " + std::to_string(*only) + ": the study has " +
-                                                         std::to_string(all.size()) + " members (--list names them)"
+        throw Error(Failure::bad_input, read.study ? "--member " + std::to_string(*only) + ": the study has " + std::to_string(all.size()) +
+                                                         " members (--list names them)"
                                                    : "--member: the case has no &study");
     std::set<std::string> files_read;
     for (const Member* member : wanted) {
@@ -191,8 +190,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
                                              " members are finished; the same command with --resume leaves them alone");
     }
     if (read.study && !options.quiet && options.table)
-        *options.table << wanted.size() << " of " << all.size()
-                       << " members; the manifest: " << manifest_file(read.settings.output.file) << std::endl;
+        *options.table << wanted.size() << " of " << all.size() << " members; the manifest: " << manifest_file(read.settings.output.file)
+                       << std::endl;
     return run.sum();
 }
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "case/read_case.hpp"
+#include "case/study.hpp"
 #include "run/campaign_team.hpp"
 #include "run/campaign_work.hpp"
-#include "case/read_case.hpp"
 #include "run/run.hpp"
-#include "case/study.hpp"
 
 namespace rsc {
 

@@ -47,8 +47,7 @@ std::string to_bytes(const RunSummary& summary) { return {reinterpret_cast<const
 
 RunSummary summary_from_bytes(std::string_view bytes) {
     RunSummary summary;
-    if (bytes.size() != sizeof summary)
-        throw Error(Failure::internal, "the summary of a member has not the length it should have");
+    if (bytes.size() != sizeof summary) throw Error(Failure::internal, "the summary of a member has not the length it should have");
     std::memcpy(&summary, bytes.data(), sizeof summary);
     return summary;
 }

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "run/campaign_team.hpp"
 #include "case/case.hpp"
+#include "run/campaign_team.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
 

@@ -12,10 +12,10 @@
 #include <cstring>
 #include <system_error>
 
-#include "error.hpp"
-#include "run/campaign_archive.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
+#include "error.hpp"
+#include "run/campaign_archive.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -49,8 +49,8 @@ std::uint32_t crc32(std::uint32_t crc, const char* data, std::size_t n) {
     const auto byte = [](char c) { return static_cast<std::uint32_t>(static_cast<unsigned char>(c)); };
     for (; n >= 8; data += 8, n -= 8) {
         crc ^= byte(data[0]) | byte(data[1]) << 8 | byte(data[2]) << 16 | byte(data[3]) << 24;
-        crc = table[7][crc & 255] ^ table[6][crc >> 8 & 255] ^ table[5][crc >> 16 & 255] ^ table[4][crc >> 24] ^
-              table[3][byte(data[4])] ^ table[2][byte(data[5])] ^ table[1][byte(data[6])] ^ table[0][byte(data[7])];
+        crc = table[7][crc & 255] ^ table[6][crc >> 8 & 255] ^ table[5][crc >> 16 & 255] ^ table[4][crc >> 24] ^ table[3][byte(data[4])] ^
+              table[2][byte(data[5])] ^ table[1][byte(data[6])] ^ table[0][byte(data[7])];
     }
     for (; n > 0; ++data, --n) crc = (crc >> 8) ^ table[0][(crc ^ byte(*data)) & 255];
     return ~crc;
@@ -104,8 +104,7 @@ std::uint64_t file_size(int fd) {
 bool still_named(int fd, const std::string& name) {
     struct stat open {
     }, named{};
-    return ::fstat(fd, &open) == 0 && ::stat(name.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-           open.st_dev == named.st_dev;
+    return ::fstat(fd, &open) == 0 && ::stat(name.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 std::string header_start() { return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n"; }
@@ -148,8 +147,7 @@ Checkpoint::~Checkpoint() {
 void Checkpoint::fail(int error) const {
     const std::string why = std::error_code(error, std::generic_category()).message();
     const bool full = error == ENOSPC || error == EDQUOT;
-    throw Error(Failure::file_system,
-                "cannot write '" + name_ + "': " + (full ? "the disk is full (" + why + "); make room there" : why));
+    throw Error(Failure::file_system, "cannot write '" + name_ + "': " + (full ? "the disk is full (" + why + "); make room there" : why));
 }
 
 void Checkpoint::create() {
@@ -181,8 +179,7 @@ void Checkpoint::load(const Case& settings) {
     std::string bytes;
     const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
     if (!get_frame(fd_, end, offset, kind, bytes)) {
-        if (end > sizeof(FrameHead) + header_.size())
-            refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
+        if (end > sizeof(FrameHead) + header_.size()) refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
         return;
     }
     if (kind != kHeader) refuse("is not a checkpoint of rsc");

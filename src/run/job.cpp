@@ -16,8 +16,8 @@ std::vector<double> spaced(const Case::Indentation& keys) {
     std::vector<double> values(static_cast<std::size_t>(keys.steps));
     for (std::size_t k = 0; k < values.size(); ++k) {
         const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
-        values[k] = keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t)
-                                                 : keys.start + t * (keys.stop - keys.start);
+        values[k] =
+            keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t) : keys.start + t * (keys.stop - keys.start);
     }
     if (keys.steps > 1) values.back() = keys.stop;  // exactly
     return values;
@@ -51,7 +51,8 @@ void read_surface(Job& job) {
     const Detail detail = detail_of(job.settings);
     job.given = find_asperities(map, job.settings.asperities.curvature, &count, 1, detail);
     if (job.given.size() == 0) {
-        const std::string where = detail == Detail::grid ? "inside the map" : std::to_string(kMeasuredReach) + " or more points inside the map";
+        const std::string where =
+            detail == Detail::grid ? "inside the map" : std::to_string(kMeasuredReach) + " or more points inside the map";
         throw Error(Failure::bad_input, keys.file + ": no summit " + where + ": no point lies strictly above its 8 neighbours");
     }
     const Moments grid = grid_moments(map);
@@ -111,8 +112,9 @@ Job prepare(const Case& settings) {
     if (!job.theory) job.solver.mean_spacing = std::sqrt(job.domain.Lx * job.domain.Ly / static_cast<double>(job.given.size()));
     const auto& indentation = settings.indentation;
     if (!(job.sigma > 0)) {
-        throw Error(Failure::bad_input, "surface%sigma: the rms height of what was read is 0; give a sigma > 0 (it scales unit='sigma' "
-                                        "and solver%delta0), and unit='length' if the levels are lengths");
+        throw Error(Failure::bad_input,
+                    "surface%sigma: the rms height of what was read is 0; give a sigma > 0 (it scales unit='sigma' "
+                    "and solver%delta0), and unit='length' if the levels are lengths");
     }
     job.solver.sigma = job.sigma;
     job.indenter.E_star = equivalent_modulus(settings.solids.E, settings.solids.nu);
@@ -124,8 +126,9 @@ Job prepare(const Case& settings) {
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) {
         for (double& level : job.levels) level *= job.sigma;
     }
-    const double sqrt_m4 = job.theory ? std::sqrt(job.theory->m4)
-                           : job.given_statistics.m4 > 0 ? std::sqrt(job.given_statistics.m4) : typical_sqrt_m4(job.given);
+    const double sqrt_m4 = job.theory                    ? std::sqrt(job.theory->m4)
+                           : job.given_statistics.m4 > 0 ? std::sqrt(job.given_statistics.m4)
+                                                         : typical_sqrt_m4(job.given);
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }

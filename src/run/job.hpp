@@ -6,21 +6,21 @@
 #include <optional>
 #include <vector>
 
+#include "case/case.hpp"
 #include "contact/contact.hpp"
+#include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
-#include "case/case.hpp"
-#include "file/result.hpp"
 
 namespace rsc {
 
 struct Job {
     Case settings;
-    Domain domain;                 // the surface's rectangle
+    Domain domain;  // the surface's rectangle
     Indenter indenter;
     SolverOptions solver;
-    double sigma = 0;              // the length unit='sigma' and delta0 mean
-    std::vector<double> levels;    // separations [length], or forces [force] with control='force'
+    double sigma = 0;            // the length unit='sigma' and delta0 mean
+    std::vector<double> levels;  // separations [length], or forces [force] with control='force'
     std::optional<Spectrum> spectrum;
     std::optional<Moments> theory;
     ObserveOptions observe;
@@ -38,14 +38,13 @@ struct Realization {
     SurfaceStatistics statistics;
     Asperities asperities;
     std::vector<Level> levels;
-    std::vector<double> stiffness;      // a value a level with control='force', otherwise empty
-    std::optional<HeightMap> heights;   // if the case wants them
+    std::vector<double> stiffness;     // a value a level with control='force', otherwise empty
+    std::optional<HeightMap> heights;  // if the case wants them
 };
 
 // Realization `number` of the case. `on_level` is called after each level with its number; returning false stops the run there.
 // `threads` may work on the surface; the answer does not depend on it.
-Realization realize(const Job& job, std::int64_t number, int threads,
-                    const std::function<bool(std::size_t, const Level&)>& on_level = {});
+Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level = {});
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& realization);
 

@@ -45,8 +45,7 @@ public:
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
             throw Error(Failure::internal, "an answer of more than 2 GiB cannot be sent by MPI; take fewer map_cells or levels");
         Letter& letter = letters_.emplace_back(Letter{std::move(bytes), MPI_REQUEST_NULL});
-        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD,
-                  &letter.request);
+        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD, &letter.request);
     }
     void tidy() {
         for (int arrived = 1; !letters_.empty();) {
@@ -95,8 +94,7 @@ std::string packed(const std::exception_ptr& error) {
 
 [[noreturn]] void rethrow(const Message& message) {
     throw Error(static_cast<Failure>(from_raw<std::int32_t>(message.bytes)),
-                "rank " + std::to_string(message.rank) + ": " +
-                    message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
+                "rank " + std::to_string(message.rank) + ": " + message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
 }
 
 class MpiTeam : public Team {
@@ -177,8 +175,7 @@ MpiJob::~MpiJob() { MPI_Finalize(); }
 
 std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::string& case_text) {
     const std::string text = raw(static_cast<std::uint64_t>(threads)) + case_text;
-    for (int rank = 1; rank < size_; ++rank)
-        MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
+    for (int rank = 1; rank < size_; ++rank) MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
     return std::make_unique<MpiTeam>(std::move(work), threads, size_);
 }
 

@@ -10,14 +10,14 @@
 #include <system_error>
 #include <thread>
 
+#include "case/registry.hpp"
 #include "error.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/netcdf_writer.hpp"
 #include "observe/regimes.hpp"
 #include "run/campaign.hpp"
 #include "run/campaign_work.hpp"
 #include "run/job.hpp"
-#include "file/netcdf_file.hpp"
-#include "file/netcdf_writer.hpp"
-#include "case/registry.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 
@@ -32,14 +32,13 @@ struct Tally {
     std::map<Method, long> methods;
 };
 
-void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds,
-               const std::string& file) {
+void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds, const std::string& file) {
     const char* l = job.settings.run.length_unit.c_str();
     char line[400];
     const auto& s = r.statistics;
     out << '\n';
-    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %ld levels in %s\n",
-                  static_cast<long long>(s.summits), static_cast<long long>(s.saddles), tally.levels, duration(seconds).c_str());
+    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %ld levels in %s\n", static_cast<long long>(s.summits),
+                  static_cast<long long>(s.saddles), tally.levels, duration(seconds).c_str());
     out << line;
     if (s.m2 > 0) {
         std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, std::sqrt(2 * s.m2),
@@ -51,10 +50,9 @@ void summarise(std::ostream& out, const Job& job, const Realization& r, const Ta
     out << '\n';
     print_statuses(out, tally.statuses, tally.levels);
     if (tally.crowded_cells > 0) {
-        std::snprintf(
-            line, sizeof line,
-            "  %lld map cells (over all levels) with an area fraction above pi/16 = 19.6 %%: contacts there would merge.\n",
-            static_cast<long long>(tally.crowded_cells));
+        std::snprintf(line, sizeof line,
+                      "  %lld map cells (over all levels) with an area fraction above pi/16 = 19.6 %%: contacts there would merge.\n",
+                      static_cast<long long>(tally.crowded_cells));
         out << line;
     }
     out << "result: " << file << '\n';
@@ -77,7 +75,8 @@ void require_threads(int threads) {
     }
     for (std::thread& thread : started) thread.join();
     if (refused)
-        throw Error(Failure::no_memory, "the machine refused to start " + std::to_string(threads) + " threads; fewer run%threads need less");
+        throw Error(Failure::no_memory,
+                    "the machine refused to start " + std::to_string(threads) + " threads; fewer run%threads need less");
 }
 
 // The OpenMP threads of the caller while this lives.

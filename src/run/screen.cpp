@@ -72,13 +72,15 @@ void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts
         if (found == counts.end() || found->second == 0) return;
         out << format("  %ld of %ld levels: %s - %s\n", found->second, levels, status_name(status), meaning);
     };
-    tell(LevelStatus::out_of_validity,
-         "contacts with a > <d>/4, a quarter of the mean spacing of summits, or pressed beyond what the law knows of a summit (beyond_law in "
-         "the file): the asperity model is leaving its range.");
+    tell(
+        LevelStatus::out_of_validity,
+        "contacts with a > <d>/4, a quarter of the mean spacing of summits, or pressed beyond what the law knows of a summit (beyond_law in "
+        "the file): the asperity model is leaving its range.");
     tell(LevelStatus::overlapping,
          "pairs of contact spots nearer than the sum of their radii: asperities that would merge are counted as two.");
-    tell(LevelStatus::not_unique,
-         "spots so deep in each other that other solutions may exist: the one given is a local minimum of the energy, reached by a fixed rule.");
+    tell(
+        LevelStatus::not_unique,
+        "spots so deep in each other that other solutions may exist: the one given is a local minimum of the energy, reached by a fixed rule.");
     tell(LevelStatus::not_converged,
          "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }

@@ -84,9 +84,10 @@ void bench_solve() {
             solves += dgesv[k].iterations;
             not_unique += direct[k].status == LevelStatus::not_unique;
         }
-        std::printf("  realization %d: dgesv %.3f s (%ld solves), direct %.4f s (%ld Newton steps, %ld products), ratio %.0f; "
-                    "loads differ %.1e; %ld levels not unique\n",
-                    realization, t_dgesv, solves, t_direct, steps, sum(direct, &Level::products), t_dgesv / t_direct, differ, not_unique);
+        std::printf(
+            "  realization %d: dgesv %.3f s (%ld solves), direct %.4f s (%ld Newton steps, %ld products), ratio %.0f; "
+            "loads differ %.1e; %ld levels not unique\n",
+            realization, t_dgesv, solves, t_direct, steps, sum(direct, &Level::products), t_dgesv / t_direct, differ, not_unique);
         all_direct += t_direct;
         all_dgesv += t_dgesv;
     }
@@ -110,7 +111,10 @@ double bare_transform(int n) {
     double* data = fftw_alloc_real(size * 2 * (size / 2 + 1));
     const fftw_plan plan = fftw_plan_dft_c2r_2d(n, n, reinterpret_cast<fftw_complex*>(data), data, FFTW_ESTIMATE);
     std::fill(data, data + size * 2 * (size / 2 + 1), 1e-3);
-    const double time = shortest(5, [&] { fftw_execute(plan); std::fill(data, data + 64, 1e-3); });
+    const double time = shortest(5, [&] {
+        fftw_execute(plan);
+        std::fill(data, data + 64, 1e-3);
+    });
     fftw_destroy_plan(plan);
     fftw_free(data);
     return time;
@@ -159,8 +163,12 @@ void bench_pairs() {
         set.assign(n, x.data(), y.data());
         const double pairs = static_cast<double>(n) * static_cast<double>(n);
         const int repeat = static_cast<int>(1 + 2e8 / pairs);
-        const double t_double = shortest(5, [&] { for (int i = 0; i < repeat; ++i) set.apply(f.data(), phi.data()); });
-        const double t_single = shortest(5, [&] { for (int i = 0; i < repeat; ++i) set.apply_single(f_single.data(), phi_single.data()); });
+        const double t_double = shortest(5, [&] {
+            for (int i = 0; i < repeat; ++i) set.apply(f.data(), phi.data());
+        });
+        const double t_single = shortest(5, [&] {
+            for (int i = 0; i < repeat; ++i) set.apply_single(f_single.data(), phi_single.data());
+        });
         const double t_apart = shortest(5, [&] {
             for (int i = 0; i < repeat; ++i) pair_potential(n, x.data(), y.data(), n, x.data(), y.data(), f.data(), phi.data());
         });
@@ -227,10 +235,11 @@ void bench_largest() {
     options.sigma = 0.01;
     Level level;
     const double time = shortest(1, [&] { level = Contact(a, kGold, options).at_separation(0.01); });
-    std::printf("  Z0 = sigma: %d candidates, %zu contacts, %ld overlapping pairs, status %d, residual %.1e, %d Newton steps, %ld products: "
-                "%.2f s (wanted: 10 s)\n",
-                level.candidates, level.f.size(), level.overlapping_pairs, static_cast<int>(level.status), level.residual, level.iterations,
-                level.products, time);
+    std::printf(
+        "  Z0 = sigma: %d candidates, %zu contacts, %ld overlapping pairs, status %d, residual %.1e, %d Newton steps, %ld products: "
+        "%.2f s (wanted: 10 s)\n",
+        level.candidates, level.f.size(), level.overlapping_pairs, static_cast<int>(level.status), level.residual, level.iterations,
+        level.products, time);
     std::printf("  peak memory %.0f MB (wanted: 2000; 512 MB of it the bare transform's)\n", peak_memory_mb());
 }
 
@@ -238,9 +247,9 @@ void bench_largest() {
 
 int main(int argc, char** argv) {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
-    const std::pair<const char*, void (*)()> parts[] = {{"pairs", bench_pairs},     {"realization", bench_realization},
-                                                        {"solve", bench_solve},     {"laws", bench_laws},   {"rough", bench_rough},
-                                                        {"largest", bench_largest}, {"many", bench_many}};
+    const std::pair<const char*, void (*)()> parts[] = {
+        {"pairs", bench_pairs}, {"realization", bench_realization}, {"solve", bench_solve}, {"laws", bench_laws},
+        {"rough", bench_rough}, {"largest", bench_largest},         {"many", bench_many}};
     for (const auto& [name, part] : parts) {
         const bool wanted = argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, name) == 0; });
         if (wanted) part();

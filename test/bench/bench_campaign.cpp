@@ -65,8 +65,8 @@ void checkpoint_share(Case c) {
         }
         checkpoint.remove();
     }
-    std::printf("checkpoint: records of %zu kB; %.2f %% of the processor time of a realization (%.1f ms), at most 2 wanted\n",
-                bytes / 1000, 100 * spent / campaign / realization, 1e3 * realization);
+    std::printf("checkpoint: records of %zu kB; %.2f %% of the processor time of a realization (%.1f ms), at most 2 wanted\n", bytes / 1000,
+                100 * spent / campaign / realization, 1e3 * realization);
     std::printf("2000 realizations: %.0f s of processor time, %.0f s on two cores, at most 180 wanted\n", campaign * realization,
                 campaign * realization / 2);
 }
@@ -85,17 +85,15 @@ int main(int argc, char** argv) {
     const double one = timed(c), memory_one = peak_megabytes();
     c.run.threads = 2;
     const double two = timed(c), memory_two = peak_megabytes();
-    std::printf("%d realizations: 1 thread %.2f s, 2 threads %.2f s: %.2f times, 1.9 wanted\n", c.run.realizations, one, two,
-                one / two);
+    std::printf("%d realizations: 1 thread %.2f s, 2 threads %.2f s: %.2f times, 1.9 wanted\n", c.run.realizations, one, two, one / two);
     std::printf("memory: %.0f MB with one thread, %.0f MB with two, at most 150 MB a thread wanted\n", memory_one, memory_two);
     if (argc > 2) {
         const auto ranks = [&](int n) {
-            const std::string command = "mpirun --oversubscribe -n " + std::to_string(n) + " '" + argv[2] + "' -q -o '" +
-                                        c.output.file + "' -s run%realizations=" + std::to_string(c.run.realizations);
+            const std::string command = "mpirun --oversubscribe -n " + std::to_string(n) + " '" + argv[2] + "' -q -o '" + c.output.file +
+                                        "' -s run%realizations=" + std::to_string(c.run.realizations);
             const double start = seconds();
             const int status = std::system(
-                ("echo '&run /' > '" + (folder / "c.nml").string() + "' && " + command + " '" + (folder / "c.nml").string() + "'")
-                    .c_str());
+                ("echo '&run /' > '" + (folder / "c.nml").string() + "' && " + command + " '" + (folder / "c.nml").string() + "'").c_str());
             return status == 0 ? seconds() - start : 0.0;
         };
         const double rank = ranks(1), pair = ranks(2);

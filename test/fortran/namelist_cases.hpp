@@ -23,8 +23,7 @@ public:
         shuffle(groups);
         groups.resize(static_cast<std::size_t>(number(1, 4)));
         for (const std::string& group : groups) {
-            text +=
-                pick({"", "", "\n", "a title, or a remark\n", "! &" + group + " in a comment = 3 /\n", "3.5 / 'text'\n", "\t "});
+            text += pick({"", "", "\n", "a title, or a remark\n", "! &" + group + " in a comment = 3 /\n", "3.5 / 'text'\n", "\t "});
             text += some_group(group);
         }
         return text + "\n\n";
@@ -35,17 +34,12 @@ public:
         std::string text = well_formed();
         for (int k = number(1, 3); k > 0; --k) {
             const auto at = static_cast<std::size_t>(number(0, static_cast<int>(text.size()) - 1));
-            const std::string piece = pick(
-                {" ", ",", "\n", "'", "\"", "=", "(", ")", "*", "!", "3", "e", "-", ".", ":", "t", "x", "\t", "%", "1*", "+"});
+            const std::string piece =
+                pick({" ", ",", "\n", "'", "\"", "=", "(", ")", "*", "!", "3", "e", "-", ".", ":", "t", "x", "\t", "%", "1*", "+"});
             switch (number(0, 2)) {
-                case 0:
-                    text.insert(at, piece);
-                    break;
-                case 1:
-                    text.erase(at, 1);
-                    break;
-                default:
-                    text.replace(at, 1, piece);
+                case 0: text.insert(at, piece); break;
+                case 1: text.erase(at, 1); break;
+                default: text.replace(at, 1, piece);
             }
         }
         return text + "\n\n";
@@ -76,8 +70,8 @@ private:
     std::string blanks() { return pick({"", "", " ", " ", "  ", "\t"}); }
 
     std::string some_group(const std::string& group) {
-        std::string text = pick({"&", "&", "&", "$"}) + any_case(group) +
-                           pick({" ", "\n", "\t", "  ! a remark\n", "\n\n  ", ", ", "\r\n", "!\n"});
+        std::string text =
+            pick({"&", "&", "&", "$"}) + any_case(group) + pick({" ", "\n", "\t", "  ! a remark\n", "\n\n  ", ", ", "\r\n", "!\n"});
         std::vector<const rsc::Key*> keys;
         for (const rsc::Key& key : rsc::registry())
             if (group == key.group) keys.push_back(&key);
@@ -85,8 +79,8 @@ private:
         keys.resize(std::min(keys.size(), static_cast<std::size_t>(number(0, 6))));
         for (const rsc::Key* key : keys) {
             text += assignment(*key);
-            text += pick({" ", ",", ", ", "\n", ",\n  ", " , ", "\n\n", " ! a remark\n", "; ", "\t", "\r\n",
-                          ", ! a 'remark' &run\n", "\n! a line\n  "});
+            text += pick({" ", ",", ", ", "\n", ",\n  ", " , ", "\n\n", " ! a remark\n", "; ", "\t", "\r\n", ", ! a 'remark' &run\n",
+                          "\n! a line\n  "});
             if (chance(2)) text += pick({"? ", "=? ", ",, "});
         }
         return text + pick({"/", "/", "\n/", " / text after it", "&end", "&END", "$end", "/!"}) + pick({"\n", " \n", "\n\n"});
@@ -118,8 +112,7 @@ private:
                 room = std::vector<int>{2, 1, 2, 2, 2, 1, 2, 1}[static_cast<std::size_t>(form)];
             } else {
                 const int form = number(0, 5);
-                name += std::vector<std::string>{
-                    "(1:4)", "(1:5:2)", "(4:1:-1)", "(:3)", "(1)", "(3:1:-2)"}[static_cast<std::size_t>(form)];
+                name += std::vector<std::string>{"(1:4)", "(1:5:2)", "(4:1:-1)", "(:3)", "(1)", "(3:1:-2)"}[static_cast<std::size_t>(form)];
                 room = std::vector<int>{4, 3, 4, 3, 9, 2}[static_cast<std::size_t>(form)];
             }
             if (chance(4)) name += "(1)";
@@ -134,8 +127,7 @@ private:
         std::string text;
         bool first = true;
         while (room > 0) {
-            if (!first)
-                text += pick({",", ", ", " ", " , ", "\n", ",\n", "; ", "  ", "\t", ",\t", " ! a remark\n ", ",\r\n", "\r\n"});
+            if (!first) text += pick({",", ", ", " ", " , ", "\n", ",\n", "; ", "  ", "\t", ",\t", " ! a remark\n ", ",\r\n", "\r\n"});
             first = false;
             if (chance(6)) {
                 text += pick({"", ",", "1*", room > 1 ? "2*" : ""});
@@ -156,18 +148,18 @@ private:
 
     std::string value(rsc::Type type) {
         if (type == rsc::Type::logical)
-            return pick({"t", "T", "f", "F", ".true.", ".FALSE.", ".t.", ".F", "true", "False", ".t", "tfoo", ".fals", "t(3)",
-                         "truth", "0", "yes"});
+            return pick({"t", "T", "f", "F", ".true.", ".FALSE.", ".t.", ".F", "true", "False", ".t", "tfoo", ".fals", "t(3)", "truth", "0",
+                         "yes"});
         if (type == rsc::Type::integer || type == rsc::Type::long_integer) {
             if (chance(5))
-                return pick({"1.5", "1e3", "2147483648", "-2147483648", "-2147483649", "9223372036854775807",
-                             "9223372036854775808", "3a", "- 5", "+", "'3'", "0x1F"});
+                return pick({"1.5", "1e3", "2147483648", "-2147483648", "-2147483649", "9223372036854775807", "9223372036854775808", "3a",
+                             "- 5", "+", "'3'", "0x1F"});
             return pick({"", "+", "-", "00"}) + std::to_string(number(0, chance(50) ? 100 : 2000000000));
         }
         if (chance(8)) return pick({"inf", "Infinity", "+INF", "-infinity", "nan", "NaN(q12)", "nan()", "-nan", "+nan"});
         if (chance(4))
-            return pick({".", "1e", "e5", ".e5", "1.2.3", "1e5.", "1.5f3", "--1", "infinit", "nan(a", "'1.5'", "1.0_8", "0x1p3",
-                         "1,5", "+.", "t"});
+            return pick(
+                {".", "1e", "e5", ".e5", "1.2.3", "1e5.", "1.5f3", "--1", "infinit", "nan(a", "'1.5'", "1.0_8", "0x1p3", "1,5", "+.", "t"});
         if (chance(8))
             return pick({"1e999", "-1d400", "1e-999", "4.9e-324", "2.4e-324", "1.7976931348623157e308", "1e-310",
                          "0.1e-99999999999999999999", "-0.0", "0e999999999999"});
@@ -176,16 +168,15 @@ private:
             digits += "." + (chance(85) ? std::to_string(number(0, 999999999)) : "");
         else if (chance(10))
             digits = "." + std::to_string(number(0, 99999));
-        if (chance(40))
-            digits += pick({"e", "E", "d", "D", "q", "Q", "e+", "d-", "E-", "Q+", "+", "-"}) + std::to_string(number(0, 30));
+        if (chance(40)) digits += pick({"e", "E", "d", "D", "q", "Q", "e+", "d-", "E-", "Q+", "+", "-"}) + std::to_string(number(0, 30));
         return digits;
     }
 
     std::string words() {
         std::string text;
         for (int k = number(0, 4); k > 0; --k)
-            text += pick({"rough", " sphere", "/path/of.nc", " ", "it's", "\"", "''", "a=b", "! no remark", ", ", "(1)", "1*",
-                          "\\n", "\t"});
+            text +=
+                pick({"rough", " sphere", "/path/of.nc", " ", "it's", "\"", "''", "a=b", "! no remark", ", ", "(1)", "1*", "\\n", "\t"});
         return text;
     }
 

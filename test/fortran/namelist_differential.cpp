@@ -10,9 +10,9 @@
 #include <map>
 #include <sstream>
 
+#include "case/read_case.hpp"
 #include "check.hpp"
 #include "namelist_cases.hpp"
-#include "case/read_case.hpp"
 
 using namespace rsc;
 
@@ -110,8 +110,7 @@ constexpr Stricter kStricter[] = {
     {"$end'", "gfortran drops a number that runs into the end of the group"},
     {"found '='", "the same, before the next key"},
     {"step), found '?", "gfortran passes over a line end inside of a subscript"},
-    {"'=' must follow",
-     "gfortran passes over a key with no value before the end of a group, and over separators inside of a name"},
+    {"'=' must follow", "gfortran passes over a key with no value before the end of a group, and over separators inside of a name"},
 };
 
 bool stricter_only(const Reading& reading) {
@@ -123,8 +122,7 @@ bool stricter_only(const Reading& reading) {
             const std::size_t first = at + before.size();
             const std::string piece = namelist::lower_case(fault.text.substr(first, fault.text.find('\'', first) - first));
             for (const Key& key : registry())
-                if (namelist::lower_case(key.name) != piece && namelist::lower_case(key.name).find(piece) != std::string::npos)
-                    return true;
+                if (namelist::lower_case(key.name) != piece && namelist::lower_case(key.name).find(piece) != std::string::npos) return true;
             // A number that runs into the next key: gfortran drops the number.
             for (const Key& key : registry())
                 if (piece.size() > std::string(key.name).size() && piece.ends_with(namelist::lower_case(key.name))) return true;

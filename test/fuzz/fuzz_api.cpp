@@ -76,10 +76,10 @@ private:
     // What the program would do without complaint, but for hours.
     void keep_small(bool run) {
         if (!case_) return;
-        static const char* const small[][2] = {{"surface%n", "32"},       {"surface%L_lambda_s", "12"}, {"surface%L_lambda_l", "2"},
-                                               {"run%threads", "1"},      {"output%map_cells", "5"},    {"output%radial_bins", "5"},
-                                               {"output%pdf_bins", "5"},  {"indentation%steps", "3"},   {"run%realizations", "1"},
-                                               {"solver%max_iterations", "50"}, {"surface%source", "'synthetic'"}};
+        static const char* const small[][2] = {
+            {"surface%n", "32"},       {"surface%L_lambda_s", "12"},    {"surface%L_lambda_l", "2"},      {"run%threads", "1"},
+            {"output%map_cells", "5"}, {"output%radial_bins", "5"},     {"output%pdf_bins", "5"},         {"indentation%steps", "3"},
+            {"run%realizations", "1"}, {"solver%max_iterations", "50"}, {"surface%source", "'synthetic'"}};
         for (std::size_t k = 0; k < (run ? std::size(small) : 4); ++k) told(rsc_case_set(case_, small[k][0], small[k][1]));
         told(rsc_case_set(case_, "solver%max_iterations", "50"));
         const char* const folder = std::getenv("RSC_FUZZ_FOLDER");
@@ -93,9 +93,7 @@ private:
                 rsc_case_destroy(&case_);
                 told(rsc_case_create(&case_));
                 break;
-            case 1:
-                told(rsc_case_read(case_, in_.ConsumeRandomLengthString(200).c_str()));
-                break;
+            case 1: told(rsc_case_read(case_, in_.ConsumeRandomLengthString(200).c_str())); break;
             case 2: {
                 const std::string name = in_.ConsumeRandomLengthString(24), value = in_.ConsumeRandomLengthString(24);
                 told(rsc_case_set(case_, name.c_str(), value.c_str()));
@@ -109,9 +107,7 @@ private:
                 text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_get(case_, name, b, n, l); });
                 break;
             }
-            case 4:
-                text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(case_, b, n, l); });
-                break;
+            case 4: text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(case_, b, n, l); }); break;
             case 5: {
                 rsc_case* copy = nullptr;
                 if (told(rsc_case_copy(&copy, case_))) {
@@ -165,9 +161,7 @@ private:
                 told(rsc_asperities_make(&asperities_, case_, in_.ConsumeIntegral<std::int64_t>()));
                 break;
             case 13:
-            case 14:
-                take_asperities();
-                break;
+            case 14: take_asperities(); break;
             case 15:
                 rsc_contact_destroy(&contacts_[0]);
                 told(rsc_contact_create(&contacts_[0], asperities_, positive(), positive(), number(), number(), case_));
@@ -181,9 +175,7 @@ private:
                 told(rsc_contact_copy(&contacts_[1], contacts_[0]));
                 break;
             }
-            case 18:
-                told(rsc_contact_move_tip(contact(), number(), number()));
-                break;
+            case 18: told(rsc_contact_move_tip(contact(), number(), number())); break;
             case 19: {
                 double touch = 0;
                 rsc_contact* const c = contact();
@@ -193,9 +185,7 @@ private:
                 }
                 break;
             }
-            case 20:
-                indent(contact(), number());
-                break;
+            case 20: indent(contact(), number()); break;
             case 21: {
                 double separation = 0;
                 rsc_contact* const c = contact();
@@ -203,9 +193,7 @@ private:
                 look(c);
                 break;
             }
-            case 22:
-                look(contact());
-                break;
+            case 22: look(contact()); break;
             case 23: {
                 double stiffness = 0;
                 rsc_contact* const c = contact();
@@ -265,8 +253,8 @@ private:
         PROMISE(std::isfinite(area) && area >= 0, "area " + std::to_string(area));
         PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
         PROMISE(level >= 0 && level < RSC_LEVEL_LAST_ + 1 && contacts <= candidates, "level");
-        PROMISE(std::isfinite(residual), "residual at separation " + std::to_string(separation) + ", force " + std::to_string(force) + ", status " +
-                                             std::to_string(level) + ", " + std::to_string(contacts) + " contacts");
+        PROMISE(std::isfinite(residual), "residual at separation " + std::to_string(separation) + ", force " + std::to_string(force) +
+                                             ", status " + std::to_string(level) + ", " + std::to_string(contacts) + " contacts");
         if (told(rsc_contact_energy(c, &energy))) finite(energy, "energy");
         std::vector<double> f(static_cast<std::size_t>(contacts)), a(f), u(f);
         std::vector<std::int32_t> which(f.size());

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "case/read_case.hpp"
 #include "error.hpp"
 #include "promise.hpp"
-#include "case/read_case.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::string_view text(reinterpret_cast<const char*>(data), size);
@@ -32,7 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         // Thousands of members take a while: one such text in 32 is enough.
         std::size_t members_wanted = 1;
         if (read.study)
-            for (const rsc::Study::Axis& axis : read.study->axes) members_wanted = std::min<std::size_t>(members_wanted * axis.values.size(), 1000);
+            for (const rsc::Study::Axis& axis : read.study->axes)
+                members_wanted = std::min<std::size_t>(members_wanted * axis.values.size(), 1000);
         if (read.study && (members_wanted <= 100 || size % 32 == 0)) {
             try {
                 const auto members = rsc::expand_study(read.settings, *read.study);

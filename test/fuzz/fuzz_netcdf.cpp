@@ -13,8 +13,19 @@
 
 namespace {
 
-const char* const kNames[] = {"height", "x", "y", "asperity_x", "asperity_y", "asperity_z", "asperity_radius", "asperity_kappa1",
-                              "asperity_kappa2", "asperity_angle", "asperity_biharmonic", "z", "other"};
+const char* const kNames[] = {"height",
+                              "x",
+                              "y",
+                              "asperity_x",
+                              "asperity_y",
+                              "asperity_z",
+                              "asperity_radius",
+                              "asperity_kappa1",
+                              "asperity_kappa2",
+                              "asperity_angle",
+                              "asperity_biharmonic",
+                              "z",
+                              "other"};
 const char* const kAttributes[] = {"_FillValue", "missing_value", "scale_factor", "add_offset", "units", "long_name"};
 const nc_type kTypes[] = {NC_DOUBLE, NC_DOUBLE, NC_FLOAT, NC_INT, NC_SHORT, NC_BYTE, NC_CHAR, NC_UBYTE, NC_INT64, NC_UINT64, NC_STRING};
 const double kValues[] = {0, 1, -1, 2, 3, 0.5, 1e-300, 1e300, -1e300, NC_FILL_DOUBLE, NC_FILL_INT, 127, NAN, INFINITY, 1e-12};
@@ -61,7 +72,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (in.ConsumeIntegral<std::uint8_t>() == 255) length = in.PickValueInArray<std::size_t>({2147483647, 4294967290, 100000});
         large = large || length > 9;
         int id = -1;
-        if (nc_def_dim(file, kNames[dimensions.size() == 0 ? 2 : dimensions.size() == 1 ? 1 : 12], length, &id) == NC_NOERR) dimensions.push_back(id);
+        if (nc_def_dim(file, kNames[dimensions.size() == 0 ? 2 : dimensions.size() == 1 ? 1 : 12], length, &id) == NC_NOERR)
+            dimensions.push_back(id);
     }
     std::vector<int> variables;
     for (int v = in.ConsumeIntegralInRange(1, 8); v > 0 && !dimensions.empty(); --v) {

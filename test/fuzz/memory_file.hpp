@@ -11,7 +11,9 @@
 
 class MemoryFile {
 public:
-    MemoryFile() : fd_(memfd_create("input", MFD_CLOEXEC)), path_("/proc/self/fd/" + std::to_string(fd_)) { PROMISE(fd_ >= 0, "memfd_create"); }
+    MemoryFile() : fd_(memfd_create("input", MFD_CLOEXEC)), path_("/proc/self/fd/" + std::to_string(fd_)) {
+        PROMISE(fd_ >= 0, "memfd_create");
+    }
     const std::string& path() const { return path_; }
     void set(const void* bytes, std::size_t size) {
         PROMISE(ftruncate(fd_, 0) == 0, "ftruncate");

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string>
 
-#define PROMISE(condition, what)                                                                                         \
-    do {                                                                                                                 \
-        if (!(condition)) {                                                                                              \
+#define PROMISE(condition, what)                                                                                        \
+    do {                                                                                                                \
+        if (!(condition)) {                                                                                             \
             std::fprintf(stderr, "%s:%d: broken: %s\n%s\n", __FILE__, __LINE__, #condition, std::string(what).c_str()); \
-            std::abort();                                                                                                \
-        }                                                                                                                \
+            std::abort();                                                                                               \
+        }                                                                                                               \
     } while (0)

@@ -8,8 +8,8 @@
 
 #include "error.hpp"
 #include "promise.hpp"
-#include "rough/asperities.hpp"
 #include "read/inputs.hpp"
+#include "rough/asperities.hpp"
 
 inline void read_input(const std::string& path, std::optional<double> L) {
     const auto refused = [](const rsc::Error& error) { PROMISE(error.kind() == rsc::Failure::bad_input, error.what()); };

@@ -112,8 +112,8 @@ int main() {
     for (const Recorded& recorded : kRecorded) {
         const Distance& d = distances[{recorded.ratio, recorded.law}];
         CHECK(d.count == 8);
-        std::printf("{%d, LawKind::%s, %.2f, %.2f, %.2f, %.2f},\n", recorded.ratio, name(recorded.law), d.N / d.count,
-                    d.A / d.count, d.worst_N, d.worst_A);
+        std::printf("{%d, LawKind::%s, %.2f, %.2f, %.2f, %.2f},\n", recorded.ratio, name(recorded.law), d.N / d.count, d.A / d.count,
+                    d.worst_N, d.worst_A);
         CHECK_CLOSE(d.N / d.count, recorded.N, kMargin);
         CHECK_CLOSE(d.A / d.count, recorded.A, kMargin);
         CHECK_CLOSE(d.worst_N, recorded.worst_N, 2 * kMargin);

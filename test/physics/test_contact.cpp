@@ -174,7 +174,8 @@ void stiffness_and_force_control() {
     const double h = 1e-6;
     const double plus = contact.at_separation(0.006 + h).force, minus = contact.at_separation(0.006 - h).force;
     const double N = contact.at_separation(0.006).force, K = contact.stiffness();
-    CHECK_RELATIVE(K, (plus - minus) / (2 * h), 1e-6);  // second-order differences: (h/sigma)^2 = 1e-8, and kinks as contacts form
+    CHECK_RELATIVE(K, (plus - minus) / (2 * h),
+                   1e-6);  // second-order differences: (h/sigma)^2 = 1e-8, and kinks as contacts form
     CHECK(K < 0);
     const Level again = contact.at_force(N);
     CHECK_RELATIVE(again.force, N, 1e-11);

@@ -45,8 +45,9 @@ int main() {
     for (const double L_lambda_s : {64.0, 128.0}) {
         Spectrum s;
         s.L_lambda_l = 4, s.L_lambda_s = L_lambda_s;
-        std::printf("L/lambda_s = %g, Z0/sigma = 2, E* = 1, flat: N and its change against 32 points in lambda_s\n%8s %10s %22s %10s %22s %22s\n",
-                    L_lambda_s, "points", "summits", "hertz (grid)", "summits", "elliptic", "fourth_order");
+        std::printf(
+            "L/lambda_s = %g, Z0/sigma = 2, E* = 1, flat: N and its change against 32 points in lambda_s\n%8s %10s %22s %10s %22s %22s\n",
+            L_lambda_s, "points", "summits", "hertz (grid)", "summits", "elliptic", "fourth_order");
         constexpr std::array kPoints{4, 8, 16, 32};
         std::array<std::array<double, 3>, 4> N{};
         std::array<std::array<std::size_t, 2>, 4> summits{};
@@ -54,7 +55,8 @@ int main() {
         for (std::size_t k = 0; k < kPoints.size(); ++k) {
             const int n = kPoints[k] * static_cast<int>(L_lambda_s);
             const Asperities grid = make_asperities(s, n, Normalise::sample, 1, 1, Curvature::geometric);
-            const Asperities fine = make_asperities(s, n, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
+            const Asperities fine =
+                make_asperities(s, n, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
             N[k] = {load(grid, s, LawKind::hertz), load(fine, s, LawKind::elliptic), load(fine, s, LawKind::fourth_order)};
             summits[k] = {grid.size(), fine.size()};
             between[k] = fine;

@@ -57,23 +57,20 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
     for (std::size_t i = 0; i < a.size(); ++i) {
         const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0, rho2 = dx * dx + dy * dy, R = indenter.R;
         if (!std::isinf(indenter.R) && rho2 > R * R) continue;
-        long double g =
-            a.z[i] - static_cast<long double>(Z0) - (std::isinf(indenter.R) ? 0 : rho2 / (R + std::sqrt(R * R - rho2)));
+        long double g = a.z[i] - static_cast<long double>(Z0) - (std::isinf(indenter.R) ? 0 : rho2 / (R + std::sqrt(R * R - rho2)));
         for (std::size_t j = 0; j < a.size(); ++j) {
             if (j != i)
                 g -= F[j] / (std::numbers::pi_v<long double> * indenter.E_star *
                              std::hypot(static_cast<long double>(a.x[i]) - a.x[j], static_cast<long double>(a.y[i]) - a.y[j]));
         }
-        const long double f =
-            g > 0 ? 4 / 3.0L * indenter.E_star * std::sqrt(static_cast<long double>(a.radius[i])) * g * std::sqrt(g) : 0;
+        const long double f = g > 0 ? 4 / 3.0L * indenter.E_star * std::sqrt(static_cast<long double>(a.radius[i])) * g * std::sqrt(g) : 0;
         error2 += (f - F[i]) * (f - F[i]);
         force2 += F[i] * F[i];
     }
     return force2 > 0 ? static_cast<double>(std::sqrt(error2 / force2)) : static_cast<double>(std::sqrt(error2));
 }
 
-void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method, const char* what,
-                  double tolerance = 1e-10) {
+void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method, const char* what, double tolerance = 1e-10) {
     const Level level = Contact(a, indenter, options(method, tolerance)).at_separation(Z0);
     sane(level, what);
     const double left = residual(a, indenter, Z0, level);
@@ -129,8 +126,7 @@ void overlapping() {
             CHECK(residual(a, {kE, kFlat, 0.5, 0.5}, 0.0, level) <= 2e-10);
             bool overlap = level.f.size() == 2 && d < level.a[0] + level.a[1];
             CHECK(level.overlapping_pairs == overlap);
-            CHECK(level.status == LevelStatus::not_unique ||
-                  level.status == (overlap ? LevelStatus::overlapping : LevelStatus::converged));
+            CHECK(level.status == LevelStatus::not_unique || level.status == (overlap ? LevelStatus::overlapping : LevelStatus::converged));
             if (level.f.size() == 2)
                 CHECK(d >= 2 / std::numbers::pi * std::sqrt(level.a[0] * level.a[1]) * (1 - 1e-6));
             else
@@ -168,8 +164,7 @@ void depths() {
     for (double R : {2.5, 1e6, kFlat}) {
         double last = 0;
         for (double Z0 : {1e6, 1.0, 0.04, 0.02, 0.0, -0.05, -0.5, -10.0, -1e3, -1e6}) {
-            for (Method method : kMethods)
-                check_answer(a, {kE, R, 0.5, 0.5}, Z0, method, ("depth " + std::to_string(Z0)).c_str());
+            for (Method method : kMethods) check_answer(a, {kE, R, 0.5, 0.5}, Z0, method, ("depth " + std::to_string(Z0)).c_str());
             const double N = Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)).at_separation(Z0).force;
             CHECK(N >= last);
             if (Z0 > 0.5) CHECK(N == 0);
@@ -212,8 +207,7 @@ void counts() {
         CHECK(level.f.size() == 400 && level.status == LevelStatus::converged);
         CHECK(level.force < 400 * 4.0 / 3.0 * kE * std::sqrt(1e-3) * std::pow(1e-3, 1.5));
         CHECK(*std::max_element(level.f.begin(), level.f.end()) == level.f.front() ||
-              std::abs(*std::max_element(level.f.begin(), level.f.end()) / level.f.front() - 1) <
-                  1e-9);  // the corners carry most
+              std::abs(*std::max_element(level.f.begin(), level.f.end()) / level.f.front() - 1) < 1e-9);  // the corners carry most
     }
 }
 
@@ -224,8 +218,7 @@ void radii_and_tolerances() {
     Asperities a = random_asperities(150, 0.04, 0.01, 1.0, 0.0, 13);
     for (double& r : a.radius) r = 0.01 * std::pow(10.0, uniform(random));
     for (Method method : kMethods) {
-        for (double tolerance : {1e-2, 1e-6, 1e-10, 1e-13})
-            check_answer(a, {kE, 2.5, 0.5, 0.5}, -0.01, method, "ten decades", tolerance);
+        for (double tolerance : {1e-2, 1e-6, 1e-10, 1e-13}) check_answer(a, {kE, 2.5, 0.5, 0.5}, -0.01, method, "ten decades", tolerance);
         const Level impossible = Contact(a, {kE, 2.5, 0.5, 0.5}, options(method, 1e-30)).at_separation(-0.01);
         sane(impossible, "tolerance 1e-30");
         CHECK(impossible.status == LevelStatus::not_converged || impossible.residual == 0);
@@ -278,8 +271,7 @@ void forces() {
     Contact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
     for (double N : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(contact.at_force(N), Error);
     for (double Z0 : {std::nan(""), kFlat, -kFlat}) CHECK_THROWS(contact.at_separation(Z0), Error);
-    for (double E : {0.0, -1.0, std::nan(""), kFlat})
-        CHECK_THROWS(Contact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
+    for (double E : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(Contact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
     for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
 }
 

@@ -63,8 +63,8 @@ void summit_heights() {
         const double alpha = m.nayak();
         std::vector<double> mean, variance, number;
         for (int k = 1; k <= surfaces; ++k) {
-            const Asperities a = make_asperities(spectrum, 512, Normalise::ensemble, 5, k, Curvature::geometric, nullptr, nullptr,
-                                                 1, Detail::subgrid);
+            const Asperities a =
+                make_asperities(spectrum, 512, Normalise::ensemble, 5, k, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
             double sum = 0, square = 0;
             for (double z : a.z) sum += z, square += z * z;
             const double n = static_cast<double>(a.size());

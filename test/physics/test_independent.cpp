@@ -88,8 +88,7 @@ void against_slow_solver() {
         int unique = 0, contacts = 0, sweeps = 0;
         for (int k = 0; k < family.systems; ++k) {
             const unsigned seed = 1000u + static_cast<unsigned>(k);
-            Asperities a =
-                random_asperities(1 + (k * family.n) / family.systems, family.spacing, 0.01, family.radius, family.spread, seed);
+            Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing, 0.01, family.radius, family.spread, seed);
             if (family.law != LawKind::hertz) shape(a, family.law, 0.06, seed);
             const double Z0 = 0.01 - 0.02 * (k % 5);  // down to where every summit under the sphere is pressed
             const auto reference = independent::press(summits_of(a, family.law), family.R, 0.5, 0.5, Z0, 1e-15L);
@@ -123,9 +122,8 @@ void against_slow_solver() {
         // The comparison is worth something only where most systems have one solution, and many contacts.
         CHECK(unique >= 9 * family.systems / 10);
         systems += unique;
-        std::printf(
-            "%-12s %3d of %3d systems unique, up to %d contacts, %d sweeps: load %.1e, area %.1e, a force %.1e of the load\n",
-            family.name, unique, family.systems, contacts, sweeps, worst_load, worst_area, worst_force);
+        std::printf("%-12s %3d of %3d systems unique, up to %d contacts, %d sweeps: load %.1e, area %.1e, a force %.1e of the load\n",
+                    family.name, unique, family.systems, contacts, sweeps, worst_load, worst_area, worst_force);
     }
     CHECK(systems >= 450);
 }
@@ -171,8 +169,8 @@ void newton_order() {
     const double order = covariance / variance;
     double C = 0;
     for (std::size_t k = 0; k < from.size(); ++k) C = std::max(C, std::exp(to[k] - 1.5 * from[k]));
-    std::printf("e' <= %.2f e^1.5 in %zu pairs of residuals, slope of ln e' over ln e %.2f; at most %d steps\n", C, from.size(),
-                order, most_steps);
+    std::printf("e' <= %.2f e^1.5 in %zu pairs of residuals, slope of ln e' over ln e %.2f; at most %d steps\n", C, from.size(), order,
+                most_steps);
     CHECK(from.size() >= 40);
     CHECK(C <= 3);
     CHECK(order >= 1.35);
@@ -246,8 +244,7 @@ void energy_is_minimal() {
                 const long double c = 4 / 3.0L * kE * std::sqrt(static_cast<long double>(a.radius[i])), f = F[i];
                 E += 0.6L * std::pow(c, -2 / 3.0L) * std::pow(f, 5 / 3.0L) - f * (static_cast<long double>(a.z[i]) - Z0);
                 for (std::size_t j = 0; j < i; ++j) {
-                    E += f * F[j] /
-                         (independent::kPi * kE * std::hypot(static_cast<long double>(a.x[i] - a.x[j]), a.y[i] - a.y[j]));
+                    E += f * F[j] / (independent::kPi * kE * std::hypot(static_cast<long double>(a.x[i] - a.x[j]), a.y[i] - a.y[j]));
                 }
             }
             return E;

@@ -121,7 +121,8 @@ void calculus() {
         for (double u = 1e-5; u < 2e-3; u *= 1.25) {
             const double h = 1e-4 * u;
             const Answer a = ask(*law, u);
-            CHECK_CLOSE(a.slope, (ask(*law, u + h).force - ask(*law, u - h).force) / (2 * h), 2e-4 * a.slope);  // sqrt end of range
+            CHECK_CLOSE(a.slope, (ask(*law, u + h).force - ask(*law, u - h).force) / (2 * h),
+                        2e-4 * a.slope);  // sqrt end of range
             CHECK_RELATIVE(a.work, integrate(0, 1, [&](double t) { return 2 * t * u * law->force(0, t * t * u); }), 1e-5);
             CHECK(a.slope >= last_slope);
             last_slope = a.slope;
@@ -195,7 +196,7 @@ void fourth_order_in_powers() {
 // A peak that is no Bessel function, h cos(k r), pressed flat: rings of uniform pressure, whose deflections are Johnson's (section 3.4.3,
 // eq. 3.29), pressures found by relaxation within p >= 0. The law knows only curvature and biharmonic of the peak.
 void fourth_order_against_rings() {
-    const double k = 1, h = 1;                     // kappa = h k^2, nabla^4 z = 8/3 h k^4 at the top
+    const double k = 1, h = 1;  // kappa = h k^2, nabla^4 z = 8/3 h k^4 at the top
     const Asperities s = summit(h * k * k, h * k * k, 8.0 / 3 * h * k * k * k * k);
     const auto law = make_law(LawKind::fourth_order, s, 1.0);
     constexpr int kRings = 160;
@@ -209,7 +210,8 @@ void fourth_order_against_rings() {
     std::vector<double> influence(kRings * kRings), p(kRings, 0.0);
     for (int i = 0; i < kRings; ++i)
         for (int j = 0; j < kRings; ++j)
-            influence[static_cast<std::size_t>(i * kRings + j)] = disc((i + 0.5) * width, (j + 1) * width) - disc((i + 0.5) * width, j * width);
+            influence[static_cast<std::size_t>(i * kRings + j)] =
+                disc((i + 0.5) * width, (j + 1) * width) - disc((i + 0.5) * width, j * width);
     for (double delta : {0.05, 0.2, 0.5, 0.9}) {
         const auto at = [](int i) { return static_cast<std::size_t>(i); };
         for (int sweep = 0; sweep < 400; ++sweep)

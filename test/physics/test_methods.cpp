@@ -78,7 +78,8 @@ void methods_agree() {
         double worst = 0, worst_residual = 0;
         const int seeds = family.n > 1000 ? 1 : 8;
         for (int seed = 0; seed < seeds; ++seed) {
-            const Asperities a = random_asperities(family.n, family.spacing, family.sigma, family.radius, family.spread, 100u + static_cast<unsigned>(seed));
+            const Asperities a =
+                random_asperities(family.n, family.spacing, family.sigma, family.radius, family.spread, 100u + static_cast<unsigned>(seed));
             const Indenter indenter{kE, family.R, 0.5, 0.5};
             const Level direct = Contact(a, indenter, options(Method::direct)).at_separation(family.separation);
             const Level dgesv = Contact(a, indenter, options(Method::dgesv)).at_separation(family.separation);

@@ -88,8 +88,7 @@ inline Result result(int realizations) {
         const Asperities a = asperities(k);
         last = levels(a);
         SurfaceStatistics surface;
-        surface.sigma = kSigma, surface.m2 = 0.02 + 0.001 * k, surface.m4 = theory.m4, surface.summits = kAsperities,
-        surface.saddles = k;
+        surface.sigma = kSigma, surface.m2 = 0.02 + 0.001 * k, surface.m4 = theory.m4, surface.summits = kAsperities, surface.saddles = k;
         sums.add(observe(options, k, surface, a, last));  // m2_grid, m4_grid and the mean curvatures stay absent
     }
     Result r = make_result(c, "&run title='A made-up result' /\n", indenter, kSigma, theory, sums.finish());

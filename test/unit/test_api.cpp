@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "../physics/random_asperities.hpp"
+#include "case/registry.hpp"
 #include "check.hpp"
 #include "contact/contact.hpp"
 #include "rsc.h"
-#include "case/registry.hpp"
 #include "version.h"
 
 namespace {
@@ -42,8 +42,8 @@ std::string get(const rsc_case* c, const std::string& name) {
 
 rsc_asperities* take(const rsc::Asperities& a) {
     rsc_asperities* handle = nullptr;
-    OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(a.size()), a.x.data(), a.y.data(), a.z.data(), a.radius.data(),
-                           nullptr, nullptr, nullptr, nullptr));
+    OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(a.size()), a.x.data(), a.y.data(), a.z.data(), a.radius.data(), nullptr,
+                           nullptr, nullptr, nullptr));
     return handle;
 }
 
@@ -105,8 +105,7 @@ void test_options() {
             const std::int32_t again = rsc_case_set(d, name.c_str(), now.c_str());
             if (again != 0) std::printf("%s = %s: %s\n", name.c_str(), now.c_str(), message().c_str());
             CHECK(again == 0 && get(d, name) == now);
-            if (key.type == rsc::Type::choice || key.type == rsc::Type::string || key.type == rsc::Type::logical)
-                CHECK(now == value);
+            if (key.type == rsc::Type::choice || key.type == rsc::Type::string || key.type == rsc::Type::logical) CHECK(now == value);
             OK(rsc_case_destroy(&d));
         }
     }

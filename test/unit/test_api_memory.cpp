@@ -64,16 +64,15 @@ int main() {
     const auto n = static_cast<std::int64_t>(made.size());
     refused += refuse_each(
         [&] {
-            return rsc_asperities_take(&a, n, made.x.data(), made.y.data(), made.z.data(), made.radius.data(), nullptr, nullptr,
-                                       nullptr, nullptr);
+            return rsc_asperities_take(&a, n, made.x.data(), made.y.data(), made.z.data(), made.radius.data(), nullptr, nullptr, nullptr,
+                                       nullptr);
         },
         [&](std::int32_t status) {
             CHECK((status == 0) == (a != nullptr));
             rsc_asperities_destroy(&a);
         });
     rsc_contact *k = nullptr, *fresh = nullptr;
-    refused += refuse_each([&] { return rsc_contact_create(&k, a, 1e5, 20, 0.5, 0.5, c); },
-                           [&](std::int32_t) { rsc_contact_destroy(&k); });
+    refused += refuse_each([&] { return rsc_contact_create(&k, a, 1e5, 20, 0.5, 0.5, c); }, [&](std::int32_t) { rsc_contact_destroy(&k); });
     CHECK(rsc_contact_copy(&fresh, k) == 0);
 
     double N = 0, M = 0, Z = 0;

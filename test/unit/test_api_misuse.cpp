@@ -63,14 +63,14 @@ void test_case() {
     CHECK(d == nullptr);
     REFUSED(1, rsc_case_read(nullptr, "&run /"));
     REFUSED(2, rsc_case_read(c, nullptr));
-    for (const char* bad : {"", "nothing here", "&run", "&run seed = 'x' /", "&surface sigma = NaN /", "&nosuch a=1 /",
-                            "&surface n = 2048 n = 4096 /"})
+    for (const char* bad :
+         {"", "nothing here", "&run", "&run seed = 'x' /", "&surface sigma = NaN /", "&nosuch a=1 /", "&surface n = 2048 n = 4096 /"})
         REFUSED(2, rsc_case_read(c, bad));
     REFUSED(1, rsc_case_set(nullptr, "surface%n", "256"));
     REFUSED(2, rsc_case_set(c, nullptr, "256"));
     REFUSED(3, rsc_case_set(c, "surface%n", nullptr));
-    for (const char* bad : {"", "%", "n", "surface", "surface%", "%n", "surface%m", "surface%n%n", "solids%E(3)", "solids%E(0)",
-                            "study%mode", "\xff%\xff"})
+    for (const char* bad :
+         {"", "%", "n", "surface", "surface%", "%n", "surface%m", "surface%n%n", "solids%E(3)", "solids%E(0)", "study%mode", "\xff%\xff"})
         REFUSED(2, rsc_case_set(c, bad, "1"));
     for (const char* bad : {"x", "1 2", "-4", "1.5", "99999999999999999999", "NaN", "&run", "'256'"})
         REFUSED(3, rsc_case_set(c, "surface%n", bad));
@@ -160,8 +160,8 @@ void test_surface() {
 }
 
 void test_asperities() {
-    std::vector<double> x = {0, 1, 2}, y = {0, 0, 1}, z = {0, 0.1, 0.2}, r = {1, 2, 3}, k1 = {2, 2, 2}, k2 = {1, 1, 1},
-                        angle = {0, 0, 0}, q = {1, 1, 1};
+    std::vector<double> x = {0, 1, 2}, y = {0, 0, 1}, z = {0, 0.1, 0.2}, r = {1, 2, 3}, k1 = {2, 2, 2}, k2 = {1, 1, 1}, angle = {0, 0, 0},
+                        q = {1, 1, 1};
     rsc_asperities* a = nullptr;
     const auto take = [&](std::int64_t n) {
         return rsc_asperities_take(&a, n, x.data(), y.data(), z.data(), r.data(), k1.data(), k2.data(), angle.data(), q.data());

@@ -142,8 +142,7 @@ void made_and_found_are_the_same() {
         for (const int threads : {1, 2, 3, 200}) {
             CHECK(same(found, find_asperities(map, Curvature::algebraic, &made_count, threads)));
             CHECK(made_count.mean_kappa_g == found_count.mean_kappa_g && made_count.saddles == found_count.saddles);
-            CHECK(same(found, make_asperities(s, n, Normalise::sample, 3, 4, Curvature::algebraic, &made_count, &made_moments,
-                                              threads)));
+            CHECK(same(found, make_asperities(s, n, Normalise::sample, 3, 4, Curvature::algebraic, &made_count, &made_moments, threads)));
             CHECK(made_count.mean_kappa_g == found_count.mean_kappa_g && made_count.saddles == found_count.saddles);
             CHECK(std::memcmp(&made_moments, &found_moments, sizeof made_moments) == 0);
         }
@@ -155,8 +154,7 @@ void made_and_found_are_the_same() {
     turned.dx = turned.dy = map.dx, turned.periodic = true;
     for (int j = 0; j < 128; ++j)
         for (int i = 0; i < 128; ++i) turned.row(j)[i] = map((i + 37) % 128, (j + 101) % 128);
-    std::vector<double> a = find_asperities(map, Curvature::geometric).radius,
-                        b = find_asperities(turned, Curvature::geometric).radius;
+    std::vector<double> a = find_asperities(map, Curvature::geometric).radius, b = find_asperities(turned, Curvature::geometric).radius;
     std::sort(a.begin(), a.end()), std::sort(b.begin(), b.end());
     CHECK(a == b);
 }
@@ -212,8 +210,7 @@ void against_theory() {
     const auto compare = [&](const std::vector<double>& values, double truth, const char* what) {
         double sum = 0, square = 0;
         for (const double v : values) sum += v, square += v * v;
-        const double n = static_cast<double>(values.size()), mean = sum / n,
-                     error = std::sqrt((square / n - mean * mean) / (n - 1));
+        const double n = static_cast<double>(values.size()), mean = sum / n, error = std::sqrt((square / n - mean * mean) / (n - 1));
         std::printf("%s: %.4f +- %.4f, theory %.4f\n", what, mean, error, truth);
         CHECK_CLOSE(mean, truth, 4 * error + bias * truth);
         CHECK(error < 0.01 * truth);
@@ -228,8 +225,7 @@ void against_theory() {
     std::vector<Point> theory;
     for (double k1 = 0.01; k1 < 5; k1 += 0.02)
         for (double k2 = 0.01; k2 < k1; k2 += 0.02) theory.push_back({k1, k2, joint_density(k1, k2)});
-    const Point sharp =
-        *std::max_element(theory.begin(), theory.end(), [](const Point& p, const Point& q) { return p.weight < q.weight; });
+    const Point sharp = *std::max_element(theory.begin(), theory.end(), [](const Point& p, const Point& q) { return p.weight < q.weight; });
     const Point smooth = mode(theory, 0.25), sample = mode(points, 0.25);
     std::printf("%zu summits: mode ratio %.3f, theory smoothed alike %.3f, sharp %.3f\n", points.size(), sample.k1 / sample.k2,
                 smooth.k1 / smooth.k2, sharp.k1 / sharp.k2);
@@ -257,14 +253,8 @@ void against_theory() {
 
 void from_outside() {
     const auto name = [](std::size_t i) { return "row " + std::to_string(i); };
-    const Asperities good{.x = {0, 1, 0},
-                          .y = {0, 0, 1},
-                          .z = {0, 1, 2},
-                          .radius = {1, 2, 3},
-                          .kappa1 = {},
-                          .kappa2 = {},
-                          .angle = {},
-                          .biharmonic = {}};
+    const Asperities good{
+        .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {0, 1, 2}, .radius = {1, 2, 3}, .kappa1 = {}, .kappa2 = {}, .angle = {}, .biharmonic = {}};
     validate(good, name);
     const auto refused = [&](auto change, const char* words) {
         Asperities bad = good;

@@ -80,9 +80,8 @@ std::vector<double> ramp(std::size_t n, double first, double step) {
 
 // height(y = 3, x = 5) = 10 y index + x index, with coordinates as given (empty: none), changed by `tamper` before the data go
 // in.
-std::string heights_file(const std::string& name, int format, std::vector<double> x, std::vector<double> y,
-                         const char* variable = "height", nc_type type = NC_DOUBLE,
-                         const std::function<void(int, int)>& tamper = {}, std::vector<double> z = {}) {
+std::string heights_file(const std::string& name, int format, std::vector<double> x, std::vector<double> y, const char* variable = "height",
+                         nc_type type = NC_DOUBLE, const std::function<void(int, int)>& tamper = {}, std::vector<double> z = {}) {
     NcFile f(name, format);
     const int dy = f.dimension("y", 3), dx = f.dimension("x", 5);
     const int v = f.variable(variable, type, {dy, dx});
@@ -268,7 +267,8 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n-inf 5 3\n"), 1.0), "'-inf' in column 1 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
-    REFUSED(read_heights(write("t", "1 2 3\n1 1e60 3\n1 2 3\n"), 1.0), "a height must be finite, 1e50 at most, not 1e+60 as in column 1 of row 1");
+    REFUSED(read_heights(write("t", "1 2 3\n1 1e60 3\n1 2 3\n"), 1.0),
+            "a height must be finite, 1e50 at most, not 1e+60 as in column 1 of row 1");
     REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n1 2 3\n"), 1e-60), "the spacing must be from 1e-50 to 1e50");
     REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
     REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n"), 1.0), "at least 3 x 3");
@@ -312,8 +312,7 @@ void asperities() {
           full.angle[1] == 0.5 && full.biharmonic[2] == 0.3);
     CHECK(read_asperities(asperities_file("plain", {0, 1, 1}, {1, 2, 3}, false)).kappa1.empty());
 
-    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)),
-            "asperity 1, counted from 0: lies at the same point as");
+    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)), "asperity 1, counted from 0: lies at the same point as");
     REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 0}, false)),
             "asperity 2, counted from 0: the radius must be positive");
     REFUSED(read_asperities(asperities_file("bad", {0, std::nan(""), 1}, {1, 2, 3}, false)),

@@ -194,8 +194,7 @@ void same_bits_for_any_threads() {
 
 void bad_input() {
     Points p = uniform_points(500, 23);
-    for (double wanted : {0.0, 1e-12, 0.5, -1.0, std::nan("")})
-        CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), wanted), Error);
+    for (double wanted : {0.0, 1e-12, 0.5, -1.0, std::nan("")}) CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), wanted), Error);
     p.x[400] = std::nan("");
     CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), 1e-6), Error);
     // A force that is not a number is seen in the potentials.

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "error.hpp"
 #include "case/namelist_value.hpp"
 #include "case/read_case.hpp"
+#include "check.hpp"
+#include "error.hpp"
 
 using namespace rsc;
 
@@ -80,8 +80,7 @@ void test_syntax() {
         "$solids r = 5, 1*, nu(2) = .3  e(2:1:-1) = 2.1d5, 7.8d4 $end\n"
         "&run title = 'it''s\n two lines' &END\n"
         "&output pdf_levels = 3*1.5 /\n");
-    CHECK(c.surface.sigma == 0.02 && c.surface.hurst == 0.75 && c.surface.n == 1024 && c.surface.plateau &&
-          c.surface.L_lambda_s == 128);
+    CHECK(c.surface.sigma == 0.02 && c.surface.hurst == 0.75 && c.surface.n == 1024 && c.surface.plateau && c.surface.L_lambda_s == 128);
     CHECK(c.solids.R[0] == 5.0 && c.solids.R[1] == 2.5 && c.solids.nu[0] == 0.42 && c.solids.nu[1] == 0.3);
     CHECK(c.solids.E[0] == 7.8e4 && c.solids.E[1] == 2.1e5);
     CHECK(c.run.title == "it's two lines");
@@ -152,18 +151,14 @@ void test_warnings() {
 // A value for a key that is not its default.
 std::string another_value(const Key& key, int salt) {
     switch (key.type) {
-        case Type::logical:
-            return ".true.";
+        case Type::logical: return ".true.";
         case Type::integer:
         case Type::long_integer:
             return std::to_string(key.bounds.high < 1e9 && key.bounds.high > 0 ? static_cast<int>(key.bounds.high) - salt % 2
                                                                                : 12345 + salt);
-        case Type::string:
-            return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
-        case Type::choice:
-            return std::string("'") + key.choices[static_cast<std::size_t>(salt) % key.choices.size()] + "'";
-        case Type::real:
-            break;
+        case Type::string: return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
+        case Type::choice: return std::string("'") + key.choices[static_cast<std::size_t>(salt) % key.choices.size()] + "'";
+        case Type::real: break;
     }
     // No short decimal: all 17 digits are needed.
     const double low = std::isfinite(key.bounds.low) ? key.bounds.low : -3.0;
@@ -187,8 +182,7 @@ void test_round_trip() {
         const Reading first = read_namelist(text);
         CHECK(first.faults.empty());
         const Case& c = first.settings;
-        for (const Key& key : registry())
-            CHECK_TEXT(get_key(c, std::string(key.group) + "%" + key.name), another_value(key, salt));
+        for (const Key& key : registry()) CHECK_TEXT(get_key(c, std::string(key.group) + "%" + key.name), another_value(key, salt));
         const Reading reading = read_namelist(effective_namelist(c));
         CHECK(reading.faults.empty() && reading.duplicates.empty());
         for (const namelist::Fault& fault : reading.faults) std::printf("  %s\n", fault.text.c_str());
@@ -255,8 +249,7 @@ void test_limits() {
     CHECK_CONTAINS(complaint("&indentation levels = 0*1 /"), "the repeat count is zero");
     CHECK_CONTAINS(complaint("&surface n = 40000 /"), "must be 2 to 32768");
     CHECK_CONTAINS(complaint("&indentation steps = 2000000 /"), "must be 1 to 1000000");
-    CHECK_CONTAINS(complaint("&indentation steps = 1000000 / &output map_cells = 4096 /"),
-                   "would hold more than 1000000000 values");
+    CHECK_CONTAINS(complaint("&indentation steps = 1000000 / &output map_cells = 4096 /"), "would hold more than 1000000000 values");
     CHECK_CONTAINS(complaint("&run title = '" + std::string(2000, 'x') + "' /"), "more than 1024 characters");
     CHECK_CONTAINS(complaint(std::string(namelist::kLargestText + 1, ' ')), "larger than");
     // Large and hostile texts end soon; the reader has no recursion to exhaust.
@@ -284,8 +277,7 @@ void test_study() {
     const Study& study = *reading.study;
     const std::vector<Member> members = expand_study(Case{}, study);
     CHECK(members.size() == 18);
-    CHECK(members[0].settings.surface.sigma == 0.001 &&
-          members[17].settings.surface.sigma == 0.1);  // the first key is the slowest
+    CHECK(members[0].settings.surface.sigma == 0.001 && members[17].settings.surface.sigma == 0.1);  // the first key is the slowest
     CHECK(members[5].settings.surface.sigma == 0.001 && members[6].settings.surface.sigma == 0.01);
     CHECK(members[0].settings.solver.method == Method::direct && members[1].settings.solver.method == Method::mesh);
     CHECK(members[4].settings.solids.R[1] == 5.0 && members[4].settings.solids.R[0] == Case::kInfinity);
@@ -325,8 +317,8 @@ void test_options() {
         words.insert(words.begin(), "rsc");
         return parse_options(static_cast<int>(words.size()), words.data());
     };
-    const Options o = parse(
-        {"-q", "--set", "surface%n=64", "-srun%seed=2", "--output=x.nc", "case.nml", "--progress", "never", "--member", "3"});
+    const Options o =
+        parse({"-q", "--set", "surface%n=64", "-srun%seed=2", "--output=x.nc", "case.nml", "--progress", "never", "--member", "3"});
     CHECK(o.quiet && o.case_path == "case.nml" && o.output == "x.nc" && o.progress == Progress::never && o.member == 3);
     CHECK((o.set == std::vector<std::string>{"surface%n=64", "run%seed=2"}));
     CHECK(parse({}).case_path.empty() && parse({"-"}).case_path.empty() && parse({"--", "-x"}).case_path == "-x");

@@ -120,8 +120,7 @@ void test_radial() {
         const RadialMean mean(grid, tip_x, tip_y, 30);
         const std::vector<double> radial = mean(values.data());
         CHECK(radial.size() == 30);
-        for (std::size_t b = 0; b < radial.size(); ++b)
-            CHECK_CLOSE(radial[b], f.circle_mean(tip_x, tip_y, mean.radii()[b]), kRounding);
+        for (std::size_t b = 0; b < radial.size(); ++b) CHECK_CLOSE(radial[b], f.circle_mean(tip_x, tip_y, mean.radii()[b]), kRounding);
         const double largest = std::min({0.45 * grid.Lx(), 0.48 * grid.Ly()});
         CHECK_RELATIVE(mean.radii().back() + mean.ring_width() / 2, largest, 1e-12);
     }
@@ -130,8 +129,7 @@ void test_radial() {
     const auto at = [&](double s) {
         const BezierWeights w = bezier_weights(6, s);
         double sum = 0;
-        for (int k = 0; k < w.count; ++k)
-            sum += w.weight[static_cast<std::size_t>(k)] * f1[static_cast<std::size_t>(w.first + k)];
+        for (int k = 0; k < w.count; ++k) sum += w.weight[static_cast<std::size_t>(k)] * f1[static_cast<std::size_t>(w.first + k)];
         return sum;
     };
     for (int i = 0; i < 6; ++i) CHECK_CLOSE(at(i), f1[static_cast<std::size_t>(i)], kRounding);
@@ -292,9 +290,7 @@ void test_scale_fits() {
 // normalised.
 double simpson(double x0, double x1, double alpha, double beta, double delta) {
     const double u0 = std::cbrt(x0), h = (std::cbrt(x1) - u0) / 200;
-    const auto f = [&](double u) {
-        return std::pow(u * u * u, alpha) * std::exp(-std::pow(u * u * u / delta, beta)) * 3 * u * u;
-    };
+    const auto f = [&](double u) { return std::pow(u * u * u, alpha) * std::exp(-std::pow(u * u * u / delta, beta)) * 3 * u * u; };
     double sum = 0;
     for (int k = 0; k < 200; k += 2) sum += f(u0 + k * h) + 4 * f(u0 + (k + 1) * h) + f(u0 + (k + 2) * h);
     return sum * h / 3;
@@ -308,8 +304,7 @@ void test_gamma_fit() {
         CHECK_RELATIVE(incomplete_gamma(0.5, x).P, std::erf(std::sqrt(x)), 1e-13);
         CHECK_RELATIVE(incomplete_gamma(0.5, x).Q, std::erfc(std::sqrt(x)), 1e-11);
     }
-    for (const auto& [alpha, beta, delta] :
-         {std::array{2.0 / 3, 1.5, 300.0}, {1.0, 2.0, 50.0}, {0.2, 1.0, 2.0}, {1.8, 3.0, 0.01}}) {
+    for (const auto& [alpha, beta, delta] : {std::array{2.0 / 3, 1.5, 300.0}, {1.0, 2.0, 50.0}, {0.2, 1.0, 2.0}, {1.8, 3.0, 0.01}}) {
         Binned binned{delta / 12, {}, 0};
         double total = 0, first = 0;
         for (int b = 0; b < 600; ++b) {
@@ -373,8 +368,8 @@ void test_accumulation() {
     const double f0 = records[0].levels[2].force, f1 = records[1].levels[2].force, f2 = records[2].levels[2].force;
     const double mean = (f0 + f1 + f2) / 3;
     CHECK_RELATIVE(o.force_mean[2], mean, 1e-15);
-    CHECK_RELATIVE(o.force_std[2],
-                   std::sqrt(((f0 - mean) * (f0 - mean) + (f1 - mean) * (f1 - mean) + (f2 - mean) * (f2 - mean)) / 2), 1e-14);
+    CHECK_RELATIVE(o.force_std[2], std::sqrt(((f0 - mean) * (f0 - mean) + (f1 - mean) * (f1 - mean) + (f2 - mean) * (f2 - mean)) / 2),
+                   1e-14);
     std::vector<double> radial(o.radii.size());
     std::int64_t contacts = 0;
     for (const RealizationRecord& r : records) {

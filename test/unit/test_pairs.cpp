@@ -106,8 +106,7 @@ void check_all_products(const Points& p, const char* name, bool in_single = true
 }
 
 void sizes_and_shapes() {
-    for (std::size_t n : {0, 1, 2, 3, 15, 16, 17, 31, 100, 511, 512, 513, 1300})
-        check_all_products(random_points(n, 1), "uniform");
+    for (std::size_t n : {0, 1, 2, 3, 15, 16, 17, 31, 100, 511, 512, 513, 1300}) check_all_products(random_points(n, 1), "uniform");
     check_all_products(random_points(300, 2, 1e-7, 0), "tiny lengths");
     check_all_products(random_points(300, 3, 1e150, 0), "huge lengths", false);
     check_all_products(random_points(300, 4, 1e-160, 0), "lengths whose squares underflow", false);
@@ -145,8 +144,8 @@ void apart() {
     const Points targets = random_points(333, 10, 2, -1), sources = random_points(777, 11);
     std::vector<double> phi(targets.size()), exact, size;
     truth(targets, sources, exact, size);
-    pair_potential(targets.size(), targets.x.data(), targets.y.data(), sources.size(), sources.x.data(), sources.y.data(),
-                   sources.f.data(), phi.data());
+    pair_potential(targets.size(), targets.x.data(), targets.y.data(), sources.size(), sources.x.data(), sources.y.data(), sources.f.data(),
+                   phi.data());
     CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
     pair_potential_single(targets.size(), targets.x.data(), targets.y.data(), sources.size(), sources.x.data(), sources.y.data(),
                           sources.f.data(), phi.data());
@@ -211,9 +210,7 @@ void mesh_window_loops(const PairKernels& k) {
             const double u = p.x[i] - 0.5 * width, v = p.y[i] - 0.5 * width;
             const auto column = static_cast<std::size_t>(std::floor(u)) + 1, row = static_cast<std::size_t>(std::floor(v)) + 1;
             const double s = 2 * (static_cast<double>(column) - u) - 1, t = 2 * (static_cast<double>(row) - v) - 1;
-            const auto weight = [&](std::size_t m, double z) {
-                return window.c[0][m] + z * (window.c[1][m] + z * window.c[2][m]);
-            };
+            const auto weight = [&](std::size_t m, double z) { return window.c[0][m] + z * (window.c[1][m] + z * window.c[2][m]); };
             for (std::size_t r = 0; r < static_cast<std::size_t>(width); ++r)
                 for (std::size_t m = 0; m < static_cast<std::size_t>(width); ++m)
                     exact[(row + r) * stride + column + m] += p.f[i] * weight(m, s) * weight(r, t);
@@ -239,8 +236,7 @@ void instruction_sets() {
     std::vector<std::int32_t> x(n), y(n);
     std::vector<float> f(p.f.begin(), p.f.end());
     const double unit = 0x1p30;
-    for (std::size_t i = 0; i < n; ++i)
-        x[i] = static_cast<std::int32_t>(p.x[i] * unit), y[i] = static_cast<std::int32_t>(p.y[i] * unit);
+    for (std::size_t i = 0; i < n; ++i) x[i] = static_cast<std::int32_t>(p.x[i] * unit), y[i] = static_cast<std::int32_t>(p.y[i] * unit);
     int found = 0;
     for (const char* name : {"generic", "sse2", "avx2", "avx512"}) {
         const PairKernels* k = pair_kernels(name);

@@ -151,26 +151,17 @@ const std::vector<Expected> kAlways = {{"realization", {"realization"}, "1"},
                                        {"pressure_bin", {"bin"}, "N mm-2"},
                                        {"spot_area_bin", {"bin"}, "mm2"}};
 
-const std::vector<Expected> kOneRealization = {{"asperity_x", {"asperity"}, "mm"},
-                                               {"asperity_y", {"asperity"}, "mm"},
-                                               {"asperity_z", {"asperity"}, "mm"},
-                                               {"asperity_radius", {"asperity"}, "mm"},
-                                               {"asperity_kappa1", {"asperity"}, "mm-1"},
-                                               {"asperity_kappa2", {"asperity"}, "mm-1"},
-                                               {"asperity_angle", {"asperity"}, "radian"},
-                                               {"contact_start", {"step"}, "1"},
-                                               {"contact_count", {"step"}, "1"},
-                                               {"contact_asperity", {"contact"}, "1"},
-                                               {"contact_force", {"contact"}, "N"},
-                                               {"contact_radius", {"contact"}, "mm"},
-                                               {"height", {"height_y", "height_x"}, "mm"},
-                                               {"height_x", {"height_x"}, "mm"},
-                                               {"height_y", {"height_y"}, "mm"}};
+const std::vector<Expected> kOneRealization = {
+    {"asperity_x", {"asperity"}, "mm"},         {"asperity_y", {"asperity"}, "mm"},        {"asperity_z", {"asperity"}, "mm"},
+    {"asperity_radius", {"asperity"}, "mm"},    {"asperity_kappa1", {"asperity"}, "mm-1"}, {"asperity_kappa2", {"asperity"}, "mm-1"},
+    {"asperity_angle", {"asperity"}, "radian"}, {"contact_start", {"step"}, "1"},          {"contact_count", {"step"}, "1"},
+    {"contact_asperity", {"contact"}, "1"},     {"contact_force", {"contact"}, "N"},       {"contact_radius", {"contact"}, "mm"},
+    {"height", {"height_y", "height_x"}, "mm"}, {"height_x", {"height_x"}, "mm"},          {"height_y", {"height_y"}, "mm"}};
 
 void expect(const Reader& file, const std::vector<Expected>& table) {
     for (const Expected& e : table) {
-        const bool same = file.dimensions(e.name) == e.dimensions && file.text(e.name, "units") == e.units &&
-                          !file.text(e.name, "long_name").empty();
+        const bool same =
+            file.dimensions(e.name) == e.dimensions && file.text(e.name, "units") == e.units && !file.text(e.name, "long_name").empty();
         if (!same) std::printf("variable %s: units '%s'\n", e.name.c_str(), file.text(e.name, "units").c_str());
         CHECK(same);
     }
@@ -223,9 +214,7 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     test_conventions(file);
     int kind = 0;
     nc_inq_format(file.id(), &kind);
-    CHECK(kind == (format == Format::netcdf4 ? NC_FORMAT_NETCDF4_CLASSIC
-                   : format == Format::cdf5  ? NC_FORMAT_CDF5
-                                             : NC_FORMAT_CLASSIC));
+    CHECK(kind == (format == Format::netcdf4 ? NC_FORMAT_NETCDF4_CLASSIC : format == Format::cdf5 ? NC_FORMAT_CDF5 : NC_FORMAT_CLASSIC));
 
     const auto force = file.values("force"), area = file.values("contact_area");
     CHECK(file.values("map_pressure") == r.observations.map_pressure);
@@ -234,8 +223,7 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     CHECK_RELATIVE(file.values("separation_sigma")[0], 4.0, 1e-15);
     CHECK(file.values("status")[sample::kSteps - 1] == 2);
     // Absent values are fill values, and say so.
-    CHECK(file.values("force_std")[0] == NC_FILL_DOUBLE &&
-          file.numbers("force_std", "_FillValue") == std::vector<double>{NC_FILL_DOUBLE});
+    CHECK(file.values("force_std")[0] == NC_FILL_DOUBLE && file.numbers("force_std", "_FillValue") == std::vector<double>{NC_FILL_DOUBLE});
     CHECK(file.values("mean_kappa_g")[0] == NC_FILL_DOUBLE);
     CHECK(!file.has("stiffness") && !file.has("asperity_biharmonic"));
     // Contacts of every level, found through start and count, carry its force and area.
@@ -261,8 +249,8 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     CHECK(file.values("height_x")[1] == 1.0 / sample::kPoints);
     // Closed forms at the force of the last level.
     const double N = force[sample::kSteps - 1];
-    CHECK_RELATIVE(file.values("area_hertz")[sample::kSteps - 1],
-                   std::numbers::pi * std::pow(3 * N * sample::kSphere / 4000, 2.0 / 3), 1e-13);
+    CHECK_RELATIVE(file.values("area_hertz")[sample::kSteps - 1], std::numbers::pi * std::pow(3 * N * sample::kSphere / 4000, 2.0 / 3),
+                   1e-13);
     CHECK_RELATIVE(file.values("area_II")[sample::kSteps - 1], 0.2 * std::sqrt(2 * std::numbers::pi) * N / (0.2 * 1000), 1e-13);
     CHECK_RELATIVE(file.values("rms_slope")[0], std::sqrt(2 * 0.021), 1e-14);
 }
@@ -294,8 +282,7 @@ void test_many_realizations(const Folder& folder) {
 void test_ncdump(const Folder& folder) {
     const std::string path = folder / "dump.nc", cdl = folder / "dump.cdl", again = folder / "again.nc";
     write_result(sample::result(1), path, {});
-    if (std::system("command -v ncdump >/dev/null && command -v ncgen >/dev/null") != 0)
-        return;  // netcdf-bin is not needed to build
+    if (std::system("command -v ncdump >/dev/null && command -v ncgen >/dev/null") != 0) return;  // netcdf-bin is not needed to build
     CHECK(std::system(("ncdump -h '" + path + "' > '" + cdl + "'").c_str()) == 0);
     std::stringstream text;
     text << std::ifstream(cdl).rdbuf();
@@ -373,8 +360,7 @@ int main(int argc, char** argv) {
         write_result(sample::result(3), argv[3], {Format::cdf5, 0, ""});
         return 0;
     }
-    for (const auto& [format, compression] :
-         {std::pair{Format::netcdf4, 4}, {Format::netcdf4, 0}, {Format::cdf5, 4}, {Format::classic, 4}})
+    for (const auto& [format, compression] : {std::pair{Format::netcdf4, 4}, {Format::netcdf4, 0}, {Format::cdf5, 4}, {Format::classic, 4}})
         test_one_realization(Folder(), format, compression);
     test_many_realizations(Folder());
     test_ncdump(Folder());

@@ -139,8 +139,8 @@ void elementary_functions() {
         double c, s;
         vector_math::cos_sin_turns(u, c, s);
         const long double turn = 2 * std::numbers::pi_v<long double> * u;
-        worst_trig = std::max(
-            {worst_trig, std::abs(c - static_cast<double>(std::cos(turn))), std::abs(s - static_cast<double>(std::sin(turn)))});
+        worst_trig =
+            std::max({worst_trig, std::abs(c - static_cast<double>(std::cos(turn))), std::abs(s - static_cast<double>(std::sin(turn)))});
     }
     const double ulp = 2.3e-16;
     CHECK(worst_log < 2 * ulp);  // our error and the library's

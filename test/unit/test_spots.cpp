@@ -23,7 +23,8 @@ Spot circle(double x, double y, double r, double angle = 0) { return {x, y, r, r
 
 // The plane stretched along x by a factor, then turned and moved: circles become ellipses, areas grow by the factor.
 Spot image(double x, double y, double r, double factor, double turn) {
-    return {1 + factor * x * std::cos(turn) - y * std::sin(turn), 2 + factor * x * std::sin(turn) + y * std::cos(turn), factor * r, r, turn};
+    return {1 + factor * x * std::cos(turn) - y * std::sin(turn), 2 + factor * x * std::sin(turn) + y * std::cos(turn), factor * r, r,
+            turn};
 }
 
 void two_circles_and_their_images() {
@@ -50,7 +51,8 @@ void slivers() {
 
 // Crossed ellipses, one within another, and one that all share, counted on a fine grid.
 void against_counting() {
-    const std::vector<Spot> spots{{0, 0, 1.0, 0.3, 0.2}, {0.1, 0.1, 0.9, 0.2, 1.7}, {0.4, 0.1, 0.1, 0.05, 0}, {-0.5, -0.4, 0.6, 0.5, -0.7}, {3, 0, 0.5, 0.5, 0}};
+    const std::vector<Spot> spots{
+        {0, 0, 1.0, 0.3, 0.2}, {0.1, 0.1, 0.9, 0.2, 1.7}, {0.4, 0.1, 0.1, 0.05, 0}, {-0.5, -0.4, 0.6, 0.5, -0.7}, {3, 0, 0.5, 0.5, 0}};
     constexpr int n = 3000;
     constexpr double kCounting = 1e-4;  // n^(-3/2) of the square, and some
     long inside = 0;

@@ -103,8 +103,8 @@ std::array<double, 4> errors(const Asperities& a, const Waves& w) {
         const double trace = xx + yy, root = std::hypot(xx - yy, 2 * xy);
         worst[0] = std::max(worst[0], std::hypot(d(1, 0), d(0, 1)) / kappa);
         worst[1] = std::max(worst[1], std::abs(a.z[i] - d(0, 0)) / z_scale);
-        worst[2] = std::max({worst[2], std::abs(a.kappa1[i] - 0.5 * (root - trace)) / kappa,
-                             std::abs(a.kappa2[i] - 0.5 * (-root - trace)) / kappa});
+        worst[2] = std::max(
+            {worst[2], std::abs(a.kappa1[i] - 0.5 * (root - trace)) / kappa, std::abs(a.kappa2[i] - 0.5 * (-root - trace)) / kappa});
         // The surface is least curved along the axis of kappa2.
         const double c = std::cos(a.angle[i]), s = std::sin(a.angle[i]);
         worst[2] = std::max(worst[2], std::abs(-(c * c * xx + 2 * c * s * xy + s * s * yy) - a.kappa2[i]) / kappa);
@@ -121,9 +121,10 @@ void against_the_fourier_sum() {
         SummitCount count;
         const Asperities a = make_asperities(s, n, Normalise::sample, 5, 2, Curvature::geometric, &count, nullptr, 1, Detail::subgrid);
         const auto e = errors(a, w);
-        std::printf("n = %4d: %4zu summits, %ld saddles, %ld repeated; errors: place %.1e (grid steps), height %.1e, curvatures %.1e, "
-                    "biharmonic %.1e\n",
-                    n, a.size(), count.saddles, count.repeated, e[0] * n / s.L, e[1], e[2], e[3]);
+        std::printf(
+            "n = %4d: %4zu summits, %ld saddles, %ld repeated; errors: place %.1e (grid steps), height %.1e, curvatures %.1e, "
+            "biharmonic %.1e\n",
+            n, a.size(), count.saddles, count.repeated, e[0] * n / s.L, e[1], e[2], e[3]);
         CHECK(e[0] * n / s.L < 1e-7);
         CHECK(e[1] < 1e-9);
         CHECK(e[2] < 1e-7);  // the last step is not applied to the derivatives: kNear^2 and the stencil's 1e-9
@@ -260,7 +261,8 @@ void polynomial() {
     for (int j = 0; j < 21; ++j)
         for (int i = 0; i < 25; ++i) {
             const double x = 3 + 0.1 * i - x0, y = -1 + 0.2 * j - y0;
-            map.row(j)[i] = 1 - 2 * x * x - y * y - x * y + 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y - 0.125 * y * y * y * y;
+            map.row(j)[i] =
+                1 - 2 * x * x - y * y - x * y + 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y - 0.125 * y * y * y * y;
         }
     const Asperities a = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
     CHECK(a.size() == 1);

@@ -1,14 +1,14 @@
 // The proof of positive definiteness by shells never proves what is false, and is sharp enough to be useful; close pairs; Lanczos.
-#include "contact/spots.hpp"
 #include "contact/solver/uniqueness.hpp"
+#include "contact/spots.hpp"
 
 #include <numbers>
 #include <random>
 
 #include "check.hpp"
+#include "contact/law/law.hpp"
 #include "contact/solver/lanczos.hpp"
 #include "contact/solver/lapack.hpp"
-#include "contact/law/law.hpp"
 
 using namespace rsc;
 
@@ -57,7 +57,8 @@ void proofs_are_true() {
         proved_with_overlaps += proof && count_overlapping(p.x, p.y, p.a) > 0;
         indefinite += !definite;
     }
-    std::printf("400 sets: %d indefinite, %d proved definite, %d of them with overlapping spots\n", indefinite, proved, proved_with_overlaps);
+    std::printf("400 sets: %d indefinite, %d proved definite, %d of them with overlapping spots\n", indefinite, proved,
+                proved_with_overlaps);
     CHECK(indefinite > 50);            // the test meets what it is about
     CHECK(proved_with_overlaps > 20);  // overlapping spots alone do not defeat the proof
 }
@@ -167,12 +168,15 @@ void lanczos_finds_the_lowest() {
             (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) = shift;
         }
         Vector vector;
-        const double found = lanczos_lowest(n, [&](const Vector& in, Vector& out) {
-            for (std::size_t i = 0; i < n; ++i) {
-                out[i] = 0;
-                for (std::size_t j = 0; j < n; ++j) out[i] += M[i * n + j] * in[j];
-            }
-        }, vector);
+        const double found = lanczos_lowest(
+            n,
+            [&](const Vector& in, Vector& out) {
+                for (std::size_t i = 0; i < n; ++i) {
+                    out[i] = 0;
+                    for (std::size_t j = 0; j < n; ++j) out[i] += M[i * n + j] * in[j];
+                }
+            },
+            vector);
         CHECK((found > 0) == (low > 0));
         // Lanczos stops once the sign is sure: within 20 % of the value, or below it by its error bound.
         CHECK_CLOSE(found, low, 0.25 * std::abs(low) + 1e-9);

@@ -79,8 +79,7 @@ Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, 
         const double mesh = FarField::points_needed(design, length_x / spacing, length_y / spacing);
         if (mesh > kMeshPointsAtMost && best.spacing > 0) break;
         const double near = pairs(design.cutoff * spacing);
-        const double cost =
-            kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
+        const double cost = kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
         if (cost < best.cost) best = {spacing, near, cost};
     }
     return best;
@@ -120,11 +119,9 @@ struct MeshPotential::Parts {
     void near_field(const double* f, double* phi) const;
 };
 
-MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error)
-    : parts_(std::make_unique<Parts>()) {
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error) : parts_(std::make_unique<Parts>()) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
-        throw Error(Failure::bad_input,
-                    "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
+        throw Error(Failure::bad_input, "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())
         throw Error(Failure::bad_input, "mesh product: " + std::to_string(n) + " points are more than 2^32");
     Parts& p = *parts_;
@@ -191,8 +188,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
             u[k] = (px[i] - x0) / choice.spacing + offset, v[k] = (py[i] - y0) / choice.spacing + offset;
         }
         // Pads: out of everyone's reach, the box being at most 1 wide.
-        for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k)
-            x[k] = x0 * scale + 4, y[k] = y0 * scale;
+        for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k) x[k] = x0 * scale + 4, y[k] = y0 * scale;
     }
     spread_band = static_cast<std::size_t>((design->width + 1) * choice.spacing / height) + 1;
 }
@@ -251,8 +247,8 @@ void MeshPotential::Parts::near_field(const double* f, double* phi) const {
                 table.near_own(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
                 for (std::size_t t = s + 1; t < std::min(strips, s + 3); ++t) {
                     const std::size_t c = strip_begin[t];
-                    table.near_strips(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b, strip_size[t],
-                                      x.data() + c, y.data() + c, f + c, phi + c);
+                    table.near_strips(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b, strip_size[t], x.data() + c,
+                                      y.data() + c, f + c, phi + c);
                 }
             }
     }

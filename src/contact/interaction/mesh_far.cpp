@@ -54,8 +54,7 @@ FarField::FarField(const MeshDesign& design, double length_x, double length_y)
     : period_x_(transform_length(period_needed(design, length_x))), period_y_(transform_length(period_needed(design, length_y))) {
     rows_ = static_cast<std::size_t>(length_y) + static_cast<std::size_t>(design.width) + 1;
     // A window is written kWindowWidth wide whatever its width.
-    const std::size_t complex_columns =
-        std::max(period_x_ / 2 + 1, (static_cast<std::size_t>(length_x) + 2 + kWindowWidth) / 2 + 1);
+    const std::size_t complex_columns = std::max(period_x_ / 2 + 1, (static_cast<std::size_t>(length_x) + 2 + kWindowWidth) / 2 + 1);
     columns_ = (complex_columns + kColumns - 1) / kColumns * kColumns;
 
     const int nx = static_cast<int>(period_x_), ny = static_cast<int>(period_y_), many = static_cast<int>(kColumns);
@@ -65,10 +64,8 @@ FarField::FarField(const MeshDesign& design, double length_x, double length_y)
         row_forward_.reset(fftw_plan_dft_r2c_1d(nx, row.get(), as_complex(row.get()), FFTW_ESTIMATE));
         row_backward_.reset(fftw_plan_dft_c2r_1d(nx, as_complex(row.get()), row.get(), FFTW_ESTIMATE));
         fftw_complex* b = as_complex(block.get());
-        column_forward_.reset(
-            fftw_plan_many_dft(1, &ny, many, b, nullptr, many, 1, b, nullptr, many, 1, FFTW_FORWARD, FFTW_ESTIMATE));
-        column_backward_.reset(
-            fftw_plan_many_dft(1, &ny, many, b, nullptr, many, 1, b, nullptr, many, 1, FFTW_BACKWARD, FFTW_ESTIMATE));
+        column_forward_.reset(fftw_plan_many_dft(1, &ny, many, b, nullptr, many, 1, b, nullptr, many, 1, FFTW_FORWARD, FFTW_ESTIMATE));
+        column_backward_.reset(fftw_plan_many_dft(1, &ny, many, b, nullptr, many, 1, b, nullptr, many, 1, FFTW_BACKWARD, FFTW_ESTIMATE));
     }
     if (!row_forward_ || !row_backward_ || !column_forward_ || !column_backward_)
         throw Error(Failure::internal, "FFTW made no plan for a mesh of " + std::to_string(nx) + " x " + std::to_string(ny));
@@ -83,8 +80,7 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
     const auto squares = [&design](std::size_t period, double length) {
         const auto size = static_cast<double>(period);
         std::vector<double> square(period / 2 + 1);
-        for (std::size_t m = 0; m <= period / 2; ++m)
-            square[m] = periodic_square(design, static_cast<double>(m), size, size / 2 - length);
+        for (std::size_t m = 0; m <= period / 2; ++m) square[m] = periodic_square(design, static_cast<double>(m), size, size / 2 - length);
         return square;
     };
     const auto corrections = [&design](std::size_t period) {

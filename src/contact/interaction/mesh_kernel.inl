@@ -34,8 +34,8 @@ inline void spread_width(const MeshWindow& window, std::size_t n, const double* 
 }
 
 template <int kWidth>
-inline void interpolate_width(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi,
-                              const double* mesh, std::size_t stride) {
+inline void interpolate_width(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi, const double* mesh,
+                              std::size_t stride) {
     for (std::size_t i = 0; i < n; ++i) {
         const Weights<kWidth> w(window, u[i], v[i]);
         const double* from = mesh + static_cast<std::size_t>(w.row) * stride + static_cast<std::size_t>(w.column);
@@ -56,8 +56,8 @@ static void spread(const MeshWindow& window, std::size_t n, const double* u, con
     spread_width<16>(window, n, u, v, f, mesh, stride);
 }
 
-static void interpolate(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi,
-                        const double* mesh, std::size_t stride) {
+static void interpolate(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi, const double* mesh,
+                        std::size_t stride) {
     if (window.width <= 4) return interpolate_width<4>(window, n, u, v, phi, mesh, stride);
     if (window.width <= 8) return interpolate_width<8>(window, n, u, v, phi, mesh, stride);
     if (window.width <= 12) return interpolate_width<12>(window, n, u, v, phi, mesh, stride);

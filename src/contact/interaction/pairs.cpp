@@ -92,8 +92,8 @@ void symmetric(const PairLoops<Real, Coordinate>& loops, std::size_t n, const Co
 
 // Sources (padded) onto targets, which coordinate(i, x, y) gives.
 template <class Real, class Coordinate, class Target>
-void onto(const PairLoops<Real, Coordinate>& loops, std::size_t n_targets, Target target, std::size_t n_sources,
-          const Coordinate* xs, const Coordinate* ys, const Real* fs, double* total) {
+void onto(const PairLoops<Real, Coordinate>& loops, std::size_t n_targets, Target target, std::size_t n_sources, const Coordinate* xs,
+          const Coordinate* ys, const Real* fs, double* total) {
     constexpr std::size_t kTargets = 128;
     Coordinate x[kTargets], y[kTargets];
     Real part[kTargets];
@@ -117,8 +117,8 @@ const PairKernels* pair_kernels(const char* instruction_set) {
 #if defined(__x86_64__) || defined(_M_X64)
     if (name == "sse2") return pair_kernels_sse2();
     if (name == "avx2" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return pair_kernels_avx2();
-    if (name == "avx512" && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
+    if (name == "avx512" && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("fma"))
         return pair_kernels_avx512();
 #endif
     return nullptr;
@@ -135,8 +135,8 @@ const PairKernels& pair_kernels() {
 
 const char* pair_instruction_set() { return pair_kernels().name; }
 
-void pair_potential(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs,
-                    const double* ys, const double* fs, double* phi) {
+void pair_potential(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
+                    const double* fs, double* phi) {
     if (n_targets == 0) return;
     Box box;
     enclose(box, n_targets, xt, yt, "target");

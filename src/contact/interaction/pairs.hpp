@@ -15,8 +15,8 @@ namespace rsc {
 
 // phi[i] = sum_j fs[j] / |target i - source j|, i < n_targets, to a few units of the last place of sum_j |fs[j]| / d_ij.
 // Coordinates must be finite: Error(bad_input) otherwise. phi may not overlap the other arrays.
-void pair_potential(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs,
-                    const double* ys, const double* fs, double* phi);
+void pair_potential(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
+                    const double* fs, double* phi);
 
 // The same with a loop in single precision: relative error about 1e-6 of sum_j |fs[j]| / d_ij. Coordinates become 31-bit integers
 // spanning the points, whose differences are exact; a pair closer than 2^-11 of the extent loses digits, (extent / d) 2^-31 of

@@ -72,9 +72,7 @@ struct Single {
         b = _mm_add_ps(b, _mm_movehl_ps(b, b));
         return _mm_cvtss_f32(_mm_add_ss(b, _mm_movehdup_ps(b)));
     }
-    static V root_estimate(V d2) {
-        return _mm256_and_ps(_mm256_rsqrt_ps(d2), _mm256_cmp_ps(d2, _mm256_setzero_ps(), _CMP_GT_OQ));
-    }
+    static V root_estimate(V d2) { return _mm256_and_ps(_mm256_rsqrt_ps(d2), _mm256_cmp_ps(d2, _mm256_setzero_ps(), _CMP_GT_OQ)); }
     // Twice 1/d (kSingleWeight): one Newton step without its factor 1/2.
     static void refine(V* d2, const V* r) {
         FOR_ROWS d2[k] = mul(d2[k], r[k]);

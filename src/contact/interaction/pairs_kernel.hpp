@@ -50,14 +50,14 @@ struct PairKernels {
     // The same with a short-range kernel instead of 1/d, for strips of points by increasing x: n counts points without pads; a
     // strip has room for kPairPadding more after it, where points without force lie farther off than the reach.
     void (*near_own)(const NearKernel& kernel, std::size_t n, const double* x, const double* y, const double* f, double* phi);
-    void (*near_strips)(const NearKernel& kernel, std::size_t ni, const double* xi, const double* yi, const double* fi,
-                        double* phi_i, std::size_t nj, const double* xj, const double* yj, const double* fj, double* phi_j);
+    void (*near_strips)(const NearKernel& kernel, std::size_t ni, const double* xi, const double* yi, const double* fi, double* phi_i,
+                        std::size_t nj, const double* xj, const double* yj, const double* fj, double* phi_j);
     // Adds forces to the mesh, and reads potentials off it. u and v are in mesh spacings; the mesh is row by row (v), `stride`
     // apart, and is touched from floor(u - width/2) + 1 on, kWindowWidth columns and width rows.
     void (*spread)(const MeshWindow& window, std::size_t n, const double* u, const double* v, const double* f, double* mesh,
                    std::size_t stride);
-    void (*interpolate)(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi,
-                        const double* mesh, std::size_t stride);
+    void (*interpolate)(const MeshWindow& window, std::size_t n, const double* u, const double* v, double* phi, const double* mesh,
+                        std::size_t stride);
 };
 
 // The table for "generic", "sse2", "avx2" or "avx512"; nullptr if this build or this processor has not got it.

@@ -49,8 +49,8 @@ struct NearWeight {
 template <class P, bool kBoth, class Weight>
 [[gnu::always_inline]] inline void block(const Weight& weight, const typename P::Coordinate* xi, const typename P::Coordinate* yi,
                                          const typename P::Real* fi, typename P::Real* phi_i, std::size_t nj,
-                                         const typename P::Coordinate* xj, const typename P::Coordinate* yj,
-                                         const typename P::Real* fj, typename P::Real* phi_j) {
+                                         const typename P::Coordinate* xj, const typename P::Coordinate* yj, const typename P::Real* fj,
+                                         typename P::Real* phi_j) {
     using V = typename P::V;
     typename P::C x[P::rows], y[P::rows];
     V f[P::rows], sum[P::rows];
@@ -83,8 +83,7 @@ template <class P, class Weight>
 inline void cross_loop(const Weight& weight, std::size_t ni, const typename P::Coordinate* xi, const typename P::Coordinate* yi,
                        const typename P::Real* fi, typename P::Real* phi_i, std::size_t nj, const typename P::Coordinate* xj,
                        const typename P::Coordinate* yj, const typename P::Real* fj, typename P::Real* phi_j) {
-    for (std::size_t i = 0; i < ni; i += P::rows)
-        block<P, true>(weight, xi + i, yi + i, fi + i, phi_i + i, nj, xj, yj, fj, phi_j);
+    for (std::size_t i = 0; i < ni; i += P::rows) block<P, true>(weight, xi + i, yi + i, fi + i, phi_i + i, nj, xj, yj, fj, phi_j);
 }
 
 // Rows of a block see the block itself one way (each of its pairs comes up twice) and everything after it both ways.
@@ -105,9 +104,7 @@ template <class P>
 struct Loops {
     using R = typename P::Real;
     using X = typename P::Coordinate;
-    static void self(std::size_t n, const X* x, const X* y, const R* f, R* phi) {
-        self_loop<P>(PointWeight<P>{}, n, x, y, f, phi);
-    }
+    static void self(std::size_t n, const X* x, const X* y, const R* f, R* phi) { self_loop<P>(PointWeight<P>{}, n, x, y, f, phi); }
     static void cross(std::size_t ni, const X* xi, const X* yi, const R* fi, R* phi_i, std::size_t nj, const X* xj, const X* yj,
                       const R* fj, R* phi_j) {
         cross_loop<P>(PointWeight<P>{}, ni, xi, yi, fi, phi_i, nj, xj, yj, fj, phi_j);
@@ -131,8 +128,8 @@ struct Loops {
             }
         }
     }
-    static void near_strips(const NearKernel& kernel, std::size_t ni, const X* xi, const X* yi, const R* fi, R* phi_i,
-                            std::size_t nj, const X* xj, const X* yj, const R* fj, R* phi_j) {
+    static void near_strips(const NearKernel& kernel, std::size_t ni, const X* xi, const X* yi, const R* fi, R* phi_i, std::size_t nj,
+                            const X* xj, const X* yj, const R* fj, R* phi_j) {
         const NearWeight<P> weight(kernel);
         std::size_t begin = 0, end = 0;
         for (std::size_t i = 0; i < ni; i += P::rows) {
@@ -140,8 +137,7 @@ struct Loops {
             while (begin < nj && xj[begin] <= xi[i] - kernel.reach) ++begin;
             while (end < nj && xj[end] < xi[last] + kernel.reach) ++end;
             if (begin < end)
-                block<P, true>(weight, xi + i, yi + i, fi + i, phi_i + i, end - begin, xj + begin, yj + begin, fj + begin,
-                               phi_j + begin);
+                block<P, true>(weight, xi + i, yi + i, fi + i, phi_i + i, end - begin, xj + begin, yj + begin, fj + begin, phi_j + begin);
         }
     }
 };

@@ -125,8 +125,10 @@ void Products::complement(int n) {
     passive_.clear();
     std::size_t next = 0;
     for (int k = 0; k < n; ++k) {
-        if (next < active_.size() && active_[next] == k) ++next;
-        else passive_.push_back(k);
+        if (next < active_.size() && active_[next] == k)
+            ++next;
+        else
+            passive_.push_back(k);
     }
 }
 

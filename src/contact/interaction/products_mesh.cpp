@@ -23,8 +23,10 @@ public:
         phi_.resize(size);
         inner_.emplace(size, x, y, inner_error_);
         exact_.reset();
-        if (full_error_ < kFinest) pairs_.assign(size, x, y);
-        else exact_.emplace(size, x, y, full_error_);
+        if (full_error_ < kFinest)
+            pairs_.assign(size, x, y);
+        else
+            exact_.emplace(size, x, y, full_error_);
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -70,9 +72,12 @@ private:
         ++count_;
         std::fill(f_.begin(), f_.end(), 0.0);
         for (std::size_t k = 0; k < active_.size(); ++k) f_[static_cast<std::size_t>(active_[k])] = f[k];
-        if (!exact) inner_->apply(f_.data(), phi_.data());
-        else if (exact_) exact_->apply(f_.data(), phi_.data());
-        else pairs_.apply(f_.data(), phi_.data());
+        if (!exact)
+            inner_->apply(f_.data(), phi_.data());
+        else if (exact_)
+            exact_->apply(f_.data(), phi_.data());
+        else
+            pairs_.apply(f_.data(), phi_.data());
         for (double& phi : phi_) phi *= scale_;
     }
 

@@ -22,7 +22,7 @@ Values<T> defined(T t) {
     const T x2 = t > 0 ? 4 * half * half : -4 * half * half;  // q^2 a^2
     // 3 (sin x - x cos x)/x^3 and 15 (x/2 + x cos(2x)/4 - 3 sin(2x)/8)/x^5, load and work over those of a paraboloid of the same a.
     T load = 0, work = 0;
-    if (std::abs(x2) < 1) {  // the closed forms would cancel; what is left out of the series is below 1e-21
+    if (std::abs(x2) < 1) {                              // the closed forms would cancel; what is left out of the series is below 1e-21
         T load_term = T(1) / 3, work_term = T(1) / 120;  // 2 (-x2)^(m-1)/(2m+1)!, (-4 x2)^(m-1)/(2m+3)!
         for (int m = 1; m < 14; ++m) {
             load += 3 * m * load_term;

@@ -121,8 +121,8 @@ private:
     double E_star_;
     bool quartic_;
     const BesselProfile& profile_ = BesselProfile::table();
-    std::vector<int> place_;        // of an asperity in summits_; -1: not prepared
-    std::vector<Summit> summits_;   // few of many asperities, next to each other
+    std::vector<int> place_;       // of an asperity in summits_; -1: not prepared
+    std::vector<Summit> summits_;  // few of many asperities, next to each other
 };
 
 }  // namespace
@@ -136,8 +136,9 @@ std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double
                                             "possible");
     }
     if (kind == LawKind::fourth_order && asperities.size() > 0 && asperities.biharmonic.size() != asperities.size()) {
-        throw Error(Failure::bad_input, "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
-                                        "were given without: 'hertz' and 'elliptic' are possible");
+        throw Error(Failure::bad_input,
+                    "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
+                    "were given without: 'hertz' and 'elliptic' are possible");
     }
     return std::make_unique<FourthOrder>(asperities, E_star, kind == LawKind::fourth_order);
 }

@@ -22,9 +22,9 @@ public:
     virtual void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const = 0;
 
     virtual double force(int asperity, double u) const = 0;
-    virtual double area(int asperity, double u) const = 0;    // contact area [length^2]; 0 for u <= 0
-    virtual double axes(int asperity) const = 0;              // b/a <= 1 of the contact ellipse
-    virtual bool beyond(int asperity, double u) const = 0;    // the penetration is past the law's own range: see the laws
+    virtual double area(int asperity, double u) const = 0;  // contact area [length^2]; 0 for u <= 0
+    virtual double axes(int asperity) const = 0;            // b/a <= 1 of the contact ellipse
+    virtual bool beyond(int asperity, double u) const = 0;  // the penetration is past the law's own range: see the laws
 };
 
 // hertz         a paraboloid of the asperity's radius: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.

@@ -6,8 +6,8 @@
 #include <new>
 #include <numbers>
 
-#include "contact/solver/lapack.hpp"
 #include "contact/interaction/pairs.hpp"
+#include "contact/solver/lapack.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -19,8 +19,8 @@ std::unique_ptr<double[]> allocate_matrix(std::size_t n) {
     try {
         return std::make_unique_for_overwrite<double[]>(n * n);
     } catch (const std::bad_alloc&) {
-        throw Error(Failure::no_memory, "solver%method='dgesv' needs a dense matrix of " + std::to_string(n) + " x " +
-                                            std::to_string(n) + " numbers (" + std::to_string(n * n / 131072) +
+        throw Error(Failure::no_memory, "solver%method='dgesv' needs a dense matrix of " + std::to_string(n) + " x " + std::to_string(n) +
+                                            " numbers (" + std::to_string(n * n / 131072) +
                                             " MiB), which was refused; method='direct' needs none");
     }
 }
@@ -40,8 +40,7 @@ void build_matrix(const WorkingSet& set, double E_star, const Vector& weight, do
 
 }  // namespace
 
-PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set, const PaperMethod& method, Vector& v,
-                            Vector& force) {
+PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set, const PaperMethod& method, Vector& v, Vector& force) {
     const int n = set.size();
     const std::size_t size = static_cast<std::size_t>(n);
     const auto K = allocate_matrix(size);

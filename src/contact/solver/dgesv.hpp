@@ -9,9 +9,9 @@
 namespace rsc {
 
 struct PaperMethod {
-    double delta0;      // first regularisation length delta [length]
-    double cut;         // delta is divided by this each iteration
-    double tolerance;   // on |dF|/|F| and on the unregularised residual
+    double delta0;     // first regularisation length delta [length]
+    double cut;        // delta is divided by this each iteration
+    double tolerance;  // on |dF|/|F| and on the unregularised residual
     int max_iterations;
 };
 

@@ -37,9 +37,7 @@ double relative_residual(const Vector& error, const Vector& force) {
     return std::isfinite(residual) ? residual : 1;
 }
 
-bool Newton::rough_will_do(double residual) const {
-    return products_->inner_error() < 1e-5 && residual > 100 * products_->inner_error();
-}
+bool Newton::rough_will_do(double residual) const { return products_->inner_error() < 1e-5 && residual > 100 * products_->inner_error(); }
 
 // Fills everything of the state from its v; in full accuracy if asked, or if the residual turns out too small for less.
 void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
@@ -53,8 +51,10 @@ void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
     products_->set_active(state.active);
     active_force_.clear();
     for (int k : state.active) active_force_.push_back(state.force[at(k)]);
-    if (accurate) products_->full(active_force_.data(), state.phi.data());
-    else products_->inner_everywhere(active_force_.data(), state.phi.data());
+    if (accurate)
+        products_->full(active_force_.data(), state.phi.data());
+    else
+        products_->inner_everywhere(active_force_.data(), state.phi.data());
     state.accurate = accurate;
 
     state.energy = state.scale = 0;
@@ -181,8 +181,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             }
             break;
         }
-        const double forcing =
-            std::clamp(std::max(std::min(0.1, std::sqrt(now_.residual)), 0.2 * tolerance / now_.residual), 1e-5, 0.3);
+        const double forcing = std::clamp(std::max(std::min(0.1, std::sqrt(now_.residual)), 0.2 * tolerance / now_.residual), 1e-5, 0.3);
         double size2 = 0;  // |S v|: the natural size of a step
         for (int k : now_.active) size2 += now_.slope[at(k)] * now_.v[at(k)] * now_.v[at(k)];
         radius = std::min(radius, 2 * std::sqrt(size2));
@@ -237,7 +236,8 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
     products_->set_active(state.active);
     scale_active(state);
     Vector image(root_.size());
-    const double lowest = lanczos_lowest(root_.size(), [&](const Vector& in, Vector& out) { multiply(in, out); }, w);
+    const double lowest = lanczos_lowest(
+        root_.size(), [&](const Vector& in, Vector& out) { multiply(in, out); }, w);
     return lowest > 0;
 }
 

@@ -12,8 +12,8 @@
 
 #include <vector>
 
-#include "contact/law/law.hpp"
 #include "contact/interaction/products.hpp"
+#include "contact/law/law.hpp"
 
 namespace rsc {
 
@@ -26,9 +26,9 @@ struct WorkingSet {
 
 struct NewtonOutcome {
     bool converged = false;
-    bool minimum = true;    // second-order condition holds where it was asked
+    bool minimum = true;  // second-order condition holds where it was asked
     int iterations = 0;
-    double residual = 0;    // |F - f(<g0 - B F>)| / |F|
+    double residual = 0;  // |F - f(<g0 - B F>)| / |F|
 };
 
 // |error|/|force|, also where squares overflow or vanish; 1 when there is no force, or none that is finite, and an error.
@@ -48,10 +48,10 @@ public:
     // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
     void take(const WorkingSet& set, const std::vector<double>& v);
 
-    double energy() const { return now_.energy; }  // E(F): second order in the error of F
-    const std::vector<double>& force() const { return now_.force; }    // F over the working set
-    const std::vector<double>& slope() const { return now_.slope; }    // D over the working set
-    const std::vector<double>& phi() const { return now_.phi; }        // B F over the working set
+    double energy() const { return now_.energy; }                    // E(F): second order in the error of F
+    const std::vector<double>& force() const { return now_.force; }  // F over the working set
+    const std::vector<double>& slope() const { return now_.slope; }  // D over the working set
+    const std::vector<double>& phi() const { return now_.phi; }      // B F over the working set
 
     // At the solution: B F at n other places, in single precision.
     void potential_at(std::size_t n, const double* x, const double* y, double* phi);

@@ -281,8 +281,7 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     doubtful = doubtful_clusters(pairs, a);
     std::erase_if(doubtful, settled);
     return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
-        return Search(law, E_star, cluster, close, asperity, v, slope, noise)
-            .finds_one(of_points(cluster, low), of_points(cluster, high));
+        return Search(law, E_star, cluster, close, asperity, v, slope, noise).finds_one(of_points(cluster, low), of_points(cluster, high));
     });
 }
 
