@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "contact/solver/uniqueness.hpp"
+#include "contact/close_pairs.hpp"
 
 namespace rsc {
 namespace {

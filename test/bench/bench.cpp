@@ -1,5 +1,6 @@
 // What rsc costs, as ratios of times measured in one run. `rsc_bench` runs everything (a few minutes); `rsc_bench NAME...` only the
-// parts named: pairs, realization, solve, laws, rough, largest, many.
+// parts named: pairs, realization, solve, laws, rough, largest, many,
+// close.
 #include <fftw3.h>
 #include <sys/resource.h>
 
@@ -16,6 +17,7 @@
 
 #include "contact/contact.hpp"
 #include "contact/interaction/pairs.hpp"
+#include "contact/spots.hpp"
 #include "rough/asperities.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -243,13 +245,35 @@ void bench_largest() {
     std::printf("  peak memory %.0f MB (wanted: 2000; 512 MB of it the bare transform's)\n", peak_memory_mb());
 }
 
+// Pairs of close spots: what one huge spot among many small ones costs, and sizes spread over decades.
+void bench_close() {
+    constexpr std::size_t n = 80000;
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::vector<double> x(n), y(n), alike(n), spread(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        x[i] = uniform(random);
+        y[i] = uniform(random);
+        alike[i] = 1e-3 * uniform(random);
+        spread[i] = 1e-4 / std::pow(uniform(random) + 1e-4, 0.8);
+    }
+    std::vector<double> huge(alike);
+    huge[n / 2] = 0.5;
+    long pairs = 0;
+    const auto cost = [&](const std::vector<double>& a) { return shortest(3, [&] { pairs = count_overlapping(x, y, a); }); };
+    const double time = cost(alike), with_huge = cost(huge), with_spread = cost(spread);
+    std::printf(
+        "\nclose: pairs among %zu spots of like sizes in %.4f s; one huge spot among them %.1f times that, sizes over 3 decades %.1f\n", n,
+        time, with_huge / time, with_spread / time);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     const std::pair<const char*, void (*)()> parts[] = {
         {"pairs", bench_pairs}, {"realization", bench_realization}, {"solve", bench_solve}, {"laws", bench_laws},
-        {"rough", bench_rough}, {"largest", bench_largest},         {"many", bench_many}};
+        {"rough", bench_rough}, {"largest", bench_largest},         {"many", bench_many},   {"close", bench_close}};
     for (const auto& [name, part] : parts) {
         const bool wanted = argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, name) == 0; });
         if (wanted) part();

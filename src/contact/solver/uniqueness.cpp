@@ -1,11 +1,13 @@
 #include "contact/solver/uniqueness.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "contact/close_pairs.hpp"
 #include "contact/solver/lapack.hpp"
 
 namespace rsc {

@@ -28,10 +28,4 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
                       const std::vector<double>& y, const std::vector<double>& v, const std::vector<double>& force,
                       const std::vector<double>& slope);
 
-// Calls visit(i, j, d) once for every pair i < j with d < reach[i] + reach[j], in a fixed order.
-template <class Visit>
-void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& reach, Visit&& visit);
-
 }  // namespace rsc
-
-#include "contact/solver/close_pairs.inl"
