@@ -319,10 +319,12 @@ RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t
  * above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration);
 
-/* The lowering of the surface by the contact forces, at any points: sum of f/(pi E* d) over the contacts, d being the distance.
- * Within a spot, d < a, its own share is that of its Hertz pressure, 3f/(8 E* a) (2 - d^2/a^2): at a summit in contact the sum is
- * then the penetration without interaction. contact: the contact; n: number of points, >= 0; x, y: places [length]; deflection
- * (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or not finite; -5 null with n > 0;
+/* The lowering of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a
+ * Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq. 3.42), continuous everywhere: at distance d from the middle
+ * of a spot 3f/(8 E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside, f/(pi E* d) far away.
+ * The solver lets spots act on each other as points; what finite spots do beyond that, some a^2/(10 d^2), is seen here only. With laws
+ * other than 'hertz' a spot is taken as a circle of its area. contact: the contact; n: number of points, >= 0; x, y: places [length];
+ * deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or not finite; -5 null with n > 0;
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 

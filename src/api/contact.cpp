@@ -1,11 +1,11 @@
 // Contacts: levels, what they hold, and the deflection of the surface around them.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
+#include "contact/deflection.hpp"
 #include "contact/equivalent.hpp"
 #include "rough/magnitude.hpp"
 
@@ -237,18 +237,8 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
-        const auto& on = contact->on->asperities;
         const double E_star = contact->contact.indenter().E_star;
-        // Each spot by itself: which formula holds is a matter of its own radius.
-        for (int64_t i = 0; i < n; ++i) {
-            double sum = 0;
-            for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-                const auto j = static_cast<std::size_t>(level.asperity[k]);
-                const double dx = x[i] - on.x[j], dy = y[i] - on.y[j], d2 = dx * dx + dy * dy, a2 = level.a[k] * level.a[k];
-                sum += d2 < a2 ? level.f[k] * 0.375 / level.a[k] * (2 - d2 / a2) : level.f[k] / (std::numbers::pi * std::sqrt(d2));
-            }
-            deflection[i] = sum / E_star;
-        }
+        for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(contact->on->asperities, level, E_star, x[i], y[i]);
     });
 }
 

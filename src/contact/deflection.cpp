@@ -1,0 +1,52 @@
+#include "contact/deflection.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rsc {
+namespace {
+
+// (2 - 1/s^2) asin(s) + sqrt(1/s^2 - 1) = (4/3) s (1 + s^2/10 + 9 s^4/280 + ...), s = a/d: the coefficients, from those of asin(s) and of
+// sqrt(1 - s^2), b_n = (2n)!/(4^n n!^2).
+constexpr int kTerms = 8;  // s^16 below rounding for s < kFar
+constexpr double kFar = 0.1;
+constexpr std::array<double, kTerms> kSeries = [] {
+    std::array<double, kTerms> series{};
+    double before = 1;  // b_(n-1)
+    for (int n = 1; n <= kTerms; ++n) {
+        const double b = before * (2 * n - 1) / (2 * n);
+        series[static_cast<std::size_t>(n - 1)] = 0.75 * (2 * before / (2 * n - 1) - b * 4 * n / (4.0 * n * n - 1));
+        before = b;
+    }
+    return series;
+}();
+
+}  // namespace
+
+double spot_deflection(double force, double radius, double distance, double E_star) {
+    const double s = radius / distance;
+    if (s >= 1) {
+        const double t = distance / radius;
+        return 0.375 * force / (E_star * radius) * (2 - t * t);
+    }
+    if (s >= kFar) {
+        const double t2 = 1 / (s * s);
+        return 0.75 * force / (std::numbers::pi * E_star * radius) * ((2 - t2) * std::asin(s) + std::sqrt(t2 - 1));
+    }
+    double sum = 0;  // the two terms above cancel
+    for (std::size_t n = kTerms; n-- > 0;) sum = sum * s * s + kSeries[n];
+    return force / (std::numbers::pi * E_star * distance) * sum;
+}
+
+double deflection(const Asperities& asperities, const Level& level, double E_star, double x, double y) {
+    double sum = 0;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        const auto i = static_cast<std::size_t>(level.asperity[k]);
+        const double dx = x - asperities.x[i], dy = y - asperities.y[i];
+        sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), E_star);
+    }
+    return sum;
+}
+
+}  // namespace rsc

@@ -1,0 +1,17 @@
+// How far the contact forces lower the surface between and under the spots.
+#pragma once
+
+#include "contact/indentation.hpp"
+
+namespace rsc {
+
+// Lowering of the half-space E* by a Hertz pressure of force f over a circle of radius a > 0, at distance d >= 0 from its centre
+// [length]. Inside, d <= a: 3f/(8 E* a)(2 - d^2/a^2); outside (Johnson 1985, eq. 3.42): 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) +
+// sqrt(d^2/a^2 - 1)]. Value and slope are continuous at d = a; far away f/(pi E* d)(1 + a^2/(10 d^2) + ...). To rounding everywhere.
+double spot_deflection(double force, double radius, double distance, double E_star);
+
+// The sum over the contacts of a level at (x, y) [length], positive down. Spots that are no circles, and pressures that are not
+// Hertz's (laws 'elliptic', 'fourth_order'), are taken as Hertz's over the circle of the same area: exact far away.
+double deflection(const Asperities& asperities, const Level& level, double E_star, double x, double y);
+
+}  // namespace rsc
