@@ -11,6 +11,7 @@ need() {  # need PACKAGE COMMAND...: PACKAGE (Debian's name) is missing unless C
     "$@" > /dev/null 2>&1 || missing="$missing $package"
 }
 header() { printf '#include <%s>\n' "$1" | g++ -E -x c++ - ; }
+header_udunits() { header udunits2.h || header udunits2/udunits2.h; }
 links() { echo 'int main() {}' | g++ -x c++ - -o /dev/null "$@"; }
 plots() { python3 -c 'import numpy, matplotlib, netCDF4' || /usr/bin/python3 -c 'import numpy, matplotlib, netCDF4'; }
 look() {
@@ -24,6 +25,7 @@ look() {
     need libfftw3-dev pkg-config --exists fftw3
     need libnetcdf-dev pkg-config --exists netcdf
     need libnetcdff-dev pkg-config --exists netcdf-fortran
+    need libudunits2-dev header_udunits
     need librandom123-dev header Random123/philox.h
     need netcdf-bin command -v ncdump
     need python3 command -v python3

@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set_target_properties(rsc_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-set(rsc_dependencies LAPACK::LAPACK OpenMP::OpenMP_CXX PkgConfig::FFTW PkgConfig::NETCDF)
+set(rsc_dependencies LAPACK::LAPACK OpenMP::OpenMP_CXX PkgConfig::FFTW PkgConfig::NETCDF rsc_udunits)
 
 add_library(rsc_shared SHARED $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_shared PROPERTIES OUTPUT_NAME rsc EXPORT_NAME rsc VERSION ${PROJECT_VERSION}
@@ -19,7 +19,7 @@ endif()
 add_library(rsc_static STATIC $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_static PROPERTIES OUTPUT_NAME rsc EXPORT_NAME static LINKER_LANGUAGE CXX)
 target_link_libraries(rsc_static PUBLIC "$<BUILD_INTERFACE:${rsc_dependencies}>"
-                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;OpenMP::OpenMP_CXX;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf>")
+                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;OpenMP::OpenMP_CXX;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2>")
 
 foreach(library rsc_shared rsc_static)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -73,7 +73,7 @@ foreach(library ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
     list(APPEND rsc_private_libraries "${library}")
   endif()
 endforeach()
-list(APPEND rsc_private_libraries ${OpenMP_CXX_FLAGS} -lstdc++ -lm)
+list(APPEND rsc_private_libraries -ludunits2 ${OpenMP_CXX_FLAGS} -lstdc++ -lm)
 list(REMOVE_DUPLICATES rsc_private_libraries)
 list(JOIN rsc_private_libraries " " rsc_private_libraries)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/rsc.pc.in ${PROJECT_BINARY_DIR}/rsc.pc @ONLY)

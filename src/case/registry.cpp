@@ -62,8 +62,8 @@ std::vector<Key> make_registry() {
                RSC_SLOT(run.first_realization)),
         scalar("run", "threads", integer, "1", between(0, 4096), "threads to use, 0 for all; results do not depend on it",
                RSC_SLOT(run.threads)),
-        text("run", "length_unit", 64, "unit of every length, as UDUNITS spells it", RSC_SLOT(run.length_unit)),
-        text("run", "force_unit", 64, "unit of every force, as UDUNITS spells it", RSC_SLOT(run.force_unit)),
+        text("run", "length_unit", 64, "unit of every length, as UDUNITS spells it; '1' for pure numbers", RSC_SLOT(run.length_unit)),
+        text("run", "force_unit", 64, "unit of every force, as UDUNITS spells it; '1' for pure numbers", RSC_SLOT(run.force_unit)),
 
         array("solids", "E", 2, "force/length^2", kPositiveOrInfinite,
               "Young's modulus of body 1 (rough, deforms) and of body 2 (the sphere); Infinity is rigid", RSC_FIRST(solids.E)),

@@ -4,6 +4,7 @@
 
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
+#include "case/units.hpp"
 #include "error.hpp"
 #include "rough/magnitude.hpp"
 
@@ -20,6 +21,7 @@ public:
     std::vector<Problem> check() {
         for (const Key& key : registry()) check_key(key);
         check_available();
+        check_units();
         check_solids();
         check_surface();
         check_levels();
@@ -100,6 +102,13 @@ private:
         }
         if (c_.run.realizations > 1 && !kCampaignsAvailable)
             complain({"run%realizations"}, "realizations = " + std::to_string(c_.run.realizations) + " is not available yet: only 1 is");
+    }
+
+    void check_units() {
+        if (const std::string wrong = unit_problem(c_.run.length_unit, Quantity::length); !wrong.empty())
+            complain({"run%length_unit"}, "length_unit: " + wrong);
+        if (const std::string wrong = unit_problem(c_.run.force_unit, Quantity::force); !wrong.empty())
+            complain({"run%force_unit"}, "force_unit: " + wrong);
     }
 
     void check_solids() {

@@ -1,0 +1,108 @@
+#include "case/units.hpp"
+
+#include <clocale>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+
+#include <locale.h>
+#include <udunits2.h>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+
+// UDUNITS keeps its status in a global variable, prints to stderr unless told otherwise, and reads numbers by the locale: while this
+// lives one thread asks, nothing is printed, and a point is a point.
+class Session {
+public:
+    Session() : lock_(mutex()), old_handler_(ut_set_error_message_handler(ut_ignore)) {
+        if (c_locale() != locale_t{}) old_locale_ = uselocale(c_locale());
+    }
+    ~Session() {
+        if (old_locale_ != locale_t{}) uselocale(old_locale_);
+        ut_set_error_message_handler(old_handler_);
+    }
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    // The units there are, read once from UDUNITS's XML files. Never freed: another thread may be asking while the program ends.
+    ut_system* system() {
+        static ut_system* const units = ut_read_xml(nullptr);
+        if (!units)
+            throw Error(Failure::bad_input,
+                        "the list of units of UDUNITS cannot be read; set the environment's UDUNITS2_XML_PATH to its udunits2.xml");
+        return units;
+    }
+
+    Unit parse(const std::string& text) {
+        Unit unit(ut_parse(system(), text.c_str(), UT_UTF8), ut_free);
+        if (!unit) unit.reset(ut_parse(system(), text.c_str(), UT_LATIN1));  // the micro sign of older instruments
+        return unit;
+    }
+
+private:
+    static std::mutex& mutex() {
+        static std::mutex m;
+        return m;
+    }
+    static locale_t c_locale() {
+        static const locale_t c = newlocale(LC_NUMERIC_MASK, "C", locale_t{});
+        return c;
+    }
+    std::lock_guard<std::mutex> lock_;
+    ut_error_message_handler old_handler_;
+    locale_t old_locale_{};
+};
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
+// 1 `from` in `to`; 0 where the two measure different things or their zeros differ.
+double factor_between(const Unit& from, const Unit& to) {
+    const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(from.get(), to.get()), cv_free);
+    if (!converter || cv_convert_double(converter.get(), 0.0) != 0) return 0;
+    // Units are decimal fractions of each other; products of their prefixes are so to the last bits only.
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.14e", cv_convert_double(converter.get(), 1.0));
+    return std::strtod(digits, nullptr);
+}
+
+const char* name_of(Quantity quantity) { return quantity == Quantity::length ? "length" : "force"; }
+
+std::string problem_of(Session& session, const std::string& text, const Unit& unit, Quantity quantity) {
+    const std::string of = std::string("a unit of ") + name_of(quantity) + " as UDUNITS spells it is expected, such as " +
+                           (quantity == Quantity::length ? "'mm', 'um' or 'm'" : "'N', 'mN' or 'uN'");
+    if (!unit) return "'" + text + "' is no unit; " + of;
+    if (factor_between(unit, session.parse(quantity == Quantity::length ? "m" : "N")) == 0)
+        return "'" + text + "' is no unit of " + name_of(quantity) + "; " + of;
+    return {};
+}
+
+}  // namespace
+
+std::string unit_problem(const std::string& text, Quantity quantity) {
+    // Known without being looked up: the defaults work where the list of units is missing.
+    if (text.empty() || text == "1" || text == (quantity == Quantity::length ? "mm" : "N")) return {};
+    Session session;
+    return problem_of(session, text, session.parse(trimmed(text)), quantity);
+}
+
+double length_factor(const std::string& from, const std::string& to) {
+    const std::string a = trimmed(from), b = trimmed(to);
+    if (a == b) return 1;
+    Session session;
+    const Unit unit = session.parse(a), wanted = session.parse(b);
+    for (const auto& [text, parsed] : {std::pair<const std::string&, const Unit&>(a, unit), {b, wanted}})
+        if (const std::string wrong = problem_of(session, text, parsed, Quantity::length); !wrong.empty())
+            throw Error(Failure::bad_input, wrong);
+    return factor_between(unit, wanted);
+}
+
+}  // namespace rsc
