@@ -97,7 +97,8 @@ void test_options() {
             if (status != 0) {  // documented, and not to be had yet: refused by name
                 const std::string why = message();
                 CHECK(status == -3);
-                CHECK(why.find("not available yet") != std::string::npos || (name == "output%file" && value == "''"));
+                const bool no_unit = name.ends_with("_unit") && why.find("is no unit") != std::string::npos;
+                CHECK(why.find("not available yet") != std::string::npos || (name == "output%file" && value == "''") || no_unit);
                 continue;
             }
             const std::string now = get(c, name);
