@@ -472,7 +472,7 @@ void Contact::move_tip(double x0, double y0) {
     impl_->carry();
     impl_->indenter.x0 = x0;
     impl_->indenter.y0 = y0;
-    impl_->ranking.assign(impl_->asperities, impl_->indenter);
+    impl_->ranking.move(x0, y0);
 }
 
 double Contact::first_touch() const { return impl_->ranking.highest(); }

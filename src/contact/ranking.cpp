@@ -12,6 +12,19 @@ bool comes_first(const Ranking::Entry& a, const Ranking::Entry& b) {
     return a.height != b.height ? a.height > b.height : a.asperity < b.asperity;
 }
 
+// By insertion, which is quickest where little changed places, and otherwise as anything is sorted.
+void sort_nearly_sorted(std::vector<Ranking::Entry>::iterator first, std::vector<Ranking::Entry>::iterator last) {
+    auto steps = 8 * (last - first);
+    for (auto e = first; e != last; ++e) {
+        const Ranking::Entry entry = *e;
+        auto to = e;
+        for (; to != first && comes_first(entry, *(to - 1)); --to) *to = *(to - 1);
+        *to = entry;
+        steps -= e - to;
+        if (steps < 0) return std::sort(first, last, comes_first);
+    }
+}
+
 }  // namespace
 
 double height_under_sphere(const Indenter& indenter, double x, double y, double z) {
@@ -22,11 +35,16 @@ double height_under_sphere(const Indenter& indenter, double x, double y, double 
 }
 
 void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
+    asperities_ = &asperities;
+    now_ = indenter;
+    x_rest_ = indenter.x0;
+    y_rest_ = indenter.y0;
     entries_.clear();
     entries_.reserve(asperities.size());
     sorted_ = 0;
-    highest_rest_ = -kInfinity;
+    highest_rest_ = highest_z_ = -kInfinity;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
+        highest_z_ = std::max(highest_z_, asperities.z[i]);
         const double h = height_under_sphere(indenter, asperities.x[i], asperities.y[i], asperities.z[i]);
         if (h == -kInfinity) continue;
         entries_.push_back({h, static_cast<int>(i)});
@@ -34,14 +52,45 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     }
 }
 
+// No asperity that is not sorted is higher than this now. With c(rho) = sqrt(R^2 - rho^2) - R, which falls ever faster, and d the way
+// from where the rest got its heights: what was at rho then is at rho - d or further now. Within some rho* it gained at most
+// c(rho* - d) - c(rho*) over highest_rest; beyond rho*, and outside the sphere, it is below highest_z + c(rho* - d). Any rho* up to R
+// gives a bound; a good one is where z itself keeps what is beyond below highest_rest: highest_z + c(rho* - d) = highest_rest.
+double Ranking::bound_on_rest() const {
+    const double R = now_.R, d = std::hypot(now_.x0 - x_rest_, now_.y0 - y_rest_);
+    if (!(d > 0) || std::isinf(R)) return highest_rest_;
+    const auto c = [R](double rho) { return rho > 0 ? -rho * rho / (R + std::sqrt(std::max(0.0, R * R - rho * rho))) : 0.0; };
+    const double drop = highest_z_ - highest_rest_;  // = -c(rho* - d)
+    const double reach = drop < R ? std::min(R, std::sqrt(std::max(0.0, drop * (2 * R - drop))) + d) : R;
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * (R + std::abs(highest_z_));
+    return std::max(highest_rest_ + c(reach - d) - c(reach), highest_z_ + c(reach - d)) + rounding;
+}
+
+void Ranking::move(double x0, double y0) {
+    if (x0 == now_.x0 && y0 == now_.y0) return;
+    now_.x0 = x0;
+    now_.y0 = y0;
+    if (sorted_ == 0) return assign(*asperities_, now_);
+    const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
+    for (auto e = first; e != rest; ++e) {
+        const auto i = static_cast<std::size_t>(e->asperity);
+        e->height = height_under_sphere(now_, asperities_->x[i], asperities_->y[i], asperities_->z[i]);
+    }
+    sort_nearly_sorted(first, rest);
+    if (bound_on_rest() >= highest()) assign(*asperities_, now_);
+}
+
 double Ranking::highest() const { return sorted_ > 0 ? entries_.front().height : highest_rest_; }
 
-int Ranking::highest_asperity() const { return std::min_element(entries_.begin(), entries_.end(), comes_first)->asperity; }
+int Ranking::highest_asperity() const {
+    return (sorted_ > 0 ? entries_.begin() : std::min_element(entries_.begin(), entries_.end(), comes_first))->asperity;
+}
 
 std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
+    if ((x_rest_ != now_.x0 || y_rest_ != now_.y0) && bound_on_rest() > Z0) assign(*asperities_, now_);
     const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
     auto end = rest;
-    if (highest_rest_ > Z0) {
+    if (x_rest_ == now_.x0 && y_rest_ == now_.y0 && highest_rest_ > Z0) {
         // A quarter deeper than asked for: a series of levels then passes over the rest a few times, not at every level.
         const double threshold = Z0 - 0.25 * (highest() - Z0);
         end = std::partition(rest, entries_.end(), [threshold](const Entry& e) { return e.height > threshold; });

@@ -21,8 +21,12 @@ public:
         int asperity;
     };
 
-    // Asperities outside the sphere are left out.
+    // Asperities outside the sphere are left out. They must outlive the ranking, or its next assign.
     void assign(const Asperities& asperities, const Indenter& indenter);
+
+    // The same as assign, of the same asperities, after the tip moved to (x0, y0). Only what was sorted is ranked anew as long as a
+    // bound on the heights of the rest says that none of it comes up to where levels were.
+    void move(double x0, double y0);
     bool empty() const { return entries_.empty(); }
     // Height of the highest, -Infinity if there is none, and its asperity.
     double highest() const;
@@ -34,9 +38,16 @@ public:
     const Entry& operator[](std::size_t rank) const { return entries_[rank]; }
 
 private:
+    double bound_on_rest() const;
+
+    const Asperities* asperities_ = nullptr;
     std::vector<Entry> entries_;
     std::size_t sorted_ = 0;
-    double highest_rest_ = -std::numeric_limits<double>::infinity();  // of what is not sorted yet
+    Indenter now_;
+    // Of what is not sorted: heights are those under a sphere at (x_rest_, y_rest_), where highest_rest_ is the highest.
+    double x_rest_ = 0, y_rest_ = 0;
+    double highest_rest_ = -std::numeric_limits<double>::infinity();
+    double highest_z_ = -std::numeric_limits<double>::infinity();  // of all asperities, outside the sphere, too
 };
 
 }  // namespace rsc
