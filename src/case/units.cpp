@@ -94,15 +94,22 @@ std::string unit_problem(const std::string& text, Quantity quantity) {
     return problem_of(session, text, session.parse(trimmed(text)), quantity);
 }
 
-double length_factor(const std::string& from, const std::string& to) {
+double length_factor(const std::string& from, const std::string& to, int power) {
     const std::string a = trimmed(from), b = trimmed(to);
-    if (a == b) return 1;
+    const auto number = [](const std::string& text) { return text.empty() || text == "1"; };
+    if ((power == 1 && a == b) || (number(a) && number(b))) return 1;
     Session session;
     const Unit unit = session.parse(a), wanted = session.parse(b);
-    for (const auto& [text, parsed] : {std::pair<const std::string&, const Unit&>(a, unit), {b, wanted}})
+    const auto require = [&](const std::string& text, const Unit& parsed) {
         if (const std::string wrong = problem_of(session, text, parsed, Quantity::length); !wrong.empty())
             throw Error(Failure::bad_input, wrong);
-    return factor_between(unit, wanted);
+    };
+    require(b, wanted);
+    if (power == 1) require(a, unit);
+    const Unit raised(ut_raise(wanted.get(), power), ut_free);
+    const double factor = unit && raised ? factor_between(unit, raised) : 0;
+    if (factor == 0) throw Error(Failure::bad_input, "'" + a + "' where a unit like (" + b + ")" + std::to_string(power) + " is expected");
+    return factor;
 }
 
 }  // namespace rsc

@@ -11,8 +11,9 @@ enum class Quantity { length, force };
 // dimensions) are taken for any quantity. Units whose zero lies elsewhere ("m @ 5") are refused.
 std::string unit_problem(const std::string& text, Quantity quantity);
 
-// A length of 1 `from` in `to`: 0.001 for "um" and "mm". Texts in UTF-8 or Latin-1 ("µm", "Å"), blanks around them ignored. Equal
-// texts give 1 exactly. Throws Error(bad_input) saying which of the two is no unit of length; it names no file: the caller does.
-double length_factor(const std::string& from, const std::string& to);
+// 1 `from` in `to`^power, `to` being a unit of length: 0.001 for "um" and "mm", 1000 for "um-1", "mm" and -1. Texts in UTF-8 or
+// Latin-1 ("µm", "Å"), blanks around them ignored. Equal texts (power 1) and pure numbers on both sides give 1. Throws
+// Error(bad_input) saying which of the two is wrong; it names no file: the caller does.
+double length_factor(const std::string& from, const std::string& to, int power = 1);
 
 }  // namespace rsc

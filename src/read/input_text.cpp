@@ -13,7 +13,16 @@ namespace rsc {
 namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
-bool separator(char c) { return c == ',' || c == ';'; }
+
+// What separates the numbers of a file, and its decimal mark; each unknown (0) until first seen, and then the same throughout.
+struct Style {
+    char separator = 0;  // ' ', ',' or ';'
+    char decimal = 0;    // '.' or ','
+    long line = 0;       // where the separator was first seen
+    long decimal_line = 0;
+};
+
+const char* name_of(char separator) { return separator == ' ' ? "blanks" : separator == ',' ? "commas" : "semicolons"; }
 
 [[noreturn]] void refuse(const std::string& path, long line, const std::string& what) {
     throw Error(Failure::bad_input, path + ":" + std::to_string(line) + ": " + what);
@@ -27,11 +36,25 @@ std::string shown(std::string_view word) {
     return "'" + s + (word.size() > 40 ? "...'" : "'");
 }
 
-double number(std::string_view word, const std::string& path, long line, std::size_t column) {
+double number(std::string_view word, const std::string& path, long line, std::size_t column, Style& style) {
     const std::string place = shown(word) + " in column " + std::to_string(column);
     // std::from_chars knows no plus sign before a number.
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     std::string text(plus ? word.substr(1) : word);
+    if (style.separator == ';') {
+        const std::size_t mark = text.find_first_of(".,");
+        if (mark != std::string::npos) {
+            if (style.decimal == 0) style.decimal = text[mark], style.decimal_line = line;
+            if (style.decimal != text[mark])
+                refuse(path, line,
+                       place + ": a decimal " + (text[mark] == ',' ? "comma" : "point") + ", where line " +
+                           std::to_string(style.decimal_line) + " has decimal " + (style.decimal == ',' ? "commas" : "points"));
+            if (text[mark] == ',') {
+                if (text.find('.') != std::string::npos) refuse(path, line, place + " is not a number");
+                text[mark] = '.';
+            }
+        }
+    }
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
     double value = 0;
@@ -45,24 +68,42 @@ double number(std::string_view word, const std::string& path, long line, std::si
 }
 
 // Appends the numbers of a line to `values`; returns how many there were.
-std::size_t parse(std::string_view text, const std::string& path, long line, std::vector<double>& values) {
+std::size_t parse(std::string_view text, const std::string& path, long line, Style& style, std::vector<double>& values) {
     text = text.substr(0, text.find('#'));
+    const bool semicolons = text.find(';') != std::string_view::npos;
+    const auto separates = [semicolons](char c) { return c == (semicolons ? ';' : ','); };
+    const auto require = [&](char found, const std::string& before) {
+        if (style.separator == 0) style.separator = found, style.line = line;
+        if (style.separator == found) return;
+        const bool here = style.line == line;
+        // "0,01 0,02": what looks like two separators may be a decimal comma.
+        const std::string hint = style.separator != ';' && found != ';' ? "; decimal commas are read between semicolons only" : "";
+        refuse(path, line,
+               std::string(name_of(found)) + " before " + before + " where " +
+                   (here ? std::string("the rest of the line") : "line " + std::to_string(style.line)) + " has " +
+                   name_of(style.separator) + ": one separator is expected throughout" + hint);
+    };
     std::size_t count = 0, i = 0;
-    bool expecting = false;  // a separator has been read, a number must follow
+    char gap = 0;  // what was read since the last number
+    if (semicolons) require(';', "the end");
     while (true) {
-        while (i < text.size() && blank(text[i])) ++i;
-        if (i == text.size()) break;
-        if (separator(text[i])) {
-            if (expecting || count == 0) refuse(path, line, "nothing between the separators at column " + std::to_string(count + 1));
-            expecting = true;
+        while (i < text.size() && blank(text[i])) {
+            if (gap == 0) gap = ' ';
             ++i;
+        }
+        if (i == text.size()) break;
+        if (separates(text[i])) {
+            if (gap == text[i] || count == 0) refuse(path, line, "nothing between the separators at column " + std::to_string(count + 1));
+            gap = text[i++];
             continue;
         }
         const std::size_t start = i;
-        while (i < text.size() && !blank(text[i]) && !separator(text[i])) ++i;
-        values.push_back(number(text.substr(start, i - start), path, line, count + 1));
+        while (i < text.size() && !blank(text[i]) && !separates(text[i])) ++i;
+        const std::string_view word = text.substr(start, i - start);
+        if (count > 0) require(gap, shown(word));
+        values.push_back(number(word, path, line, count + 1, style));
         ++count;
-        expecting = false;
+        gap = 0;
     }
     return count;  // a separator at the end of the line is forgiven
 }
@@ -73,6 +114,7 @@ TextTable read_table(const std::string& path, std::size_t columns) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw Error(Failure::bad_input, path + ": cannot be read");
     TextTable table;
+    Style style;
     table.columns = columns;
     std::string text;
     long line = 0;
@@ -80,8 +122,10 @@ TextTable read_table(const std::string& path, std::size_t columns) {
         ++line;
         std::string_view view(text);
         if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // the mark some editors put before UTF-8
+        if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
+            throw Error(Failure::bad_input, path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
         if (view.find('\0') != std::string_view::npos) refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
-        const std::size_t count = parse(view, path, line, table.values);
+        const std::size_t count = parse(view, path, line, style, table.values);
         if (count == 0) continue;
         if (table.columns == 0) table.columns = count;
         if (count != table.columns) {

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "case/units.hpp"
 #include "error.hpp"
 #include "read/input_netcdf.hpp"
 #include "read/input_text.hpp"
@@ -16,8 +17,9 @@
 namespace rsc {
 namespace {
 
-constexpr double kUniform = 1e-6;  // of a step: how far a coordinate may be from where a uniform grid has it
-constexpr double kSameL = 1e-6;    // relative: how far nx dx may be from the L that was given
+constexpr double kUniform = 1e-6;      // of a step: how far a coordinate may be from where a uniform grid has it
+constexpr double kUniformText = 0.01;  // the same for coordinates in a text, which are rounded to its digits
+constexpr double kSameL = 1e-6;        // relative: how far nx dx may be from the L that was given
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
 
@@ -54,10 +56,80 @@ HeightMap allocate(std::size_t nx, std::size_t ny) {
     return map;
 }
 
+// nx dx must be the L that was given, if any.
+void check_given_L(const std::string& path, const std::string& coordinate, int nx, double dx, std::optional<double> L) {
+    if (!L) return;
+    check_L(path, *L);
+    const double extent = nx * dx;
+    if (!(std::abs(extent - *L) <= kSameL * *L))
+        refuse(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) + " steps of " + text(dx) + " = " + text(extent) +
+               ", but L = " + text(*L) + " was given");
+}
+
+// The uniform grid that one coordinate of x y z triples lies on.
+struct TextAxis {
+    double first = 0, step = 0;
+    std::size_t count = 0;
+    std::size_t index(double c) const { return static_cast<std::size_t>(std::lround((c - first) / step)); }
+};
+
+TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t column, const char* name) {
+    std::vector<double> c(table.rows);
+    for (std::size_t i = 0; i < table.rows; ++i) c[i] = table.values[3 * i + column];
+    std::sort(c.begin(), c.end());
+    TextAxis axis;
+    axis.first = c.front();
+    const double range = c.back() - c.front(), same = 1e-3 * range / static_cast<double>(table.rows);  // less than any uniform step
+    axis.count = 1;
+    for (std::size_t i = 1; i < c.size(); ++i) axis.count += c[i] - c[i - 1] > same ? 1 : 0;
+    if (axis.count < 2)
+        refuse(path + ": three columns are read as x y z of a map; column " + name + " is " + text(axis.first) + " throughout");
+    axis.step = range / static_cast<double>(axis.count - 1);
+    for (std::size_t i = 0; i < table.rows; ++i) {
+        const double v = table.values[3 * i + column];
+        const double uniform = axis.first + static_cast<double>(axis.index(v)) * axis.step;
+        if (!(std::abs(v - uniform) <= kUniformText * axis.step))
+            refuse(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " = " + text(v) +
+                   " is not on a uniform grid of " + std::to_string(axis.count) + " values from " + text(c.front()) + " to " +
+                   text(c.back()));
+    }
+    return axis;
+}
+
+HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L) {
+    const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
+    check_size(path, x.count, y.count);
+    HeightMap map = allocate(x.count, y.count);
+    std::vector<long> line(x.count * y.count);
+    for (std::size_t i = 0; i < table.rows; ++i) {
+        const double* const row = table.values.data() + 3 * i;
+        const std::size_t point = y.index(row[1]) * x.count + x.index(row[0]);
+        if (line[point] > 0)
+            refuse(path + ":" + std::to_string(table.line[i]) + ": x = " + text(row[0]) + ", y = " + text(row[1]) + " is already in line " +
+                   std::to_string(line[point]));
+        line[point] = table.line[i];
+        map.data[point] = row[2];
+    }
+    if (const auto empty = std::find(line.begin(), line.end(), 0L); empty != line.end()) {
+        const auto point = static_cast<std::size_t>(empty - line.begin());
+        refuse(path + ": three columns are read as x y z of a map of " + std::to_string(x.count) + " x " + std::to_string(y.count) +
+               " points, but there is none at x = " + text(x.first + static_cast<double>(point % x.count) * x.step) +
+               ", y = " + text(y.first + static_cast<double>(point / x.count) * y.step));
+    }
+    map.x0 = x.first;
+    map.y0 = y.first;
+    map.dx = x.step;
+    map.dy = y.step;
+    check_given_L(path, "x", map.nx, map.dx, L);
+    return map;
+}
+
 HeightMap read_text_heights(const std::string& path, std::optional<double> L) {
+    const TextTable table = read_table(path, 0);
+    if (table.columns == 3) return read_text_triples(path, table, L);
+    if (table.columns == 4) refuse(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
     if (!L) refuse(path + ": a text matrix has no spacing; L, its extent in x, must be given");
     check_L(path, *L);
-    const TextTable table = read_table(path, 0);
     check_size(path, table.columns, table.rows);
     HeightMap map = allocate(table.columns, table.rows);
     std::copy(table.values.begin(), table.values.end(), map.data.get());
@@ -115,14 +187,40 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file) {
     return maps[0];
 }
 
-// Heights in nanometres over micrometres are common, and a thousand times too steep when taken as they are.
-void check_units(const NetcdfInput& file, const NetcdfInput::Variable& heights, const std::string& axis) {
-    const auto coordinate = file.find(axis);
-    if (!coordinate) return;
-    const auto of_heights = file.text_attribute(heights, "units"), of_axis = file.text_attribute(*coordinate, "units");
-    if (of_heights && of_axis && *of_heights != *of_axis)
-        refuse(file.path() + ": " + heights.name + " is in '" + *of_heights + "' but " + axis + " in '" + *of_axis +
-               "'; one unit of length is expected");
+// Factor from a variable's `units` to length_unit^power; none where it has no units.
+std::optional<double> unit_factor(const NetcdfInput& file, const NetcdfInput::Variable& v, const std::string& length_unit, int power = 1) {
+    const auto units = file.text_attribute(v, "units");
+    if (!units) return std::nullopt;
+    try {
+        return length_factor(*units, length_unit, power);
+    } catch (const Error& error) {
+        refuse(file.path() + ": the units of " + v.name + ": " + error.what());
+    }
+}
+
+// Factors of heights, x and y. Heights in nanometres over micrometres are common, and a thousand times too steep when taken as they
+// are: where some have units and others none, nobody knows what those are in.
+struct Factors {
+    double height = 1, x = 1, y = 1;
+};
+
+Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights, const std::string& length_unit, bool coordinates) {
+    std::vector<NetcdfInput::Variable> all = {heights};
+    if (coordinates)
+        for (const std::size_t dimension : {1, 0}) all.push_back(*file.find(heights.axes[dimension]));
+    double factor[3] = {1, 1, 1};
+    const NetcdfInput::Variable *with = nullptr, *without = nullptr;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto known = unit_factor(file, all[k], length_unit);
+        if (!known)
+            without = &all[k];
+        else if ((factor[k] = *known) != 1)
+            with = &all[k];
+    }
+    if (with && without)
+        refuse(file.path() + ": " + with->name + " is in '" + file.text_attribute(*with, "units").value_or("") + "', but " + without->name +
+               " has no attribute units: it cannot be told what it is in");
+    return {factor[0], factor[1], factor[2]};
 }
 
 void reverse_columns(HeightMap& map) {
@@ -133,7 +231,7 @@ void reverse_rows(HeightMap& map) {
     for (int j = 0; j < map.ny - 1 - j; ++j) std::swap_ranges(map.row(j), map.row(j) + map.nx, map.row(map.ny - 1 - j));
 }
 
-HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L) {
+HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, const std::string& length_unit) {
     const NetcdfInput file(path);
     const auto variable = find_heights(file);
     check_size(path, variable.lengths[1], variable.lengths[0]);
@@ -146,29 +244,27 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L) 
         check_L(path, *L);
         map.dx = map.dy = *L / map.nx;
     }
+    const Factors factor = unit_factors(file, variable, length_unit, x.has_value());
     if (x) {
-        check_units(file, variable, variable.axes[1]);
-        check_units(file, variable, variable.axes[0]);
-        const double extent = map.nx * x->step;
-        if (L && !(std::abs(extent - *L) <= kSameL * *L))
-            refuse(path + ": its coordinate " + variable.axes[1] + " spans " + std::to_string(map.nx) + " steps of " + text(x->step) +
-                   " = " + text(extent) + ", but L = " + text(*L) + " was given");
-        map.x0 = x->first;
-        map.y0 = y->first;
-        map.dx = x->step;
-        map.dy = y->step;
+        map.x0 = x->first * factor.x;
+        map.y0 = y->first * factor.y;
+        map.dx = x->step * factor.x;
+        map.dy = y->step * factor.y;
+        check_given_L(path, variable.axes[1], map.nx, map.dx, L);
     }
     file.read(variable, map.data.get());
+    if (factor.height != 1)
+        std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [&](double& z) { z *= factor.height; });
     if (x && x->reversed) reverse_columns(map);
     if (y && y->reversed) reverse_rows(map);
     return map;
 }
 
-Asperities read_netcdf_asperities(const std::string& path) {
+Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
     const NetcdfInput file(path);
     Asperities a;
     std::optional<std::size_t> size;
-    const auto take = [&](const char* name, std::vector<double>& values, bool required) {
+    const auto take = [&](const char* name, std::vector<double>& values, int power, bool required = true) {
         const auto v = file.find(name);
         if (!v && !required) return;
         if (!v) refuse(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
@@ -181,17 +277,23 @@ Asperities read_netcdf_asperities(const std::string& path) {
         size = v->lengths[0];
         values.resize(*size);
         file.read(*v, values.data());
+        const std::string units = file.text_attribute(*v, "units").value_or("radian");
+        if (power == 0 && units != "radian" && units != "radians" && units != "rad" && units != "1")
+            refuse(path + ": " + name + " is in '" + units + "'; radian is expected");
+        const double factor = power != 0 ? unit_factor(file, *v, length_unit, power).value_or(1.0) : 1.0;
+        if (factor != 1)
+            for (double& value : values) value *= factor;
     };
-    take("asperity_x", a.x, true);
-    take("asperity_y", a.y, true);
-    take("asperity_z", a.z, true);
-    take("asperity_radius", a.radius, true);
+    take("asperity_x", a.x, 1);
+    take("asperity_y", a.y, 1);
+    take("asperity_z", a.z, 1);
+    take("asperity_radius", a.radius, 1);
     if (file.find("asperity_kappa1") && file.find("asperity_kappa2") && file.find("asperity_angle")) {
-        take("asperity_kappa1", a.kappa1, true);
-        take("asperity_kappa2", a.kappa2, true);
-        take("asperity_angle", a.angle, true);
+        take("asperity_kappa1", a.kappa1, -1);
+        take("asperity_kappa2", a.kappa2, -1);
+        take("asperity_angle", a.angle, 0);
     }
-    take("asperity_biharmonic", a.biharmonic, false);
+    take("asperity_biharmonic", a.biharmonic, -3, false);
     if (a.size() == 0) refuse(path + ": there is no asperity in it");
     validate(a, [&](std::size_t i) { return path + ": asperity " + std::to_string(i) + ", counted from 0"; });
     return a;
@@ -210,8 +312,8 @@ Asperities read_text_asperities(const std::string& path) {
 
 }  // namespace
 
-HeightMap read_heights(const std::string& path, std::optional<double> L) {
-    HeightMap map = is_netcdf(path) ? read_netcdf_heights(path, L) : read_text_heights(path, L);
+HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit) {
+    HeightMap map = is_netcdf(path) ? read_netcdf_heights(path, L, length_unit) : read_text_heights(path, L);
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text(step));
     for (const double origin : {map.x0, map.y0})
@@ -224,7 +326,9 @@ HeightMap read_heights(const std::string& path, std::optional<double> L) {
     return map;
 }
 
-Asperities read_asperities(const std::string& path) { return is_netcdf(path) ? read_netcdf_asperities(path) : read_text_asperities(path); }
+Asperities read_asperities(const std::string& path, const std::string& length_unit) {
+    return is_netcdf(path) ? read_netcdf_asperities(path, length_unit) : read_text_asperities(path);
+}
 
 Extent extent(const Asperities& a) {
     Extent e;

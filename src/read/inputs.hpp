@@ -13,20 +13,23 @@ namespace rsc {
 
 // Heights from `path`.
 // NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable there is. scale_factor and
-//   add_offset are applied; missing values (_FillValue, missing_value, NaN, Inf) are refused, and so are height and coordinates
-//   in different `units`. The spacing comes from the coordinate variables of the two dimensions, which must be uniform to 1e-6
+//   add_offset are applied; missing values (_FillValue, missing_value, NaN, Inf) are refused. Heights and coordinates are
+//   converted from their `units` to `length_unit`; without `units` on any of them they are taken in length_unit; on some of them
+//   only, in another unit than length_unit, they are refused. The spacing comes from the coordinate variables of the two dimensions, which must be uniform to 1e-6
 //   of a step (or to the rounding of their own type); x0, y0 are the first coordinates; falling coordinates are turned round.
 //   Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. With both, nx dx must be L to 1e-6.
-// Text: a matrix, a line a y, rising; numbers separated by blanks or one comma or semicolon; `#` starts a comment. Needs L.
-// L: extent in x [length], a point being a cell (L = nx dx). At least 3 x 3 points. The map is not periodic.
-HeightMap read_heights(const std::string& path, std::optional<double> L);
+// Text (input_text.hpp): a matrix in length_unit, a line a y, rising; needs L. Or three columns x y z, in any order of the lines: the
+//   points of a full grid whose coordinates are uniform to a hundredth of a step, as text is rounded. Four columns are refused:
+//   they are a list of asperities.
+// L: extent in x [length_unit], a point being a cell (L = nx dx). At least 3 x 3 points. The map is not periodic.
+HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit = "mm");
 
 // Asperities from `path`.
 // NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1, _kappa2 and _angle when all
-//   three are there, asperity_biharmonic when it is there.
-// Text: four columns x y z r, separators and comments as above.
+//   three are there, asperity_biharmonic when it is there; each converted from its `units`, if it has them, to length_unit.
+// Text: four columns x y z r in length_unit, separators and comments as above.
 // At least one; everything finite, radii positive, kappa1 >= kappa2 > 0, no two at the same (x, y).
-Asperities read_asperities(const std::string& path);
+Asperities read_asperities(const std::string& path, const std::string& length_unit = "mm");
 
 // The smallest rectangle that holds the asperities' summits.
 struct Extent {

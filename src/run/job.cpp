@@ -45,7 +45,7 @@ void make_synthetic(Job& job) {
 
 void read_surface(Job& job) {
     const auto& keys = job.settings.surface;
-    HeightMap map = read_heights(keys.file, keys.L);
+    HeightMap map = read_heights(keys.file, keys.L, job.settings.run.length_unit);
     const double rms_height = detrend(map, keys.detrend);
     SummitCount count;
     const Detail detail = detail_of(job.settings);
@@ -71,7 +71,7 @@ void read_surface(Job& job) {
 
 void read_asperity_list(Job& job) {
     const auto& keys = job.settings.surface;
-    job.given = read_asperities(keys.file);
+    job.given = read_asperities(keys.file, job.settings.run.length_unit);
     make_law(job.settings.asperities.law, job.given, 1);  // refuses asperities that lack what the law needs
     const Extent box = extent(job.given);
     const double side = std::max(box.x_max - box.x_min, box.y_max - box.y_min);

@@ -148,7 +148,7 @@ refused() {
 test_wrong_shape() {
     command -v ncgen > /dev/null || exit 77
     mkdir work
-    printf '1 2 3\n4 5 6\n' > t; refused heights t "a height map of 3 x 2 points; at least 3 x 3 are needed"
+    printf '1 2 3 4 5\n4 5 6 7 8\n' > t; refused heights t "a height map of 5 x 2 points; at least 3 x 3 are needed"
     printf '1 2 3\n4 5 6 7\n1 2 3\n' > t; refused heights t "t:2: 4 values where 3 as in line 1"
     printf '1 2 3 4 5\n' > t; refused asperities t "t:1: 5 values where 4 were expected"
     printf '1 2 3 0\n' > t; refused asperities t "t:1.*radius"

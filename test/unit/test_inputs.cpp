@@ -166,12 +166,6 @@ void bad_heights_from_netcdf() {
     REFUSED(read_heights(heights_file("missing", NC_NETCDF4, x, y, "height", NC_DOUBLE, missing, z), std::nullopt), "is missing");
     z[7] = NC_FILL_DOUBLE;
     REFUSED(read_heights(heights_file("unwritten", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "is missing");
-    const auto units = [](int id, int v) {
-        ok(nc_put_att_text(id, v, "units", 2, "nm"));
-        ok(nc_put_att_text(id, v + 1, "units", 2, "um"));
-    };
-    REFUSED(read_heights(heights_file("units", NC_NETCDF4, x, y, "height", NC_DOUBLE, units), std::nullopt),
-            "height is in 'nm' but x in 'um'");
 
     {
         NcFile f("two");
@@ -209,6 +203,54 @@ void bad_heights_from_netcdf() {
         f.close();
         REFUSED(read_heights(f.path, 1.0), "at least 3 x 3");
     }
+}
+
+// Heights, x and y each in a unit of its own, converted to the run's.
+void units() {
+    const std::vector<double> x = ramp(5, 0.5, 1), y = ramp(3, 0, 2000);
+    const auto file = [&](const char* height, const char* x_unit, const char* y_unit) {
+        const auto tamper = [&](int id, int v) {
+            for (const auto& [variable, unit] : {std::pair(v, height), {v + 1, x_unit}, {v + 2, y_unit}})
+                if (unit) ok(nc_put_att_text(id, variable, "units", std::strlen(unit), unit));
+        };
+        return heights_file("units", NC_NETCDF4, x, y, "height", NC_DOUBLE, tamper);
+    };
+    const HeightMap m = read_heights(file("nm", "um", "nm"), 0.005, "mm");
+    CHECK_CLOSE(m(3, 2), 23e-6, 1e-20);
+    CHECK_CLOSE(m.dx, 1e-3, 1e-18);
+    CHECK_CLOSE(m.x0, 0.5e-3, 1e-18);
+    CHECK_CLOSE(m.dy, 2e-3, 1e-18);
+    CHECK(read_heights(file("nm", "um", "nm"), std::nullopt, "um")(3, 2) == 23e-3);
+    CHECK(read_heights(file(nullptr, nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
+    CHECK(read_heights(file("um", nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
+    CHECK(read_heights(file("1", "1", "1"), std::nullopt, "1")(3, 2) == 23);
+    REFUSED(read_heights(file("um", nullptr, "um"), std::nullopt, "mm"), "is in 'um', but x has no attribute units");
+    REFUSED(read_heights(file("banana", "um", "um"), std::nullopt, "mm"), "the units of height: 'banana' is no unit");
+    REFUSED(read_heights(file("um", "s", "um"), std::nullopt, "mm"), "the units of x: 's' is no unit of length");
+    REFUSED(read_heights(file("1", "1", "1"), std::nullopt, "mm"), "the units of height: '1' is no unit of length");
+    REFUSED(read_heights(file("um", "um", "nm"), 5.0, "mm"), "= 0.005, but L = 5 was given");
+
+    NcFile f("list");
+    const int d = f.dimension("asperity", 1);
+    const std::pair<const char*, const char*> names[] = {
+        {"asperity_x", "um"},        {"asperity_y", "um"},        {"asperity_z", "nm"},         {"asperity_radius", "um"},
+        {"asperity_kappa1", "um-1"}, {"asperity_kappa2", "mm-1"}, {"asperity_angle", "radian"}, {"asperity_biharmonic", "um-3"}};
+    std::vector<int> variables;
+    for (const auto& [name, unit] : names) {
+        variables.push_back(f.variable(name, NC_DOUBLE, {d}));
+        ok(nc_put_att_text(f.id, variables.back(), "units", std::strlen(unit), unit));
+    }
+    ok(nc_enddef(f.id));
+    const double two = 2;
+    for (const int v : variables) ok(nc_put_var_double(f.id, v, &two));
+    f.close();
+    const Asperities a = read_asperities(f.path, "mm");
+    CHECK_CLOSE(a.x[0], 2e-3, 1e-18);
+    CHECK_CLOSE(a.z[0], 2e-6, 1e-20);
+    CHECK_CLOSE(a.radius[0], 2e-3, 1e-18);
+    CHECK_CLOSE(a.kappa1[0], 2e3, 1e-9);
+    CHECK(a.kappa2[0] == 2 && a.angle[0] == 2);
+    CHECK_CLOSE(a.biharmonic[0], 2e9, 1e-3);
 }
 
 void cut_files() {
@@ -251,13 +293,13 @@ void cut_files() {
 
 void heights_from_text() {
     const HeightMap m = read_heights(RSC_TEST_DATA "/heights.txt", 8.0);
-    CHECK(m.nx == 4 && m.ny == 3 && m.dx == 2 && m.dy == 2 && m.x0 == 0 && !m.periodic);
+    CHECK(m.nx == 5 && m.ny == 3 && m.dx == 1.6 && m.dy == 1.6 && m.x0 == 0 && !m.periodic);
     CHECK(m(1, 0) == 1.5e-3 && m(3, 0) == 3 && m(2, 1) == 6.25 && m(3, 2) == -11);
     REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt), "L, its extent in x, must be given");
     // Windows' line ends, a byte order mark, no line end at the end, a number below the range of double.
     CHECK(read_heights(write("dos",
                              "\xef\xbb\xbf"
-                             "1 2 3\r\n4 5 6\r\n\r\n7 8 1e-400"),
+                             "1 2 3 0 0\r\n4 5 6 0 0\r\n\r\n7 8 1e-400 0 0"),
                        3.0)(1, 2) == 8);
     REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0), "t:2: 2 values where 3 as in line 1");
     REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0), "t:3: 4 values where 3 as in line 2");
@@ -267,17 +309,59 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n-inf 5 3\n"), 1.0), "'-inf' in column 1 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
-    REFUSED(read_heights(write("t", "1 2 3\n1 1e60 3\n1 2 3\n"), 1.0),
+    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 1e60 3 4 5\n1 2 3 4 5\n"), 1.0),
             "a height must be finite, 1e50 at most, not 1e+60 as in column 1 of row 1");
-    REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n1 2 3\n"), 1e-60), "the spacing must be from 1e-50 to 1e50");
+    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), 1e-60), "the spacing must be from 1e-50 to 1e50");
     REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
-    REFUSED(read_heights(write("t", "1 2 3\n1 2 3\n"), 1.0), "at least 3 x 3");
+    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0), "at least 3 x 3");
     REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "holds no numbers");
     REFUSED(read_heights(write("t", ""), 1.0), "is empty");
     REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0), "neither text nor a NetCDF file");
+    REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0), "t: is text in UTF-16");
+    REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0), "four columns are a list of asperities x y z r");
     REFUSED(read_heights(in_folder("absent"), 1.0), "absent: No such file");
     REFUSED(read_heights(folder.string(), 1.0), "is a directory");
     REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0), "t.nc:2: 'x'");  // by content, not by name
+}
+
+// One separator throughout; decimal commas between semicolons.
+void separators() {
+    const auto second = [](const char* content) { return read_heights(write("t", content), 5.0)(1, 2); };
+    CHECK(second("1 2\t3 4 5\n1 2 3 4 5\n1 2.5  3 4 5\n") == 2.5);
+    CHECK(second("1,2, 3 ,4,5\n1,2,3,4,5,\n1,2.5,3,4,5\n") == 2.5);
+    CHECK(second("1;2; 3 ;4;5\n1;2;3;4;5;\n1;2.5;3;4;5\n") == 2.5);
+    CHECK(second("1;2; 3 ;4;0,5\n1;2;3;4;5;\n1;2,5e0;3;4;5\n") == 2.5);
+    const auto row = [](const std::string& one) { return read_heights(write("t", one + "\n1;2;3;4;5\n1;2;3;4;5\n"), 5.0); };
+    REFUSED(row("0,01;2;3;4.5;5"), "t:1: '4.5' in column 4: a decimal point, where line 1 has decimal commas");
+    REFUSED(row("1;2;3;4.5;0,01"), "t:1: '0,01' in column 5: a decimal comma, where line 1 has decimal points");
+    REFUSED(row("1.000,5;2;3;4;5"), "'1.000,5' in column 1 is not a number");
+    REFUSED(row("1,000,5;2;3;4;5"), "'1,000,5' in column 1 is not a number");
+    REFUSED(row("1 2;2;3;4;5"), "t:1: blanks before '2' where the rest of the line has semicolons");
+    REFUSED(row("1 2 3 4 5"), "t:2: semicolons before the end where line 1 has blanks");
+    REFUSED(row("1,2,3,4,5"), "t:2: semicolons before the end where line 1 has commas");
+    // 0,01 between blanks was twice the columns once.
+    REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0), "t:1: blanks before '0' where the rest of the line has commas");
+    REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0), "decimal commas are read between semicolons only");
+}
+
+// x y z of a grid, in any order.
+void triples() {
+    std::string text;
+    for (int k = 0; k < 15; ++k) {
+        const int p = 7 * k % 15, i = p % 5, j = p / 5;
+        text += std::to_string(0.333 * i - 1) + " " + std::to_string(0.25 * j) + " " + std::to_string(10 * j + i) + "\n";
+    }
+    const HeightMap m = read_heights(write("xyz", text), std::nullopt);
+    CHECK(m.nx == 5 && m.ny == 3 && m(3, 2) == 23 && m(0, 1) == 10);
+    CHECK_CLOSE(m.dx, 0.333, 1e-12);
+    CHECK_CLOSE(m.dy, 0.25, 1e-12);
+    CHECK_CLOSE(m.x0, -1, 1e-12);
+    CHECK(read_heights(write("xyz", text), 5 * 0.333).nx == 5);
+    REFUSED(read_heights(write("xyz", text), 2.0), "its coordinate x spans 5 steps of 0.333 = 1.665, but L = 2");
+    REFUSED(read_heights(write("xyz", text.substr(0, text.rfind('\n', text.size() - 2) + 1)), std::nullopt), "but there is none at x = ");
+    REFUSED(read_heights(write("xyz", text + "-1 0 3\n"), std::nullopt), "xyz:16: x = -1, y = 0 is already in line 1");
+    REFUSED(read_heights(write("xyz", text + "-0.9 0 3\n"), std::nullopt), "three columns are read as x y z of a map");
+    REFUSED(read_heights(write("xyz", "1 2 3\n1 3 4\n1 4 5\n"), 1.0), "column x is 1 throughout");
 }
 
 std::string asperities_file(const std::string& name, std::vector<double> x, std::vector<double> r, bool curvatures,
@@ -361,6 +445,9 @@ int main() {
     bad_heights_from_netcdf();
     cut_files();
     heights_from_text();
+    separators();
+    triples();
+    units();
     asperities();
     several_threads();
     std::filesystem::remove_all(folder);

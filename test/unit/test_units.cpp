@@ -21,12 +21,16 @@ void factors() {
     CHECK(length_factor("micrometers", "um") == 1);
     CHECK(length_factor(" m ", "mm") == 1e3);
     CHECK(length_factor("inch", "mm") == 25.4);
+    CHECK(length_factor("mm-1", "um", -1) == 1e-3);
+    CHECK(length_factor("1/um", "mm", -1) == 1e3);
+    CHECK(length_factor("mm-3", "um", -3) == 1e-9);
+    CHECK(length_factor("1", "", 1) == 1);
     CHECK(length_factor("banana", "banana") == 1);  // equal texts are not looked up
 }
 
-void refused(const char* from, const char* to, const char* words) {
+void refused(const char* from, const char* to, const char* words, int power = 1) {
     try {
-        length_factor(from, to);
+        length_factor(from, to, power);
         CHECK(!"refused");
     } catch (const Error& error) {
         CHECK(error.kind() == Failure::bad_input);
@@ -39,6 +43,8 @@ void refusals() {
     refused("mm", "s", "'s' is no unit of length");
     refused("mm2", "mm", "'mm2' is no unit of length");
     refused("1", "mm", "'1' is no unit of length");
+    refused("mm", "mm", "'mm' where a unit like (mm)-1 is expected", -1);
+    refused("banana", "mm", "'banana' where a unit like (mm)-1 is expected", -1);
     refused("m @ 5", "mm", "'m @ 5' is no unit of length");  // its zero lies elsewhere
     for (const char* good : {"mm", "um", "m", "inch", "1", "", "10 um"}) CHECK(unit_problem(good, Quantity::length).empty());
     for (const char* good : {"N", "mN", "kgf", "1", ""}) CHECK(unit_problem(good, Quantity::force).empty());
