@@ -1,5 +1,5 @@
 # The libraries a program links, and what an installation holds: rsc.h, librsc shared and static, the Fortran module as source and compiled,
-# a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
+# rsc.py, a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -57,6 +57,9 @@ if(RSC_FORTRAN)
   install(FILES ${modules}/rsc.mod ${PROJECT_SOURCE_DIR}/modules/rsc.f90 ${PROJECT_SOURCE_DIR}/modules/rsc_results.f90
           DESTINATION ${rsc_fortran_folder})
 endif()
+
+install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc.py]])")
+install(SCRIPT ${PROJECT_SOURCE_DIR}/modules/install_python.cmake)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rscConfig.cmake.in ${PROJECT_BINARY_DIR}/rscConfig.cmake
                               INSTALL_DESTINATION ${rsc_package_folder})

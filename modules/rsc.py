@@ -1,0 +1,848 @@
+"""rsc for Python: the elastic contact of a sphere with a rough surface of asperities. The same as rsc.h, which says more about
+every argument.
+
+    import rsc
+    case = rsc.Case({"surface": {"sigma": 0.01, "n": 1024, "L_lambda_s": 256}})
+    asperities = rsc.Asperities.make(case)
+    contact = rsc.Contact.from_case(asperities, case)
+    force = contact.indent(separation=0.02)
+    print(force, contact.area, contact.stiffness())
+
+Needs numpy and librsc, nothing else; nothing is compiled. librsc is looked for in the environment variable RSC_LIBRARY (its full
+path), then beside this file's installation (or in build/ of a clone), then where the system looks for libraries.
+
+Units are yours, as long as they are consistent: [length], [force], moduli in [force/length^2]. Arrays are numpy arrays of float64;
+two-dimensional ones are [y, x], x running fastest. A list or tuple of numbers is converted; a numpy array of another dtype, shape
+or order is refused, so that nothing is copied behind your back (what the library keeps is copied once). Indices count from 0.
+
+Errors: Error with the library's message; ArgumentError, which is a ValueError, too, where an argument is wrong, its name in the
+message; NotConverged where the solver did not reach its tolerance (the last iterate can be read).
+
+Objects hold memory of the library until close(), the end of a `with` block, or garbage collection. A call on a closed object is a
+ValueError. Calls let other Python threads run: different objects work side by side; on one object, calls that only read run side by
+side, and one that changes it waits for the others.
+"""
+
+import collections
+import contextlib
+import ctypes
+import ctypes.util
+import glob
+import itertools
+import operator
+import os
+import re
+import threading
+
+import numpy as np
+
+__all__ = ["Case", "Surface", "Asperities", "Contact", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
+           "Level", "Spots", "LEVELS", "read", "study", "version", "keys"]
+
+# ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
+# One row a function, as rsc.h declares it (all return int32_t); a test compares them. From a row follow the ctypes, the checks of
+# the arguments by name, and whether an object is read (const) or changed by the call.
+_PROTOTYPES = """
+rsc_version(char* buffer, int64_t size, int64_t* length)
+rsc_message(char* buffer, int64_t size, int64_t* length)
+rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* length)
+rsc_case_create(rsc_case** new_case)
+rsc_case_copy(rsc_case** new_case, const rsc_case* original)
+rsc_case_destroy(rsc_case** old_case)
+rsc_case_read(rsc_case* a_case, const char* text)
+rsc_case_set(rsc_case* a_case, const char* name, const char* value)
+rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length)
+rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length)
+rsc_key_count(int64_t* count)
+rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length)
+rsc_case_run(const rsc_case* a_case, int64_t* failed_levels)
+rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization)
+rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0, int32_t periodic, const double* heights)
+rsc_surface_copy(rsc_surface** surface, const rsc_surface* original)
+rsc_surface_destroy(rsc_surface** surface)
+rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms)
+rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0, int32_t* periodic)
+rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights)
+rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4)
+rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case)
+rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization)
+rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z, const double* radius, const double* kappa1, const double* kappa2, const double* angle, const double* biharmonic)
+rsc_asperities_copy(rsc_asperities** asperities, const rsc_asperities* original)
+rsc_asperities_destroy(rsc_asperities** asperities)
+rsc_asperities_count(const rsc_asperities* asperities, int64_t* n)
+rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius)
+rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle)
+rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0, const rsc_case* a_case)
+rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case)
+rsc_contact_copy(rsc_contact** contact, const rsc_contact* original)
+rsc_contact_destroy(rsc_contact** contact)
+rsc_contact_move_tip(rsc_contact* contact, double x0, double y0)
+rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0)
+rsc_contact_first_touch(const rsc_contact* contact, double* separation)
+rsc_contact_indent(rsc_contact* contact, double separation, double* force)
+rsc_contact_press(rsc_contact* contact, double force, double* separation)
+rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts)
+rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations, int64_t* overlapping_pairs, double* residual)
+rsc_contact_stiffness(rsc_contact* contact, double* stiffness)
+rsc_contact_energy(const rsc_contact* contact, double* energy)
+rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration)
+rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration)
+rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection)
+"""
+
+# Status codes and what is to be said about a level: rsc.h, RSC_STATUS_LIST and RSC_LEVEL_LIST; the same test compares them.
+SUCCESS, NOT_CONVERGED, NO_MEMORY, FILE, NO_RESULT, INTERNAL = range(6)
+LEVEL_CONVERGED, LEVEL_OUT_OF_VALIDITY, LEVEL_OVERLAPPING, LEVEL_NOT_UNIQUE, LEVEL_NOT_CONVERGED = range(5)
+
+#: What the status of a level means, by its number: the names in the variable `status` of a result file.
+LEVELS = ("converged", "out_of_validity", "overlapping", "not_unique", "not_converged")
+
+_Argument = collections.namedtuple("_Argument", "const type stars name")
+_INTEGERS = {"int32_t": (ctypes.c_int32, np.int32, 2**31), "int64_t": (ctypes.c_int64, np.int64, 2**63)}
+
+
+class Error(Exception):
+    """A call of the library failed. str(error) is the library's message; error.status its status: above 0, a NOT_CONVERGED, NO_MEMORY,
+    FILE, NO_RESULT or INTERNAL of this module; below 0, the number of the wrong argument in rsc.h (see ArgumentError)."""
+
+    def __init__(self, message, status=0):
+        super().__init__(message)
+        self.status = status
+
+
+class ArgumentError(Error, ValueError):
+    """An argument is wrong; the message names it. Both an Error and a ValueError. error.status is below 0 if the library found it."""
+
+
+class NotConverged(Error):
+    """The solver did not reach its tolerance. The object holds the last iterate, which can be read; after Case.run the file is written,
+    and error.failed_levels says how many levels failed."""
+
+    failed_levels = None
+
+
+def _parse(prototypes):
+    """{function: [_Argument, ...]} of lines as above."""
+    functions = {}
+    for line in prototypes.strip().splitlines():
+        name, arguments = re.fullmatch(r"(\w+)\((.*)\)", line.strip()).groups()
+        functions[name] = []
+        for argument in arguments.split(","):
+            const, kind, stars, word = re.fullmatch(r"\s*(const )?(\w+)(\**) (\w+)", argument).groups()
+            functions[name].append(_Argument(bool(const), kind, len(stars), word))
+    return functions
+
+
+_FUNCTIONS = _parse(_PROTOTYPES)
+
+
+def _ctype(argument):
+    """What ctypes is told: numbers by value; everything else is an address, made and checked by _convert."""
+    if argument.stars:
+        return ctypes.c_void_p
+    return ctypes.c_double if argument.type == "double" else _INTEGERS[argument.type][0]
+
+
+def _library_paths():
+    if os.environ.get("RSC_LIBRARY"):
+        yield os.environ["RSC_LIBRARY"]
+        return
+    folder = os.path.dirname(os.path.abspath(__file__))
+    for _ in range(5):
+        for pattern in ("lib/librsc.so", "lib/*-linux-gnu/librsc.so", "lib64/librsc.so", "build/librsc.so", "lib/librsc.dylib", "build/librsc.dylib"):
+            # An installation without the files for developers has librsc.so.X.Y only.
+            yield from sorted(glob.glob(os.path.join(glob.escape(folder), pattern)) or glob.glob(os.path.join(glob.escape(folder), pattern) + ".*"))[:1]
+        folder = os.path.dirname(folder)
+    found = ctypes.util.find_library("rsc")
+    if found:
+        yield found
+
+
+def _load():
+    path = next(_library_paths(), None)
+    if path is None:
+        raise ImportError("rsc: librsc was not found; install it (cmake --install build) or set RSC_LIBRARY to the path of librsc.so")
+    try:
+        library = ctypes.CDLL(path)  # lets other threads run during calls
+    except OSError as error:
+        raise ImportError(f"rsc: {path} cannot be loaded: {error}") from None
+    for name, arguments in _FUNCTIONS.items():
+        try:
+            function = getattr(library, name)
+        except AttributeError:
+            raise ImportError(f"rsc: {path} has no function {name}: it is of another version than rsc.py") from None
+        function.argtypes = [_ctype(a) for a in arguments]
+        function.restype = ctypes.c_int32
+    return library, path
+
+
+_library, _library_path = _load()
+
+
+# ---- one call ------------------------------------------------------------------------------------------------------------------
+class _Lock:
+    """Many readers or one writer. A writer that waits lets no further readers in."""
+
+    def __init__(self):
+        self._gate, self._busy, self._count = threading.Lock(), threading.Lock(), threading.Lock()
+        self._readers = 0
+
+    def acquire(self, shared):
+        with self._gate:
+            if not shared:
+                self._busy.acquire()
+                return
+            with self._count:
+                if self._readers == 0:
+                    self._busy.acquire()
+                self._readers += 1
+
+    def release(self, shared):
+        if not shared:
+            self._busy.release()
+            return
+        with self._count:
+            self._readers -= 1
+            if self._readers == 0:
+                self._busy.release()
+
+
+class _Object:
+    """What owns a handle of the library."""
+
+    _kind = None  # "case" of rsc_case
+
+    def __init__(self):
+        raise TypeError(f"rsc.{type(self).__name__}: use one of its class methods")
+
+    @classmethod
+    def _make(cls, function, *arguments):
+        self = cls.__new__(cls)
+        self._handle, self._lock = ctypes.c_void_p(), _Lock()
+        _call(function, ctypes.byref(self._handle), *arguments)
+        return self
+
+    def copy(self):
+        """Another object of the same content, independent of this one; one for another thread. Raises Error (no memory), ValueError (closed)."""
+        return type(self)._make(f"rsc_{self._kind}_copy", self)
+
+    def close(self):
+        """Gives the memory back, waiting for calls of other threads on this object. Closing twice is allowed; any other use afterwards is a
+        ValueError."""
+        if getattr(self, "_handle", None):
+            self._lock.acquire(shared=False)
+            try:
+                if self._handle:
+                    getattr(_library, f"rsc_{self._kind}_destroy")(ctypes.byref(self._handle))
+            finally:
+                self._lock.release(shared=False)
+
+    @property
+    def closed(self):
+        """True after close()."""
+        return not getattr(self, "_handle", None)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        with contextlib.suppress(Exception):  # the interpreter may be going down
+            self.close()
+
+    def __reduce__(self):
+        raise TypeError(f"rsc.{type(self).__name__} cannot be pickled: it lives in this process; pickle the text of its case or its arrays")
+
+    def __copy__(self):
+        return self.copy()
+
+    def __deepcopy__(self, _):
+        return self.copy()
+
+
+def _refuse(name, what):
+    raise ArgumentError(f"{name}: {what}")
+
+
+def _array(name, value, shape=None, dtype=np.float64):
+    """The array itself if it can be handed over as it is; lists and numbers are converted. 1-D slices with a stride are copied."""
+    if not isinstance(value, np.ndarray):
+        try:
+            value = np.array(value, dtype=dtype)
+        except (TypeError, ValueError):
+            _refuse(name, "numbers are expected")
+    if value.dtype != dtype:
+        _refuse(name, f"an array of {np.dtype(dtype).name} is expected, not of {value.dtype}; numpy.asarray({name}, '{np.dtype(dtype).name}') makes one")
+    if shape is not None and (value.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, value.shape))):
+        wanted = ", ".join("n" if n is None else str(n) for n in shape)
+        _refuse(name, f"the shape ({wanted}{',' if len(shape) == 1 else ''}) is expected, not {value.shape}")
+    if value.ndim == 1 and not value.flags.c_contiguous:
+        value = np.ascontiguousarray(value)
+    return value
+
+
+def _convert(argument, value):
+    """A Python value as ctypes takes it, and what has to live until the call is over."""
+    name, kind = argument.name, argument.type
+    if argument.stars == 0:
+        if kind == "double":
+            if isinstance(value, (str, bytes)):
+                _refuse(name, "a number is expected, not a text")
+            try:
+                return float(value), None
+            except (TypeError, ValueError, OverflowError):
+                _refuse(name, f"a number is expected, not {value!r:.80}")
+        try:
+            number = operator.index(value)
+        except TypeError:
+            _refuse(name, f"a whole number is expected, not {value!r:.80}")
+        limit = _INTEGERS[kind][2]
+        if not -limit <= number < limit:
+            _refuse(name, f"{number} is too large")
+        return number, None
+    if value is None:
+        return None, None
+    if kind == "char" and argument.const:
+        if not isinstance(value, str):
+            _refuse(name, f"a text is expected, not {value!r:.80}")
+        if "\0" in value:
+            _refuse(name, "a text without null characters is expected")
+        text = ctypes.create_string_buffer(value.encode("utf-8", "surrogateescape"))
+        return ctypes.addressof(text), text
+    if isinstance(value, np.ndarray):
+        wanted = np.float64 if kind == "double" else _INTEGERS[kind][1]
+        if value.dtype != wanted:
+            _refuse(name, f"an array of {np.dtype(wanted).name} is expected, not of {value.dtype}")
+        if not value.flags.c_contiguous:
+            _refuse(name, f"an array in C order is expected (x fastest, no gaps); numpy.ascontiguousarray({name}) makes one")
+        if not argument.const and not value.flags.writeable:
+            _refuse(name, "the array is read-only")
+        return value.ctypes.data, value
+    if isinstance(value, ctypes._SimpleCData) or isinstance(value, ctypes.Array):
+        return ctypes.addressof(value), value
+    return value, value  # byref of a handle
+
+
+def _call(function, *values):
+    """Calls a function of rsc.h: converts and checks the values, holds the objects among them, raises what went wrong."""
+    arguments = _FUNCTIONS[function]
+    converted, alive, objects = [], [], []
+    for argument, value in zip(arguments, values):
+        if argument.type.startswith("rsc_") and argument.stars == 1:
+            if value is None:
+                converted.append(None)
+                continue
+            if not isinstance(value, _Object) or "rsc_" + value._kind != argument.type:
+                _refuse(argument.name, f"an object of rsc.{argument.type[4:].capitalize()} is expected, not {type(value).__name__}")
+            objects.append((value, argument.const, argument.name))
+            converted.append(value)
+        else:
+            value, owner = _convert(argument, value)
+            converted.append(value)
+            alive.append(owner)
+    objects.sort(key=lambda entry: id(entry[0]))  # one order for all threads
+    held = []
+    try:
+        for value, const, _ in objects:
+            value._lock.acquire(const)
+            held.append((value, const))
+        for value, _, name in objects:
+            if not value._handle:
+                _refuse(name, "this object is closed")
+        status = getattr(_library, function)(*[v._handle if isinstance(v, _Object) else v for v in converted])
+    finally:
+        for value, const in held:
+            value._lock.release(const)
+    if status != SUCCESS:
+        message = _text("rsc_message") or f"{function}: status {status}"
+        kind = ArgumentError if status < 0 else NotConverged if status == NOT_CONVERGED else Error
+        raise kind(message, status)
+
+
+def _text(function, *values):
+    """The text that a function writes into a buffer."""
+    size = 4096
+    while True:
+        buffer, length = ctypes.create_string_buffer(size), ctypes.c_int64()
+        _call(function, *values, buffer, size, length)
+        if length.value < size:
+            return buffer.value.decode("utf-8", "replace")
+        size = length.value + 1
+
+
+def _numbers(function, first, names):
+    """The scalar outputs of a function that has an object and then outputs only, as a tuple of the type `names`."""
+    outputs = [ctypes.c_double() if a.type == "double" else _INTEGERS[a.type][0]() for a in _FUNCTIONS[function][1:]]
+    _call(function, first, *outputs)
+    return names(*[o.value for o in outputs])
+
+
+def _number(function, *values):
+    """The last argument of a function, a scalar output."""
+    output = ctypes.c_double() if _FUNCTIONS[function][-1].type == "double" else ctypes.c_int64()
+    _call(function, *values, output)
+    return output.value
+
+
+# ---- what calls return ---------------------------------------------------------------------------------------------------------
+def _record(name, fields, doc):
+    kind = collections.namedtuple(name, fields)
+    kind.__doc__ = doc
+    return kind
+
+
+Grid = _record("Grid", "nx ny dx dy x0 y0 periodic", "The grid of a surface: points nx, ny; steps dx, dy and place x0, y0 of the first point [length]; periodic.")
+Moments = _record("Moments", "m0 m2 m4", "Spectral moments of a surface: m0 [length^2], m2 [1], m4 [1/length^2]; the rms slope is sqrt(2 m2).")
+Summits = _record("Summits", "x y z radius", "Asperities: places x, y, heights z and radii, arrays of shape (n,) [length].")
+Curvatures = _record("Curvatures", "kappa1 kappa2 angle", "Principal curvatures kappa1 >= kappa2 [1/length] of asperities and the direction of the "
+                     "kappa2 axis from x [rad]; arrays of shape (n,).")
+Level = _record("Level", "status candidates iterations overlapping_pairs residual", "How a level was reached: status (its name: rsc.LEVELS[status]); candidates, "
+                "asperities the sphere would penetrate without interaction; iterations; overlapping pairs of spots; relative residual [1].")
+Spots = _record("Spots", "asperity force radius penetration", "Contacts: indices of the asperities from 0 (int32; None where all asperities are meant), force [force], "
+                "contact radius a, the area being pi a^2 [length], and penetration [length]; arrays of shape (n,).")
+_Result = collections.namedtuple("_Result", "separation force area contacts")
+_Tip = collections.namedtuple("_Tip", "x0 y0")
+
+
+# ---- cases ---------------------------------------------------------------------------------------------------------------------
+def version():
+    """The version of librsc, a text 'major.minor.patch'."""
+    return _text("rsc_version")
+
+
+def keys():
+    """The names of all keys of a case, 'group%key', a list of texts in the order of the documentation (rsc --describe)."""
+    return [_text("rsc_key_name", k) for k in range(_number("rsc_key_count"))]
+
+
+def _namelist_value(name, value):
+    """A Python value in namelist syntax."""
+    if isinstance(value, (bool, np.bool_)):
+        return ".true." if value else ".false."
+    if isinstance(value, str):
+        return "'" + value.replace("'", "''") + "'"
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        return {"inf": "Infinity", "-inf": "-Infinity", "nan": "NaN"}.get(repr(float(value)), repr(float(value)))
+    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1 and len(value):
+        return ", ".join(_namelist_value(name, v) for v in value)
+    _refuse(name, f"a number, a text, True, False or a list of these is expected, not {value!r:.80}")
+
+
+def _python_value(text):
+    """The value of a key as the library gives it, in Python's types."""
+    values = []
+    for token in re.findall(r"'(?:[^']|'')*'|[^,\s]+", text):
+        if token.startswith("'"):
+            values.append(token[1:-1].replace("''", "'"))
+        elif token.lower() in (".true.", ".false."):
+            values.append(token.lower() == ".true.")
+        elif re.fullmatch(r"[+-]?\d+", token):
+            values.append(int(token))
+        else:
+            values.append(float(token))
+    return None if not values else values[0] if len(values) == 1 else tuple(values)
+
+
+class Case(_Object):
+    """Every option, by the names of the program's namelist (rsc --describe); all at their defaults to begin with.
+
+    Case(source): source is a dictionary {"surface": {"sigma": 0.01}} or {"surface%sigma": 0.01}, a namelist text as the program reads it
+    ("&surface sigma=0.01 /"), another Case, or None. Values are numbers, texts, True, False, or lists of these.
+    case["surface%sigma"] reads a value (None: not set; a tuple: several) and sets it. str(case) is the whole case as a namelist.
+    Raises ArgumentError with a line for every key or value that is refused."""
+
+    _kind = "case"
+
+    def __init__(self, source=None):
+        if isinstance(source, Case):
+            self._handle, self._lock = ctypes.c_void_p(), _Lock()
+            _call("rsc_case_copy", ctypes.byref(self._handle), source)
+            return
+        self._handle, self._lock = ctypes.c_void_p(), _Lock()
+        _call("rsc_case_create", ctypes.byref(self._handle))
+        if isinstance(source, str):
+            self.read(source)
+        elif source is not None:
+            self.update(source)
+
+    def read(self, text):
+        """Replaces all keys by what the namelist `text` says, defaults where it says nothing. Raises ArgumentError, the case then being
+        unchanged."""
+        _call("rsc_case_read", self, text)
+
+    def update(self, source):
+        """Sets the keys of a dictionary `source`, {"surface": {"sigma": 0.01}} or {"surface%sigma": 0.01}. Raises ArgumentError, the case then
+        being unchanged."""
+        try:
+            items = [(f"{group}%{key}", value) for group, inner in source.items() if isinstance(inner, dict) for key, value in inner.items()]
+            items += [(key, value) for key, value in source.items() if not isinstance(value, dict)]
+        except (AttributeError, TypeError):
+            _refuse("source", f"a dictionary, a namelist text or a Case is expected, not {source!r:.80}")
+        with self.copy() as trial:  # all or nothing
+            for target in (trial, self):
+                for key, value in items:
+                    target[key] = value
+
+    def __setitem__(self, name, value):
+        """Sets one key: `name` "group%key", "group%key(2)" or "group%key(1:2)", `value` as above. Raises ArgumentError."""
+        _call("rsc_case_set", self, name, _namelist_value(name, value))
+
+    def __getitem__(self, name):
+        """The value of the key `name`; None if it is not set. Raises ArgumentError for an unknown name."""
+        return _python_value(_text("rsc_case_get", self, name))
+
+    def text(self):
+        """All keys with their values, as namelist text that the program and read() take."""
+        return _text("rsc_case_text", self)
+
+    __str__ = text
+
+    def __eq__(self, other):
+        return isinstance(other, Case) and self.text() == other.text()
+
+    __hash__ = None
+
+    def run(self, file=None):
+        """Runs the case as the program does, writes its result file and returns the path of it; read(path) reads it. Prints nothing.
+        file: path of the result file; by default that of the key output%file. Paths are relative to the working directory.
+        Raises ArgumentError for a case that is refused, NotConverged if some levels did not converge (the file is written; the number is
+        error.failed_levels), Error for a file that cannot be written or memory that is refused."""
+        case = self
+        if file is not None:
+            case = self.copy()
+            case["output%file"] = os.fspath(file)
+        failed = ctypes.c_int64()
+        try:
+            _call("rsc_case_run", case, failed)
+        except NotConverged as error:
+            error.failed_levels = failed.value
+            raise
+        return case["output%file"]
+
+
+# ---- surfaces ------------------------------------------------------------------------------------------------------------------
+class Surface(_Object):
+    """Heights on a regular grid: made by synthesize or take."""
+
+    _kind = "surface"
+
+    @classmethod
+    def synthesize(cls, case=None, realization=1):
+        """A random surface by the keys of &surface and run%seed: the same as realization number `realization` of the program. It is periodic,
+        on x = i L/n, y = j L/n. case: None for the defaults. Raises ArgumentError for keys that are refused, Error (no memory)."""
+        return cls._make("rsc_surface_synthesize", case, realization)
+
+    @classmethod
+    def take(cls, heights, dx, dy=None, x0=0.0, y0=0.0, periodic=False):
+        """A surface of given heights, copied. Separations are measured from z = 0: see detrend.
+        heights: float64, shape (ny, nx), C order, finite, 3 points or more each way [length]; dx, dy: grid steps > 0, dy = dx by default
+        [length]; x0, y0: place of the first point [length]; periodic: whether the surface wraps around.
+        Raises ArgumentError naming what is wrong, Error (no memory)."""
+        heights = _array("heights", heights, (None, None))
+        ny, nx = heights.shape
+        return cls._make("rsc_surface_take", nx, ny, dx, dx if dy is None else dy, x0, y0, bool(periodic), heights)
+
+    def detrend(self, how="plane"):
+        """Subtracts the mean or the least-squares plane. how: 'none', 'mean' or 'plane'. Returns the rms height left [length]. Raises
+        ArgumentError for another word."""
+        rms = ctypes.c_double()
+        _call("rsc_surface_detrend", self, how, rms)
+        return rms.value
+
+    def grid(self):
+        """The grid, a Grid. Raises ValueError if closed."""
+        g = _numbers("rsc_surface_grid", self, Grid)
+        return g._replace(periodic=bool(g.periodic))
+
+    def heights(self, out=None):
+        """The heights [length], shape (ny, nx). out: an array of float64 of that shape to be filled instead of a new one. Raises ArgumentError if
+        it does not fit."""
+        grid = self.grid()
+        out = np.empty((grid.ny, grid.nx)) if out is None else _output("out", out, (grid.ny, grid.nx))
+        _call("rsc_surface_heights", self, out.size, out)
+        return out
+
+    def moments(self):
+        """Spectral moments by finite differences on the grid, Moments: m0 [length^2], m2 [1], m4 [1/length^2]. Raises ValueError if closed."""
+        return _numbers("rsc_surface_moments", self, Moments)
+
+
+def _output(name, array, shape):
+    if not isinstance(array, np.ndarray):
+        _refuse(name, "a numpy array is expected")
+    if not array.flags.c_contiguous:
+        _refuse(name, "an array in C order is expected")
+    return _array(name, array, shape)
+
+
+# ---- asperities ----------------------------------------------------------------------------------------------------------------
+class Asperities(_Object):
+    """Summits: places, heights, radii and perhaps curvatures. Made by find, make or take; they never change. len(asperities) is their number."""
+
+    _kind = "asperities"
+
+    @classmethod
+    def find(cls, surface, case=None):
+        """The summits of a surface. surface: a Surface; case: asperities%curvature and asperities%law decide on how, None for the defaults.
+        Raises ArgumentError for a surface without summits or one too coarse for the law, Error (no memory)."""
+        return cls._make("rsc_asperities_find", surface, case)
+
+    @classmethod
+    def make(cls, case=None, realization=1):
+        """The asperities of Surface.synthesize(case, realization), found without storing the surface. case: None for the defaults; realization:
+        number of the surface. Raises ArgumentError for keys that are refused, Error (no memory)."""
+        return cls._make("rsc_asperities_make", case, realization)
+
+    @classmethod
+    def take(cls, x, y, z, radius, kappa1=None, kappa2=None, angle=None, biharmonic=None):
+        """Given asperities, copied. x, y, z, radius: float64, shape (n,), radius > 0 [length]; kappa1 >= kappa2 > 0: principal curvatures
+        [1/length] and angle: direction of the kappa2 axis from x [rad], all three or none; biharmonic: nabla^4 z at the summits
+        [1/length^3], where the law needs it. Raises ArgumentError naming the array that is wrong, Error (no memory)."""
+        x = _array("x", x, (None,))
+        rest = {"y": y, "z": z, "radius": radius, "kappa1": kappa1, "kappa2": kappa2, "angle": angle, "biharmonic": biharmonic}
+        arrays = [None if v is None and k not in ("y", "z", "radius") else _array(k, v, (x.size,)) for k, v in rest.items()]
+        return cls._make("rsc_asperities_take", x.size, x, *arrays)
+
+    def __len__(self):
+        return _number("rsc_asperities_count", self)
+
+    def get(self):
+        """Places, heights and radii, Summits: arrays of shape (n,) [length]. Raises ValueError if closed."""
+        arrays = Summits(*np.empty((4, len(self))))
+        _call("rsc_asperities_get", self, len(self), *arrays)
+        return arrays
+
+    def curvatures(self):
+        """Principal curvatures, Curvatures: arrays of shape (n,) [1/length], [rad]. Raises ArgumentError for asperities that were given without."""
+        arrays = Curvatures(*np.empty((3, len(self))))
+        _call("rsc_asperities_curvatures", self, len(self), *arrays)
+        return arrays
+
+
+# ---- contact -------------------------------------------------------------------------------------------------------------------
+class Contact(_Object):
+    """A rigid smooth sphere over an elastic half-space that carries asperities (the equivalent problem of two bodies), and the last level
+    computed.
+
+    Contact(asperities, E_star, R, x0, y0, case): E_star: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [force/length^2]; R: radius, inf for a flat
+    [length]; x0, y0: place of the tip [length]; case: keys of &solver, asperities%law, indentation%selection, ...; None for the defaults.
+    Raises ArgumentError naming what is wrong, Error (no memory). Contact.from_case takes E*, R and the tip from a case."""
+
+    _kind = "contact"
+
+    def __init__(self, asperities, E_star, R, x0=0.0, y0=0.0, case=None):
+        self._handle, self._lock = ctypes.c_void_p(), _Lock()
+        _call("rsc_contact_create", ctypes.byref(self._handle), _given("asperities", asperities), E_star, R, x0, y0, case)
+        self._asperities = len(asperities)
+
+    @classmethod
+    def from_case(cls, asperities, case=None):
+        """A contact with E* and R from the keys of &solids and the tip at indentation%centre, by default above the middle. asperities: an
+        Asperities; case: a Case, None for the defaults. Raises ArgumentError for keys that are refused, Error (no memory)."""
+        self = cls._make("rsc_contact_create_from_case", _given("asperities", asperities), case)
+        self._asperities = len(asperities)
+        return self
+
+    def copy(self):
+        """Another contact with the same asperities, sphere, tip and options, without a result: one for another thread. Raises Error (no memory),
+        ValueError (closed)."""
+        other = super().copy()
+        other._asperities = self._asperities
+        return other
+
+    def indent(self, separation):
+        """Computes the contact at a separation and returns the force [force]. The answer depends on the separation and the tip alone.
+        separation: Z0, height of the tip above z = 0 [length]. Raises ArgumentError if it is not finite, NotConverged (the last iterate can
+        be read), Error."""
+        return _number("rsc_contact_indent", self, separation)
+
+    def press(self, force):
+        """Finds the separation at which the sphere carries a force, computes the contact there, and returns the separation Z0 [length].
+        force: N >= 0; 0 gives the separation of first touch [force]. Raises ArgumentError if it is negative or not finite, or no asperity
+        lies under the sphere; NotConverged (also if the force jumps over N), Error."""
+        return _number("rsc_contact_press", self, force)
+
+    def curve(self, separations=None, forces=None, progress=None):
+        """A level for each of the separations [length], or of the forces [force] (one of the two, shape (n,)). Returns a dictionary of arrays of
+        shape (n,), named as in a result file: separation [length], force [force], contact_area [length^2], contacts, status. Levels that did
+        not converge have status 4 and are no error here. progress: called as progress(done, n) after each level; what it raises ends the
+        curve. Raises ArgumentError as indent and press do."""
+        if (separations is None) == (forces is None):
+            _refuse("separations", "either separations or forces are expected")
+        what, call, values = ("separations", self.indent, separations) if forces is None else ("forces", self.press, forces)
+        values = _array(what, values, (None,))
+        n = values.size
+        levels = {"separation": np.empty(n), "force": np.empty(n), "contact_area": np.empty(n), "contacts": np.empty(n, np.int64),
+                  "status": np.empty(n, np.int32)}
+        for k, value in enumerate(values):
+            with contextlib.suppress(NotConverged):
+                call(float(value))
+            for name, number in zip(levels, (*self._result(), self.level().status)):
+                levels[name][k] = number
+            if progress is not None:
+                progress(k + 1, n)
+        return levels
+
+    def _result(self):
+        return _numbers("rsc_contact_result", self, _Result)
+
+    @property
+    def separation(self):
+        """Z0 of the last level [length]. Raises Error (no result)."""
+        return self._result().separation
+
+    @property
+    def force(self):
+        """N of the last level [force]. Raises Error (no result)."""
+        return self._result().force
+
+    @property
+    def area(self):
+        """True contact area A of the last level [length^2]. Raises Error (no result)."""
+        return self._result().area
+
+    @property
+    def contacts(self):
+        """Number of asperities in contact at the last level. Raises Error (no result)."""
+        return self._result().contacts
+
+    def level(self):
+        """How the last level was reached, a Level. Raises Error (no result)."""
+        return _numbers("rsc_contact_level", self, Level)
+
+    def stiffness(self):
+        """dN/dZ0 of the last level, negative, 0 without contact [force/length]. Raises Error (no result)."""
+        return _number("rsc_contact_stiffness", self)
+
+    def energy(self):
+        """Elastic energy W of the last level, dW/dZ0 = -N [force length]. Raises Error (no result)."""
+        return _number("rsc_contact_energy", self)
+
+    @property
+    def tip(self):
+        """The place (x0, y0) of the tip [length]. Setting it moves the sphere sideways; results stay those of the last level until the next one.
+        Raises ArgumentError if it is not finite."""
+        return tuple(_numbers("rsc_contact_tip", self, _Tip))
+
+    @tip.setter
+    def tip(self, place):
+        place = _array("tip", place, (2,))
+        _call("rsc_contact_move_tip", self, float(place[0]), float(place[1]))
+
+    def first_touch(self):
+        """The separation at which the sphere, coming down, touches its first asperity [length]. Raises ArgumentError if none lies under it."""
+        return _number("rsc_contact_first_touch", self)
+
+    def spots(self):
+        """The contacts of the last level by increasing index of asperity, Spots: arrays of shape (contacts,). Raises Error (no result)."""
+        n = self.contacts
+        spots = Spots(np.empty(n, np.int32), *np.empty((3, n)))
+        _call("rsc_contact_spots", self, n, *spots)
+        return spots
+
+    def per_asperity(self):
+        """The same for every asperity, Spots without `asperity`: arrays of shape (len(asperities),), 0 where there is no contact. Raises Error
+        (no result)."""
+        spots = Spots(None, *np.empty((3, self._asperities)))
+        _call("rsc_contact_per_asperity", self, self._asperities, *spots[1:])
+        return spots
+
+    def deflection(self, x, y):
+        """The lowering of the surface by the contact forces [length], positive down, in the shape of x. x, y: places [length], numbers or
+        arrays of float64 of equal shape. Raises ArgumentError if they are not finite or differ in shape, Error (no result)."""
+        x = _array("x", x)
+        y = _array("y", y, x.shape)
+        deflection = np.empty(x.shape)
+        _call("rsc_contact_deflection", self, x.size, x, y, deflection)
+        return deflection if deflection.ndim else float(deflection)
+
+
+def _given(name, value):
+    if value is None:
+        _refuse(name, "an object is expected, not None")
+    return value
+
+
+# ---- results and studies -------------------------------------------------------------------------------------------------------
+def read(path, xarray=None):
+    """Reads a result file. path: of the file. xarray: True for an xarray.Dataset (which needs Debian's python3-xarray), False for a
+    dictionary {variable: numpy array} with the file's attributes under the empty name ""; None, the default, for the Dataset where xarray
+    is installed. Needs netCDF4 (Debian's python3-netcdf4). Shapes, units and meanings are those of the file (ncdump -h); absent values of
+    reals are NaN. Raises Error if the file cannot be read, ImportError if a package is missing."""
+    path = os.fspath(path)
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(path) as file:
+            variables = {name: _filled(variable[...]) for name, variable in file.variables.items()}
+            attributes = {name: file.getncattr(name) for name in file.ncattrs()}
+            if xarray is not False:
+                about = {name: (v.dimensions, {a: v.getncattr(a) for a in v.ncattrs() if a != "_FillValue"}) for name, v in file.variables.items()}
+                coordinates = [name for name, v in file.variables.items() if v.dimensions == (name,)]
+    except OSError as error:
+        raise Error(f"{path}: cannot be read: {error.strerror or error}", FILE) from None
+    if xarray is not False:
+        try:
+            import xarray as package
+        except ImportError:
+            if xarray:
+                raise
+        else:
+            data = {name: (about[name][0], values, about[name][1]) for name, values in variables.items()}
+            if "separation" in data and data["separation"][0] == ("step",):
+                coordinates.append("separation")
+            return package.Dataset({k: v for k, v in data.items() if k not in coordinates}, {k: data[k] for k in coordinates}, attributes)
+    variables[""] = attributes
+    return variables
+
+
+def _filled(values):
+    """Absent reals as NaN; absent whole numbers keep the file's fill value."""
+    if np.ma.isMaskedArray(values) and values.dtype.kind == "f":
+        return np.ma.filled(values, np.nan)
+    return np.ma.getdata(values)
+
+
+def study(case, over, run, mode="product", threads=1, progress=None):
+    """Runs a function on every member of a study and returns a list of (values, what it returned), in the order of the members.
+    case: a Case, or what Case() takes; over: {"surface%sigma": [0.005, 0.01], ...}, lists of values for keys; run: called as
+    run(member) with a Case of the member's own, for instance a function that returns a contact's curve; mode: 'product' for every
+    combination (the last key fastest), 'zip' for the lists side by side; threads: how many members at a time; progress: called as
+    progress(done, n, values) after each member, always in the caller's thread. What run or progress raise ends the study and is raised here.
+    Raises ArgumentError for keys or values that are refused, before anything runs."""
+    case = Case(case)
+    lists = [list(values) for values in over.values()]
+    if mode == "zip":
+        if len({len(values) for values in lists}) > 1:
+            _refuse("over", "lists of equal length are expected with mode='zip'")
+        combinations = list(zip(*lists))
+    elif mode == "product":
+        combinations = list(itertools.product(*lists))
+    else:
+        _refuse("mode", f"'product' or 'zip' is expected, not {mode!r}")
+    members = []
+    for combination in combinations:
+        values = dict(zip(over, combination))
+        member = case.copy()
+        member.update(values)
+        members.append((values, member))
+    results = [None] * len(members)
+    with contextlib.ExitStack() as stack:
+        if threads > 1:
+            from concurrent.futures import ThreadPoolExecutor, as_completed
+
+            pool = ThreadPoolExecutor(threads)
+            stack.callback(pool.shutdown, cancel_futures=True)
+            futures = {pool.submit(run, member): k for k, (_, member) in enumerate(members)}
+            finished = ((futures[future], future.result()) for future in as_completed(futures))
+        else:
+            finished = ((k, run(member)) for k, (_, member) in enumerate(members))
+        for done, (k, result) in enumerate(finished, 1):
+            results[k] = result
+            if progress is not None:
+                progress(done, len(members), members[k][0])
+    return [(values, result) for (values, _), result in zip(members, results)]

@@ -1,0 +1,110 @@
+"""Bad input from Python: each of these is refused with a message that names the argument, and nothing crashes."""
+import itertools
+import math
+import unittest
+
+import numpy as np
+
+import rsc
+
+NAN, GRID = math.nan, np.zeros((4, 5))
+GRID[1:3, 2] = 0.1
+ONES = np.ones(3)
+LINE = np.arange(3.0)
+
+
+def take(**changes):
+    return rsc.Asperities.take(**{"x": LINE, "y": ONES, "z": ONES, "radius": ONES, **changes})
+
+
+def asperities():
+    return take()
+
+
+def indented():
+    contact = rsc.Contact(asperities(), 1.0, 1.0, 1.0, 1.0)
+    contact.indent(0.5)
+    return contact
+
+
+def fortran(array):
+    return np.asfortranarray(array)
+
+
+def closed(thing):
+    thing.close()
+    return thing
+
+
+# (what is done, the word the message must have)
+CASES = [
+    (lambda: take(x=LINE.astype(np.float32)), "x.*float32"), (lambda: take(y=np.arange(3)), "y.*int64"), (lambda: take(z=np.ones(3, complex)), "z.*complex"),
+    (lambda: take(radius=np.ones(4)), "radius.*shape"), (lambda: take(x=np.ones((3, 1))), "x.*shape"), (lambda: take(x="abc"), "x"),
+    (lambda: take(x=None), "x"), (lambda: take(y=None), "y"), (lambda: take(z=[1.0, NAN, 1.0]), "z.*finite"), (lambda: take(radius=[1.0, 0.0, 1.0]), "radius"),
+    (lambda: take(x=ONES), "same"), (lambda: take(kappa1=ONES), "kappa"), (lambda: take(x=[], y=[], z=[], radius=[]), "n"),
+    (lambda: take(x=[[1.0], [1.0, 2.0]]), "x"), (lambda: take(z=LINE.astype(">f8")), "z.*>f8"),
+    (lambda: rsc.Surface.take(fortran(GRID), 1.0), "heights.*order"), (lambda: rsc.Surface.take(GRID[:, ::2], 1.0), "heights.*order"),
+    (lambda: rsc.Surface.take(GRID.astype("f4"), 1.0), "heights.*float32"), (lambda: rsc.Surface.take(GRID.ravel(), 1.0), "heights.*shape"),
+    (lambda: rsc.Surface.take(GRID * NAN, 1.0), "heights.*finite"), (lambda: rsc.Surface.take(GRID, 0.0), "dx"), (lambda: rsc.Surface.take(GRID, 1.0, -1.0), "dy"),
+    (lambda: rsc.Surface.take(GRID, "1"), "dx"), (lambda: rsc.Surface.take(GRID, 1.0, x0=math.inf), "x0"), (lambda: rsc.Surface.take(GRID[:2], 1.0), "ny"),
+    (lambda: rsc.Surface.take(GRID, 1.0).heights(np.empty((5, 4))), "out.*shape"), (lambda: rsc.Surface.take(GRID, 1.0).heights(np.empty((4, 5), "f4")), "out.*float32"),
+    (lambda: rsc.Surface.take(GRID, 1.0).heights(fortran(GRID)), "out.*order"), (lambda: rsc.Surface.take(GRID, 1.0).heights([1.0]), "out"),
+    (lambda: rsc.Surface.take(GRID, 1.0).heights(np.broadcast_to(1.0, (4, 5))), "out"), (lambda: rsc.Surface.take(GRID, 1.0).detrend("cubic"), "how"),
+    (lambda: rsc.Surface.take(GRID, 1.0).detrend(None), "how"), (lambda: rsc.Surface.take(np.zeros((4, 4)), 1.0) and rsc.Asperities.find(rsc.Surface.take(np.zeros((4, 4)), 1.0)), "summit"),
+    (lambda: rsc.Asperities.find(None), "surface"), (lambda: rsc.Asperities.find(asperities()), "surface.*Asperities"), (lambda: rsc.Asperities.make(3), "a_case.*int"),
+    (lambda: rsc.Asperities.make(None, 1.5), "realization"), (lambda: rsc.Asperities.make(None, 2**63), "realization"),
+    (lambda: rsc.Contact(None, 1.0, 1.0), "asperities"), (lambda: rsc.Contact(asperities(), 0.0, 1.0), "E_star"), (lambda: rsc.Contact(asperities(), NAN, 1.0), "E_star"),
+    (lambda: rsc.Contact(asperities(), 1.0, -1.0), "R"), (lambda: rsc.Contact(asperities(), 1.0, 1.0, NAN), "x0"), (lambda: rsc.Contact(asperities(), 1.0, 1.0, 0, 0, "x"), "a_case"),
+    (lambda: rsc.Contact(closed(asperities()), 1.0, 1.0), "asperities.*closed|closed"), (lambda: rsc.Contact(asperities(), 1.0, 1.0, case=closed(rsc.Case())), "a_case.*closed"),
+    (lambda: indented().indent(NAN), "separation"), (lambda: indented().indent(None), "separation"), (lambda: indented().indent([1.0, 2.0]), "separation"),
+    (lambda: indented().press(-1.0), "force"), (lambda: indented().press("1"), "force"), (lambda: indented().curve(np.ones((2, 2))), "separations"),
+    (lambda: indented().curve(forces=["a"]), "forces"), (lambda: indented().deflection(LINE, ONES[:2]), "y.*shape"), (lambda: indented().deflection(LINE * NAN, ONES), "x.*finite"),
+    (lambda: setattr(indented(), "tip", (1.0, NAN)), "y0"), (lambda: setattr(indented(), "tip", 1.0), "tip"),
+    (lambda: rsc.Case("&surface n = 3 /"), "n"), (lambda: rsc.Case("&nonsense /"), "nonsense"), (lambda: rsc.Case({"surface": 3}), "surface"), (lambda: rsc.Case(3), "source"),
+    (lambda: rsc.Case({"surface%sigma": "abc"}), "sigma"), (lambda: rsc.Case({"surface%sigma": NAN}), "sigma"), (lambda: rsc.Case({"surface%sigma": None}), "sigma"),
+    (lambda: rsc.Case({"surface%n": 2.5}), "n"), (lambda: rsc.Case({"surface%sigma": object()}), "sigma"), (lambda: rsc.Case({3: 1}), "name"),
+    (lambda: rsc.Case({"surface%file": "a\0b"}), "null"), (lambda: rsc.Case()["surface%simga"], "sigma"), (lambda: rsc.Case()[3], "name"),
+    (lambda: rsc.Case().read(None), "text"), (lambda: rsc.Case("&study surface%sigma = 1.0, 2.0 /"), "study"), (lambda: rsc.study(rsc.Case(), {}, None, mode="sum"), "mode"),
+    (lambda: rsc.study(rsc.Case(), {"surface%n": [64, 128], "run%seed": [1]}, None, mode="zip"), "over"),
+]
+
+
+class Arguments(unittest.TestCase):
+    def test_refused(self):
+        for k, (action, word) in enumerate(CASES):
+            with self.subTest(number=k, word=word):
+                with self.assertRaisesRegex((ValueError, rsc.Error), word):
+                    action()
+
+    def test_state(self):
+        with self.assertRaises(rsc.Error) as caught:
+            rsc.Contact(asperities(), 1.0, 1.0).force
+        self.assertEqual(caught.exception.status, rsc.NO_RESULT)
+        for kind in (rsc.Surface, rsc.Asperities):
+            with self.assertRaises(TypeError):
+                kind()
+
+    def test_anything_anywhere(self):
+        """Every method with values of the wrong kind in every place: an exception of Python's, never the end of the process."""
+        odd = [None, True, -1, 2**70, 1e300, NAN, "x", b"x", [], [[1.0]], np.zeros(0), np.zeros((2, 2), "f4"), object(), rsc.Case(), int]
+        surface = rsc.Surface.take(GRID, 1.0)
+        contact = indented()
+        calls = [rsc.Surface.synthesize, rsc.Surface.take, surface.detrend, surface.heights, rsc.Asperities.find, rsc.Asperities.take, rsc.Contact, rsc.Contact.from_case,
+                 contact.indent, contact.press, contact.deflection, contact.curve, rsc.Case, rsc.Case().read, rsc.Case().update, rsc.read]
+        tried = 0
+        for call in calls:
+            for count in (0, 1, 2):
+                for values in itertools.product(odd, repeat=count):
+                    if call == rsc.Surface.synthesize and (not values or values[0] is None or isinstance(values[0], rsc.Case)):
+                        continue  # correct, and slow
+                    tried += 1
+                    try:
+                        call(*values)
+                    except (rsc.Error, TypeError, ValueError, OSError):
+                        pass
+        self.assertGreater(tried, 1000)
+        self.assertEqual(indented().force, indented().force)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+"""Runs every example of a README: the blocks indented by four spaces that begin as a Python, Fortran or C program does.
+
+usage: test_readme.py README          in a folder of its own; RSC_FORTRAN, RSC_C in the environment: how to compile, with the flags
+"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+LANGUAGES = [("python", r"import |from "), ("fortran", r"program \w+$"), ("fixed", r" {6}program \w+$"), ("c", r"#include ")]
+
+
+def examples(text):
+    """(line number, language, program) of every example; a block goes on over empty lines."""
+    lines = text.split("\n")
+    k = 0
+    while k < len(lines):
+        language = next((name for name, start in LANGUAGES if re.match("    " + start, lines[k], re.I)), None)
+        if language is None:
+            k += 1
+            continue
+        end = k
+        while end < len(lines) and (lines[end].startswith("    ") or not lines[end].strip()):
+            end += 1
+        yield k + 1, language, "\n".join(line[4:] for line in lines[k:end]).rstrip() + "\n"
+        k = end
+
+
+def commands(language, program, folder):
+    suffix = {"python": "py", "fortran": "f90", "fixed": "f", "c": "c"}[language]
+    path = os.path.join(folder, "example." + suffix)
+    with open(path, "w", encoding="utf-8") as out:
+        out.write(program)
+    if language == "python":
+        return [[sys.executable, "-W", "error::UserWarning", path]]
+    compiler, *flags = shlex.split(os.environ["RSC_C" if language == "c" else "RSC_FORTRAN"])
+    binary = os.path.join(folder, "example")
+    return [[compiler, path, "-o", binary, *flags], [binary]]
+
+
+def main():
+    failed, count = 0, {}
+    with open(sys.argv[1], encoding="utf-8") as readme:
+        text = readme.read()
+    for number, language, program in examples(text):
+        if language != "python" and "RSC_FORTRAN" not in os.environ:
+            continue
+        count[language] = count.get(language, 0) + 1
+        with tempfile.TemporaryDirectory() as folder:
+            for command in commands(language, program, folder):
+                done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+                # An example shows something: it prints, and nothing that is no number.
+                shown = done.stdout.strip() or command[0] != command[-1] and language != "python"
+                made = len(os.listdir(folder)) > 1
+                if done.returncode != 0 or not (shown or made) or re.search(r"\bnan\b", done.stdout, re.I):
+                    print(f"line {number}, {language}: status {done.returncode}\n{done.stdout}{done.stderr}")
+                    failed += 1
+                    break
+    print(f"examples run: {count}; {failed} failed")
+    sys.exit(1 if failed or count.get("python", 0) < 7 else 0)
+
+
+main()

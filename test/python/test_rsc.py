@@ -1,0 +1,328 @@
+"""rsc.py against closed forms and laws of its own: values, lifetimes, threads, studies, result files, documentation."""
+import gc
+import inspect
+import math
+import os
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import rsc
+
+E, U = 2.0e5, 1.0e-3
+SMALL = {"surface": {"n": 128, "L_lambda_l": 4.0, "L_lambda_s": 32.0, "sigma": 0.01}, "solver": {"method": "direct"}}
+
+
+def one_asperity(case=None):
+    return rsc.Contact(rsc.Asperities.take([0.0], [0.0], [0.0], [0.3]), E, 5.0, case=case)
+
+
+class Values(unittest.TestCase):
+    def test_hertz(self):
+        """One asperity: the tolerances are rounding, but for press, which goes to solver%tolerance."""
+        contact = one_asperity(rsc.Case({"solver%tolerance": 1e-11}))
+        f = 4 / 3 * E * math.sqrt(0.3) * U**1.5
+        self.assertAlmostEqual(contact.indent(-U) / f, 1, delta=1e-13)
+        self.assertAlmostEqual(contact.area / (math.pi * 0.3 * U), 1, delta=1e-13)
+        self.assertAlmostEqual(contact.stiffness() / (-2 * E * math.sqrt(0.3 * U)), 1, delta=1e-12)
+        self.assertAlmostEqual(contact.energy() / (0.4 * f * U), 1, delta=1e-12)
+        self.assertEqual((contact.contacts, contact.separation), (1, -U))
+        self.assertEqual(contact.force, contact.indent(-U))
+        spots = contact.spots()
+        self.assertEqual((spots.asperity.tolist(), spots.asperity.dtype), ([0], np.int32))
+        self.assertAlmostEqual(spots.radius[0] ** 2 / (0.3 * U), 1, delta=1e-12)
+        self.assertAlmostEqual(contact.deflection([0.0, 3.0], [0.0, 4.0])[1] / (f / (math.pi * E * 5)), 1, delta=1e-12)
+        self.assertAlmostEqual(contact.deflection(0.0, 0.0) / U, 1, delta=1e-12)
+        self.assertAlmostEqual(contact.press(f) / -U, 1, delta=1e-9)
+        contact.tip = (0.05, 0.0)
+        self.assertEqual(contact.tip, (0.05, 0.0))
+        self.assertAlmostEqual(contact.first_touch() / (math.sqrt(25 - 0.05**2) - 5), 1, delta=1e-9)
+        self.assertEqual(contact.level().status, rsc.LEVELS.index("converged"))
+
+    def test_arrays(self):
+        """Places, order and kind of every array: heights [y, x], asperities, spots, sums."""
+        case = rsc.Case(SMALL)
+        surface = rsc.Surface.synthesize(case, 2)
+        z = surface.heights()
+        grid = surface.grid()
+        self.assertEqual((z.shape, z.dtype, grid.nx, grid.periodic), ((128, 128), np.float64, 128, True))
+        self.assertAlmostEqual(math.sqrt(surface.moments().m0) / 0.01, 1, delta=1e-10)
+        asperities = rsc.Asperities.find(surface, case)
+        x, y, height, radius = asperities.get()
+        j, i = np.rint(y / grid.dy).astype(int), np.rint(x / grid.dx).astype(int)
+        self.assertTrue(np.array_equal(height, z[j, i]))  # not z[i, j]
+        self.assertTrue(np.array_equal(np.stack(asperities.get()), np.stack(rsc.Asperities.make(case, 2).get())))
+        again = rsc.Surface.take(z, grid.dx, periodic=True)
+        self.assertTrue(np.array_equal(again.heights(), z))
+        out = np.empty_like(z)
+        self.assertIs(again.heights(out), out)
+        self.assertTrue(np.array_equal(out, z))
+        rectangle = rsc.Surface.take(z[:50].copy(), grid.dx, 2 * grid.dx, 0.1, 0.2)
+        self.assertEqual(rectangle.grid(), rsc.Grid(128, 50, grid.dx, 2 * grid.dx, 0.1, 0.2, False))
+        tilted = rsc.Surface.take(np.add.outer(np.arange(4.0), 10 * np.arange(5.0)), 1.0)
+        self.assertAlmostEqual(tilted.detrend("plane"), 0, delta=1e-12)
+        contact = rsc.Contact.from_case(asperities, case)
+        force = contact.indent(0.005)
+        every, some = contact.per_asperity(), contact.spots()
+        self.assertAlmostEqual(every.force.sum() / force, 1, delta=1e-12)
+        self.assertTrue(np.array_equal(np.flatnonzero(every.force), some.asperity))
+        self.assertTrue(np.array_equal(every.penetration[some.asperity], some.penetration))
+        self.assertEqual(len(some.force), contact.contacts)
+        k = asperities.curvatures()
+        self.assertTrue(np.all(k.kappa1 >= k.kappa2) and np.allclose(1 / np.sqrt(k.kappa1 * k.kappa2), radius, rtol=1e-9))
+        taken = rsc.Asperities.take(x, y, height, radius, *k)
+        self.assertTrue(np.array_equal(np.stack(taken.curvatures()), np.stack(k)))
+        self.assertEqual(rsc.Contact(taken, 1.0, math.inf, case=case).indent(0.01), rsc.Contact(asperities, 1.0, math.inf, case=case).indent(0.01))
+        xyzr = np.column_stack(asperities.get())  # columns are 1-D slices with a stride
+        self.assertTrue(np.array_equal(np.stack(rsc.Asperities.take(*xyzr.T).get()), xyzr.T))
+
+    def test_cases(self):
+        case = rsc.Case({"surface": {"sigma": 0.02, "n": 4096, "plateau": True}, "solver%method": "direct", "solids": {"E": [1 / 3, math.inf]}})
+        self.assertEqual([case[k] for k in ("surface%sigma", "surface%n", "surface%plateau", "solver%method", "solids%E", "solids%E(2)")],
+                         [0.02, 4096, True, "direct", (1 / 3, math.inf), math.inf])
+        self.assertIsNone(case["indentation%levels"])
+        self.assertEqual(rsc.Case(str(case)), case)
+        case["run%title"] = "it's"
+        self.assertEqual(case["run%title"], "it's")
+        other = rsc.Case(case)
+        other["surface%sigma"] = np.float64(0.03)
+        other["surface%n"] = np.int32(2048)
+        self.assertEqual((case["surface%sigma"], other["surface%n"]), (0.02, 2048))
+        self.assertNotEqual(case, other)
+        with self.assertRaisesRegex(rsc.ArgumentError, "simga.*sigma"):
+            other.update({"surface%sigma": 0.5, "surface%simga": 1})
+        self.assertEqual(other["surface%sigma"], 0.03)  # all or nothing
+        self.assertIn("surface%sigma", rsc.keys())
+        for name in rsc.keys():  # every default comes back as a value that is accepted
+            if rsc.Case()[name] is not None:
+                other[name] = rsc.Case()[name]
+
+    def test_curve(self):
+        calls = []
+        contact = one_asperity()
+        z = np.linspace(0.001, -0.001, 5)
+        curve = contact.curve(z, progress=lambda done, n: calls.append((done, n)))
+        self.assertTrue(np.array_equal(curve["separation"], z))
+        self.assertTrue(np.allclose(curve["force"], 4 / 3 * E * math.sqrt(0.3) * np.maximum(-z, 0) ** 1.5, rtol=1e-12))
+        self.assertEqual(curve["contacts"].tolist(), [0, 0, 0, 1, 1])
+        self.assertEqual(calls, [(k, 5) for k in range(1, 6)])
+        pressed = contact.curve(forces=curve["force"][3:])
+        self.assertTrue(np.allclose(pressed["separation"], z[3:], rtol=1e-5))  # solver%tolerance is 1e-6 of the force
+
+        def enough(done, n):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            contact.curve(z, progress=enough)
+        with self.assertRaisesRegex(ValueError, "separations"):
+            contact.curve()
+
+    def test_not_converged(self):
+        case = rsc.Case(SMALL)
+        case["solver%tolerance"] = 1e-14
+        case["solver%max_iterations"] = 1
+        contact = rsc.Contact.from_case(rsc.Asperities.make(case), case)
+        with self.assertRaises(rsc.NotConverged) as caught:
+            contact.indent(0.0)
+        self.assertEqual(caught.exception.status, rsc.NOT_CONVERGED)
+        self.assertGreater(contact.force, 0)
+        self.assertEqual(contact.level().status, rsc.LEVEL_NOT_CONVERGED)
+        self.assertEqual(contact.curve([0.0])["status"].tolist(), [4])
+
+
+class Lifetimes(unittest.TestCase):
+    def test_close(self):
+        case = rsc.Case()
+        with rsc.Asperities.take([0.0], [0.0], [0.0], [1.0]) as asperities:
+            contact = rsc.Contact.from_case(asperities, case)
+        self.assertTrue(asperities.closed and not contact.closed)
+        contact.indent(0.0)  # outlives its asperities
+        contact.close()
+        contact.close()
+        for use in (lambda: contact.indent(0.0), lambda: contact.force, contact.copy, contact.spots, lambda: len(asperities),
+                    lambda: rsc.Contact.from_case(asperities), lambda: contact.curve([0.0])):
+            with self.assertRaisesRegex(ValueError, "closed"):
+                use()
+
+    def test_garbage(self):
+        """What nobody holds is given back: the number of live handles, not the machine's memory, which other tests share."""
+        before = sum(isinstance(o, rsc.Asperities) for o in gc.get_objects())
+        for _ in range(50):
+            rsc.Contact.from_case(rsc.Asperities.take([0.0], [0.0], [0.0], [1.0])).indent(-0.1)
+        self.assertEqual(sum(isinstance(o, rsc.Asperities) for o in gc.get_objects()), before)
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_run(self):
+        """While the library works in one thread, another goes on."""
+        steps, stop, started = [0], threading.Event(), threading.Event()
+
+        def count():
+            while not stop.is_set():
+                steps[0] += 1
+                started.set()
+
+        other = threading.Thread(target=count)
+        other.start()
+        started.wait()
+        before = steps[0]
+        rsc._library.rsc_key_count  # the attribute is looked up before, so that only the call lies between the two numbers
+        handle = rsc.ctypes.c_void_p()
+        call, arguments = rsc._library.rsc_surface_synthesize, (rsc.ctypes.byref(handle), None, 1)
+        before = steps[0]
+        call(*arguments)  # 2048^2 points: some 50 ms, and Python changes threads every 5
+        after = steps[0]
+        stop.set()
+        other.join()
+        rsc._library.rsc_surface_destroy(rsc.ctypes.byref(handle))
+        self.assertGreater(after - before, 100)
+
+    def test_two_contacts(self):
+        """Two threads press two contacts; the numbers are those of one thread, bit for bit."""
+        case = rsc.Case(SMALL)
+        asperities = rsc.Asperities.make(case)
+        z = np.linspace(0.02, 0.0, 40)
+        alone = rsc.Contact.from_case(asperities, case).curve(z)["force"]
+        found = {}
+
+        def work(name, contact):
+            found[name] = contact.curve(z)["force"]
+
+        first = rsc.Contact.from_case(asperities, case)
+        threads = [threading.Thread(target=work, args=(k, c)) for k, c in enumerate((first, first.copy()))]
+        for t in threads:
+            t.start()
+        for t in threads:
+            t.join()
+        self.assertTrue(np.array_equal(found[0], alone) and np.array_equal(found[1], alone))
+
+    def test_one_contact(self):
+        """One object in several threads, closed in the midst: ValueError at worst, never a crash."""
+        contact = one_asperity()
+        contact.indent(-U)
+        wrong = []
+
+        def work():
+            try:
+                for _ in range(300):
+                    contact.indent(-U)
+                    contact.spots()
+                    contact.copy().close()
+            except ValueError as error:
+                if "closed" not in str(error):
+                    wrong.append(error)
+            except Exception as error:
+                wrong.append(error)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for t in threads:
+            t.start()
+        contact.indent(-U)
+        contact.close()
+        for t in threads:
+            t.join()
+        self.assertEqual(wrong, [])
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.case = rsc.Case(SMALL)
+        self.case.update({"indentation": {"start": 3.0, "stop": 1.0, "steps": 5}, "output%file": os.path.join(self.folder.name, "a.nc")})
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_run_and_read(self):
+        path = self.case.run()
+        self.assertEqual(path, self.case["output%file"])
+        plain = rsc.read(path, xarray=False)
+        self.assertEqual((plain["force"].shape, plain["map_pressure"].ndim), ((1, 5), 3))
+        self.assertTrue(np.isnan(plain["force_std"]).all())  # one realization has none
+        self.assertEqual(rsc.Case(plain[""]["case"])["surface%sigma"], 0.01)
+        contact = rsc.Contact.from_case(rsc.Asperities.make(self.case), self.case)
+        curve = contact.curve(plain["separation"])
+        for name in ("force", "contact_area", "contacts", "status"):
+            self.assertTrue(np.array_equal(curve[name], plain[name][0]), name)
+        other = self.case.run(file=os.path.join(self.folder.name, "b.nc"))
+        self.assertTrue(os.path.exists(other) and other != path)
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            self.assertIsInstance(rsc.read(path), dict)
+            return
+        data = rsc.read(path)
+        self.assertEqual(data["force"].dims, ("realization", "step"))
+        self.assertEqual(data["force"].attrs["units"], "N")
+        self.assertTrue(np.array_equal(data["force"].values, plain["force"]))
+        self.assertIn("separation", data.coords)
+        self.assertIn("case", data.attrs)
+
+    def test_failures(self):
+        with self.assertRaises(rsc.Error):
+            rsc.read(os.path.join(self.folder.name, "nothing.nc"))
+        with self.assertRaisesRegex(rsc.Error, "folder"):
+            self.case.run(file=os.path.join(self.folder.name, "folder", "a.nc"))
+        self.case.update({"solver%tolerance": 1e-14, "solver%max_iterations": 1})
+        with self.assertRaises(rsc.NotConverged) as caught:
+            self.case.run()
+        self.assertGreater(caught.exception.failed_levels, 0)
+        self.assertTrue((rsc.read(self.case["output%file"], xarray=False)["status"] == 4).any())
+        self.case["surface%n"] = 32  # a relation between keys is looked at where the case is used
+        with self.assertRaisesRegex(rsc.ArgumentError, "surface"):
+            self.case.run()
+
+    def test_study(self):
+        calls = []
+
+        def force(case):
+            return rsc.Contact.from_case(rsc.Asperities.make(case), case).indent(0.01)
+
+        over = {"surface%sigma": [0.005, 0.01], "solids%R(2)": [1.0, 2.0, 4.0]}
+        members = rsc.study(self.case, over, force, progress=lambda done, n, values: calls.append((done, n)))
+        self.assertEqual([tuple(v.values()) for v, _ in members], [(s, r) for s in over["surface%sigma"] for r in over["solids%R(2)"]])
+        self.assertEqual(calls, [(k, 6) for k in range(1, 7)])
+        self.assertEqual(rsc.study(self.case, over, force, threads=2), members)
+        self.assertEqual(members[3][1], force(rsc.Case({**SMALL, "solids%R(2)": 1.0})))
+        pairs = rsc.study(self.case, {"surface%sigma": [0.005, 0.01], "surface%hurst": [0.5, 0.8]}, force, mode="zip")
+        self.assertEqual(len(pairs), 2)
+        self.assertEqual(self.case["surface%sigma"], 0.01)
+        with self.assertRaisesRegex(ValueError, "hurst"):
+            rsc.study(self.case, {"surface%hurst": [0.5, 2.5]}, self.fail)
+
+        def broken(case):
+            raise RuntimeError("mine")
+
+        for threads in (1, 2):
+            with self.assertRaisesRegex(RuntimeError, "mine"):
+                rsc.study(self.case, over, broken, threads=threads)
+
+
+class Documentation(unittest.TestCase):
+    def test_every_public_name(self):
+        """Each has a docstring that speaks of every argument and, for what can fail, of its errors."""
+        for name in rsc.__all__:
+            thing = getattr(rsc, name)
+            if isinstance(thing, tuple):
+                continue  # LEVELS: said beside it
+            self.assertTrue(inspect.getdoc(thing), name)
+            members = {f"{name}.{k}": v for k, v in vars(thing).items() if not k.startswith("_")} if isinstance(thing, type) and issubclass(thing, rsc._Object) else {}
+            if inspect.isfunction(thing):
+                members[name] = thing
+            for where, member in members.items():
+                text = inspect.getdoc(member)
+                self.assertTrue(text, where)
+                function = member.__func__ if isinstance(member, classmethod) else member.fget if isinstance(member, property) else member
+                arguments = [a for a in inspect.signature(function).parameters if a not in ("self", "cls")]
+                for argument in arguments:
+                    self.assertRegex(text, rf"\b{argument}\b", where)
+                if arguments:
+                    self.assertRegex(text, "Raises", where)
+        for member in ("indent", "press", "area", "force", "separation", "stiffness", "energy", "deflection", "first_touch"):
+            self.assertRegex(inspect.getdoc(getattr(rsc.Contact, member)), r"\[(force|length)", member)
+
+
+if __name__ == "__main__":
+    unittest.main()
