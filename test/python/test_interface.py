@@ -26,7 +26,7 @@ def constants(text):
 
 def differences(header, prototypes):
     rows = dict(re.fullmatch(r"(\w+)\((.*)\)", row.strip()).groups() for row in prototypes.strip().splitlines())
-    found = [f"{name}: rsc.h has ({declared}), rsc.py ({rows.get(name)})" for name, declared in declarations(header).items() if rows.get(name) != declared]
+    found = [f"{name}: rsc.py has ({rows.get(name)}); the row of _PROTOTYPES in modules/rsc.py must be\n{name}({declared})" for name, declared in declarations(header).items() if rows.get(name) != declared]
     found += [f"{name}: in rsc.py, not in rsc.h" for name in rows if name not in declarations(header)]
     found += [f"{name}: {value} in rsc.h, {getattr(rsc, name, None)} in rsc.py" for name, value in constants(header).items() if getattr(rsc, name, None) != value]
     levels = {value: name[6:].lower() for name, value in constants(header).items() if name.startswith("LEVEL_")}
