@@ -141,9 +141,14 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
         require(surface, 1, "surface");
         require(how, 2, "how");
         const std::string_view word = how;
-        const auto kind = word == "none" ? rsc::Detrend::none : word == "mean" ? rsc::Detrend::mean : rsc::Detrend::plane;
-        if (kind == rsc::Detrend::plane && word != "plane") refuse(2, "how", "must be \"none\", \"mean\" or \"plane\"");
-        const double left = rsc::detrend(surface->map, kind);
+        constexpr std::pair<std::string_view, rsc::Detrend> kForms[] = {{"none", rsc::Detrend::none},
+                                                                        {"mean", rsc::Detrend::mean},
+                                                                        {"plane", rsc::Detrend::plane},
+                                                                        {"quadratic", rsc::Detrend::quadratic},
+                                                                        {"sphere", rsc::Detrend::sphere}};
+        const auto* const form = std::find_if(std::begin(kForms), std::end(kForms), [&](const auto& f) { return f.first == word; });
+        if (form == std::end(kForms)) refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
+        const double left = rsc::detrend(surface->map, form->second).rms;
         if (!surface->theory) surface->sigma = left;
         put(rms_left, left);
     });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/indentation.hpp"
+#include "rough/form.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {

@@ -11,23 +11,26 @@
 namespace rsc {
 namespace {
 
-// A sum over the rows of a map of sums over a row: short partial sums lose little to rounding.
-template <class RowSum>
-double sum_rows(int first, int last, RowSum row_sum) {
-    double total = 0;
-    for (int j = first; j < last; ++j) total += row_sum(j);
-    return total;
-}
+// A mean over points of a map: sums over a row are added up, short partial sums lose little to rounding. NaN is left out.
+class Mean {
+public:
+    void add(double value) {
+        if (std::isnan(value)) return;
+        row_ += value;
+        ++row_points_;
+    }
+    void end_row() {
+        total_ += row_;
+        points_ += row_points_;
+        row_ = 0;
+        row_points_ = 0;
+    }
+    double value() const { return points_ > 0 ? total_ / static_cast<double>(points_) : 0.0; }
 
-double mean(const HeightMap& map) {
-    const double total = sum_rows(0, map.ny, [&](int j) {
-        const double* const z = map.row(j);
-        double s = 0;
-        for (int i = 0; i < map.nx; ++i) s += z[i];
-        return s;
-    });
-    return total / (static_cast<double>(map.nx) * map.ny);
-}
+private:
+    double row_ = 0, total_ = 0;
+    long row_points_ = 0, points_ = 0;
+};
 
 }  // namespace
 
@@ -68,76 +71,41 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
 Moments grid_moments(const HeightMap& map) {
     Moments m;
     if (map.nx < 1 || map.ny < 1) return m;
-    const double level = mean(map);
-    m.m0 = sum_rows(0, map.ny,
-                    [&](int j) {
-                        const double* const z = map.row(j);
-                        double s = 0;
-                        for (int i = 0; i < map.nx; ++i) s += (z[i] - level) * (z[i] - level);
-                        return s;
-                    }) /
-           (static_cast<double>(map.nx) * map.ny);
+    Mean level, m0;
+    for (int j = 0; j < map.ny; ++j) {
+        for (int i = 0; i < map.nx; ++i) level.add(map(i, j));
+        level.end_row();
+    }
+    for (int j = 0; j < map.ny; ++j) {
+        const double* const z = map.row(j);
+        for (int i = 0; i < map.nx; ++i) m0.add((z[i] - level.value()) * (z[i] - level.value()));
+        m0.end_row();
+    }
+    m.m0 = m0.value();
     if (map.nx < 3 || map.ny < 3) return m;
 
     const int edge = map.periodic ? 0 : 1;
-    double g2 = 0, m40 = 0, m04 = 0, m22 = 0;
+    Mean g2, m40, m04, m22;
     for (int j = edge; j < map.ny - edge; ++j) {
         const double* const below = map.row(j > 0 ? j - 1 : map.ny - 1);
         const double* const z = map.row(j);
         const double* const above = map.row(j + 1 < map.ny ? j + 1 : 0);
-        double row_g2 = 0, row_40 = 0, row_04 = 0, row_22 = 0;
         for (int i = edge; i < map.nx - edge; ++i) {
             const int l = i > 0 ? i - 1 : map.nx - 1, r = i + 1 < map.nx ? i + 1 : 0;
             const double zx = (z[r] - z[i]) / map.dx, zy = (above[i] - z[i]) / map.dy;
             const double zxx = (z[l] - 2.0 * z[i] + z[r]) / (map.dx * map.dx);
             const double zyy = (below[i] - 2.0 * z[i] + above[i]) / (map.dy * map.dy);
             const double zxy = (above[r] - above[i] - z[r] + z[i]) / (map.dx * map.dy);
-            row_g2 += zx * zx + zy * zy;
-            row_40 += zxx * zxx;
-            row_04 += zyy * zyy;
-            row_22 += zxy * zxy;
+            g2.add(zx * zx + zy * zy);
+            m40.add(zxx * zxx);
+            m04.add(zyy * zyy);
+            m22.add(zxy * zxy);
         }
-        g2 += row_g2, m40 += row_40, m04 += row_04, m22 += row_22;
+        g2.end_row(), m40.end_row(), m04.end_row(), m22.end_row();
     }
-    const double points = static_cast<double>(map.nx - 2 * edge) * (map.ny - 2 * edge);
-    m.m2 = g2 / (2.0 * points);
-    m.m4 = (m40 + m04 + 3.0 * m22) / (3.0 * points);
+    m.m2 = g2.value() / 2.0;
+    m.m4 = (m40.value() + m04.value() + 3.0 * m22.value()) / 3.0;
     return m;
-}
-
-double detrend(HeightMap& map, Detrend how) {
-    double level = 0, slope_x = 0, slope_y = 0;  // slopes a grid step
-    const double mid_x = 0.5 * (map.nx - 1), mid_y = 0.5 * (map.ny - 1);
-    double remaining = 0;  // the mean that stays
-    (how == Detrend::none ? remaining : level) = mean(map);
-    if (how == Detrend::plane) {
-        // Measured from the middle of a full grid, 1, x and y are orthogonal: the least-squares plane is three projections.
-        double zx = 0, zy = 0;
-        for (int j = 0; j < map.ny; ++j) {
-            const double* const z = map.row(j);
-            double row = 0, row_x = 0;
-            for (int i = 0; i < map.nx; ++i) {
-                row += z[i] - level;
-                row_x += (z[i] - level) * (i - mid_x);
-            }
-            zx += row_x;
-            zy += row * (j - mid_y);
-        }
-        // sum of (i - mid)^2 over i = 0 ... n-1 is n (n^2 - 1)/12.
-        const auto second = [](double n) { return n * (n * n - 1.0) / 12.0; };
-        if (map.nx > 1) slope_x = zx / (second(map.nx) * map.ny);
-        if (map.ny > 1) slope_y = zy / (second(map.ny) * map.nx);
-    }
-    const double total = sum_rows(0, map.ny, [&](int j) {
-        double* const z = map.row(j);
-        double s = 0;
-        for (int i = 0; i < map.nx; ++i) {
-            z[i] -= level + slope_x * (i - mid_x) + slope_y * (j - mid_y);
-            s += (z[i] - remaining) * (z[i] - remaining);
-        }
-        return s;
-    });
-    return std::sqrt(total / (static_cast<double>(map.nx) * map.ny));
 }
 
 }  // namespace rsc

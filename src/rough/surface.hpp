@@ -32,7 +32,6 @@ struct HeightMap {
 };
 
 enum class Normalise { sample, ensemble };
-enum class Detrend { none, mean, plane };
 
 // Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
 // integer wavevector) alone, so that the surface is the same on every grid that holds its modes: L_lambda_s <= n/2, or
@@ -44,10 +43,8 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
 
 // Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): beside the spectral ones they
 // say how well the grid resolves lambda_s. First differences between neighbours give m20, m02; second differences m40, m04, m22.
-// A map that is not periodic gives what lies inside it; too small a map gives zeros.
+// A map that is not periodic gives what lies inside it; too small a map gives zeros. Points whose height is NaN are missing: the
+// differences that need them are left out.
 Moments grid_moments(const HeightMap& map);
-
-// Subtracts the mean or the least-squares plane in place; returns the rms height left, about its mean.
-double detrend(HeightMap& map, Detrend how);
 
 }  // namespace rsc

@@ -46,7 +46,7 @@ void make_synthetic(Job& job) {
 void read_surface(Job& job) {
     const auto& keys = job.settings.surface;
     HeightMap map = read_heights(keys.file, keys.L, job.settings.run.length_unit);
-    const double rms_height = detrend(map, keys.detrend);
+    const double rms_height = detrend(map, keys.detrend).rms;
     SummitCount count;
     const Detail detail = detail_of(job.settings);
     job.given = find_asperities(map, job.settings.asperities.curvature, &count, 1, detail);

@@ -8,6 +8,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
+#include "rough/form.hpp"
 #include "rough/noise.hpp"
 
 using namespace rsc;
@@ -208,11 +209,11 @@ void detrending() {
     };
     // What is left does not depend on the plane that was added, and is orthogonal to 1, x and y.
     fill(0, 0, 0);
-    const double bare = detrend(map, Detrend::plane);
+    const double bare = detrend(map, Detrend::plane).rms;
     HeightMap first = std::move(map);
     map.allocate(13, 8, 13);
     fill(1000, -3, 7);
-    CHECK_RELATIVE(detrend(map, Detrend::plane), bare, 1e-11);
+    CHECK_RELATIVE(detrend(map, Detrend::plane).rms, bare, 1e-11);
     CHECK_CLOSE(largest_difference(first, map), 0.0, 1e-11);  // a thousand was added and taken away
     double s1 = 0, sx = 0, sy = 0;
     for (int j = 0; j < 8; ++j)
@@ -221,10 +222,10 @@ void detrending() {
     CHECK_CLOSE(sx, 0, 1e-11);
     CHECK_CLOSE(sy, 0, 1e-11);
     fill(5, 0, 0);
-    const double deviation = detrend(map, Detrend::mean);
+    const double deviation = detrend(map, Detrend::mean).rms;
     CHECK_RELATIVE(rms(map), deviation, 1e-14);
     fill(5, 0, 0);
-    CHECK_RELATIVE(detrend(map, Detrend::none), deviation, 1e-13);  // the rms about the mean, which stays
+    CHECK_RELATIVE(detrend(map, Detrend::none).rms, deviation, 1e-13);  // the rms about the mean, which stays
     CHECK(map(0, 0) == bump(0, 0) + 5);
 }
 

@@ -1,0 +1,260 @@
+#include "rough/form.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(Failure::bad_input, "form: " + what); }
+
+// Normal equations of at most six unknowns, summed row by row: short partial sums lose little to rounding.
+template <int kUnknowns>
+struct Normal {
+    std::array<std::array<double, kUnknowns>, kUnknowns> a{};
+    std::array<double, kUnknowns> b{};
+
+    void add(const std::array<double, kUnknowns>& basis, double value) {
+        for (int i = 0; i < kUnknowns; ++i) {
+            for (int j = i; j < kUnknowns; ++j) a[i][j] += basis[i] * basis[j];
+            b[i] += basis[i] * value;
+        }
+    }
+    void add(const Normal& other) {
+        for (int i = 0; i < kUnknowns; ++i) {
+            for (int j = i; j < kUnknowns; ++j) a[i][j] += other.a[i][j];
+            b[i] += other.b[i];
+        }
+    }
+    // By Cholesky's factors. A pivot that vanishes is a coefficient that the points do not fix.
+    std::array<double, kUnknowns> solve(const char* form) const {
+        constexpr double kSingular = 1e-11;  // of the diagonal before elimination; full maps have 0.1 and more
+        std::array<std::array<double, kUnknowns>, kUnknowns> l{};
+        std::array<double, kUnknowns> x{};
+        for (int j = 0; j < kUnknowns; ++j)
+            for (int i = j; i < kUnknowns; ++i) {
+                double sum = a[j][i];
+                for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+                if (i == j && !(sum > kSingular * a[j][j]))
+                    refuse("the points that are present do not fix a " + std::string(form) + ": too few of them, or all on one line");
+                l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
+            }
+        for (int i = 0; i < kUnknowns; ++i) {
+            double sum = b[i];
+            for (int k = 0; k < i; ++k) sum -= l[i][k] * x[k];
+            x[i] = sum / l[i][i];
+        }
+        for (int i = kUnknowns; i-- > 0;) {
+            for (int k = i + 1; k < kUnknowns; ++k) x[i] -= l[k][i] * x[k];
+            x[i] /= l[i][i];
+        }
+        return x;
+    }
+};
+
+// Coordinates from the middle of the map; `scale` times u and v, |u|, |v| <= 1, is a length.
+struct Frame {
+    double mid_x, mid_y, step_u, step_v, scale;
+    explicit Frame(const HeightMap& map) : mid_x(0.5 * (map.nx - 1)), mid_y(0.5 * (map.ny - 1)) {
+        scale = 0.5 * std::max((map.nx - 1) * map.dx, (map.ny - 1) * map.dy);
+        if (!(scale > 0)) scale = std::max(map.dx, map.dy);
+        step_u = map.dx / scale;
+        step_v = map.dy / scale;
+    }
+    double u(int i) const { return (i - mid_x) * step_u; }
+    double v(int j) const { return (j - mid_y) * step_v; }
+};
+
+// Fits value(i, j) over the points present with the functions basis(u, v).
+template <int kUnknowns, class Basis, class Value>
+std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, const char* form, Basis basis, Value value) {
+    Normal<kUnknowns> all;
+    for (int j = 0; j < map.ny; ++j) {
+        Normal<kUnknowns> row;
+        for (int i = 0; i < map.nx; ++i) {
+            const double z = value(i, j);
+            if (!std::isnan(z)) row.add(basis(frame.u(i), frame.v(j)), z);
+        }
+        all.add(row);
+    }
+    return all.solve(form);
+}
+
+// Subtracts a polynomial of first (3) or second (6 unknowns) degree. What rounding leaves of a large one goes with the second round.
+template <int kUnknowns>
+std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form) {
+    const auto basis = [](double u, double v) {
+        const std::array<double, 6> all{1, u, v, u * u, u * v, v * v};
+        std::array<double, kUnknowns> some{};
+        std::copy_n(all.begin(), kUnknowns, some.begin());
+        return some;
+    };
+    std::array<double, 6> total{};
+    for (int round = 0; round < 2; ++round) {
+        const auto c = fit<kUnknowns>(map, frame, form, basis, [&](int i, int j) { return map(i, j); });
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i) {
+                const auto f = basis(frame.u(i), frame.v(j));
+                double sum = 0;
+                for (int k = 0; k < kUnknowns; ++k) sum += c[k] * f[k];
+                map.row(j)[i] -= sum;
+            }
+        for (int k = 0; k < kUnknowns; ++k) total[k] += c[k];
+    }
+    return total;
+}
+
+// The sphere through (0, 0, level) with gradient (p, q) there and curvature 1/radius = bend/sqrt(1 + p^2 + q^2): its height w above
+// `level` solves w + bend w^2/2 + g = 0, g = bend (x^2 + y^2)/2 - p x - q y. bend = 0 is a plane: nothing is singular there.
+struct Sphere {
+    double level = 0, p = 0, q = 0, bend = 0;
+    // NaN outside the sphere.
+    double above(double x, double y) const {
+        const double g = 0.5 * bend * (x * x + y * y) - p * x - q * y;
+        const double root = 1 - 2 * bend * g;
+        return root > 0 ? -2 * g / (1 + std::sqrt(root)) : std::nan("");
+    }
+    double operator()(double x, double y) const { return level + above(x, y); }
+    Sphere stepped(const std::array<double, 4>& by, double share) const {
+        return {level + share * by[0], p + share * by[1], q + share * by[2], bend + share * by[3]};
+    }
+};
+
+// Mean square of what the sphere leaves; NaN when the map reaches beyond it.
+double left_by(const Sphere& s, const HeightMap& map, const Frame& f) {
+    double sum = 0;
+    long points = 0;
+    for (int j = 0; j < map.ny; ++j) {
+        double row = 0;
+        for (int i = 0; i < map.nx; ++i) {
+            const double z = map(i, j);
+            if (std::isnan(z)) continue;
+            const double e = z - s(f.u(i) * f.scale, f.v(j) * f.scale);
+            row += e * e;
+            ++points;
+        }
+        sum += row;
+    }
+    return sum / static_cast<double>(points);
+}
+
+Sphere fit_sphere(const HeightMap& map, const Frame& frame) {
+    const double a = frame.scale;
+    const auto start = fit<4>(
+        map, frame, "sphere",
+        [](double u, double v) {
+            return std::array<double, 4>{1, u, v, u * u + v * v};
+        },
+        [&](int i, int j) { return map(i, j); });
+    Sphere s{start[0], start[1] / a, start[2] / a, -2 * start[3] / (a * a)};
+    double left = left_by(s, map, frame);
+    // A paraboloid may be steeper than any sphere as wide as the map.
+    for (int k = 0; k < 60 && std::isnan(left); ++k) {
+        s.bend *= 0.8;
+        left = left_by(s, map, frame);
+    }
+    constexpr int kMostSteps = 200;
+    constexpr double kArrived = 1e-13;  // of the form's extent
+    for (int step = 0; step < kMostSteps; ++step) {
+        if (std::isnan(left)) break;
+        // Unknowns in the scale of the map: level, a p, a q, a^2 bend are all heights.
+        const auto change = fit<4>(
+            map, frame, "sphere",
+            [&](double u, double v) {
+                const double w = s.above(u * a, v * a), slope = 1 / (1 + s.bend * w);
+                return std::array<double, 4>{1, u * slope, v * slope, -0.5 * slope * (u * u + v * v + w * w / (a * a))};
+            },
+            [&](int i, int j) { return map(i, j) - s(frame.u(i) * a, frame.v(j) * a); });
+        const std::array<double, 4> by{change[0], change[1] / a, change[2] / a, change[3] / (a * a)};
+        double share = 1;
+        Sphere next = s.stepped(by, share);
+        double next_left = left_by(next, map, frame);
+        const double largest = std::max({std::abs(change[0]), std::abs(change[1]), std::abs(change[2]), std::abs(change[3])});
+        const double extent = std::max({std::abs(s.p) * a, std::abs(s.q) * a, std::abs(s.bend) * a * a, std::sqrt(left)});
+        if (largest <= kArrived * extent) return std::isnan(next_left) || next_left > left ? s : next;
+        while (!(next_left <= left) && share > 1e-6) {
+            share *= 0.5;
+            next = s.stepped(by, share);
+            next_left = left_by(next, map, frame);
+        }
+        if (!(next_left < left)) return s;  // nothing gets better: rounding is all that is left
+        s = next;
+        left = next_left;
+    }
+    refuse("no sphere as wide as the map fits it; detrend = 'quadratic' fits what is no sphere");
+}
+
+// Mean over the points present.
+double mean_present(const HeightMap& map, long& points) {
+    double total = 0;
+    points = 0;
+    for (int j = 0; j < map.ny; ++j) {
+        double row = 0;
+        for (int i = 0; i < map.nx; ++i) {
+            const double z = map(i, j);
+            if (std::isnan(z)) continue;
+            row += z;
+            ++points;
+        }
+        total += row;
+    }
+    return total / static_cast<double>(points);
+}
+
+void lower(HeightMap& map, double by) {
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= by;
+}
+
+}  // namespace
+
+Form detrend(HeightMap& map, Detrend how) {
+    Form form;
+    form.how = how;
+    long points = 0;
+    const double level = mean_present(map, points);
+    if (points == 0) refuse("the map has no point that is not missing");
+    if (how != Detrend::none) {
+        lower(map, level);
+        form.level = level;
+    }
+    const Frame frame(map);
+    const double a = frame.scale;
+    if (how == Detrend::plane) {
+        const auto c = subtract_polynomial<3>(map, frame, "plane");
+        form.level += c[0];
+        form.slope_x = c[1] / a, form.slope_y = c[2] / a;
+    } else if (how == Detrend::quadratic) {
+        const auto c = subtract_polynomial<6>(map, frame, "quadratic");
+        form.level += c[0];
+        form.slope_x = c[1] / a, form.slope_y = c[2] / a;
+        form.zxx = 2 * c[3] / (a * a), form.zxy = c[4] / (a * a), form.zyy = 2 * c[5] / (a * a);
+    } else if (how == Detrend::sphere) {
+        const Sphere s = fit_sphere(map, frame);
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= s(frame.u(i) * a, frame.v(j) * a);
+        form.level += s.level;
+        form.slope_x = s.p, form.slope_y = s.q;
+        // w + bend w^2/2 + g = 0, differentiated twice in the middle.
+        form.zxx = -s.bend * (1 + s.p * s.p), form.zxy = -s.bend * s.p * s.q, form.zyy = -s.bend * (1 + s.q * s.q);
+        form.radius = s.bend != 0 ? std::sqrt(1 + s.p * s.p + s.q * s.q) / s.bend : HUGE_VAL;
+    }
+    const double middle = mean_present(map, points);
+    double square = 0;
+    for (int j = 0; j < map.ny; ++j) {
+        double row = 0;
+        for (int i = 0; i < map.nx; ++i) {
+            const double d = map(i, j) - middle;
+            if (!std::isnan(d)) row += d * d;
+        }
+        square += row;
+    }
+    form.rms = std::sqrt(square / static_cast<double>(points));
+    return form;
+}
+
+}  // namespace rsc

@@ -1,0 +1,27 @@
+// The form of a measured map: what is subtracted before the rest is called roughness.
+#pragma once
+
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+enum class Detrend { none, mean, plane, quadratic, sphere };
+
+// A fitted form, in coordinates from the middle of the map.
+struct Form {
+    Detrend how = Detrend::none;
+    double level = 0;                 // height in the middle [length]
+    double slope_x = 0, slope_y = 0;  // gradient there
+    // Second derivatives zxx, zxy, zyy in the middle [1/length]; of a sphere -1/radius on the diagonal when it is level there.
+    double zxx = 0, zxy = 0, zyy = 0;
+    double radius = 0;  // of a sphere, positive for a dome, negative for a bowl [length]; 0 for other forms
+    double rms = 0;     // rms height left, about its mean [length]
+};
+
+// Subtracts the least-squares form in place; points whose height is NaN are missing: they are not fitted and stay NaN. The plane
+// and the quadratic are polynomials of first and second degree; the sphere is fitted in the vertical distance, centre and radius
+// free, by Gauss and Newton's method from the paraboloid. Throws Error(bad_input) when the points present do not fix the form
+// (none at all, all on one line, ...) or no sphere as wide as the map fits them.
+Form detrend(HeightMap& map, Detrend how);
+
+}  // namespace rsc

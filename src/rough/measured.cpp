@@ -1,0 +1,115 @@
+#include "rough/measured.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "error.hpp"
+#include "rough/filter.hpp"
+#include "rough/missing.hpp"
+
+namespace rsc {
+namespace {
+
+template <class... Args>
+std::string format(const char* text, Args... args) {
+    char buffer[400];
+    std::snprintf(buffer, sizeof buffer, text, args...);
+    return buffer;
+}
+
+const char* name(Detrend how) {
+    switch (how) {
+        case Detrend::none: return "none";
+        case Detrend::mean: return "mean";
+        case Detrend::plane: return "plane";
+        case Detrend::quadratic: return "quadratic";
+        case Detrend::sphere: return "sphere";
+    }
+    return "?";
+}
+
+void refuse_missing(const HeightMap& map, long missing) {
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            if (std::isnan(map(i, j)))
+                throw Error(Failure::bad_input,
+                            format("%ld of %.0f points are missing, the first in column %d of row %d, counted from 0 with y upwards; "
+                                   "surface%%missing = 'fill' fills them",
+                                   missing, static_cast<double>(map.nx) * map.ny, i, j));
+}
+
+std::string told_change(const Roughness& before, const Roughness& after, const char* l) {
+    return format("rms height %.4g -> %.4g %s, rms slope %.4g -> %.4g, rms curvature %.4g -> %.4g 1/%s", before.height, after.height, l,
+                  before.slope, after.slope, before.curvature, after.curvature, l);
+}
+
+}  // namespace
+
+Roughness roughness(const HeightMap& map) {
+    const Moments m = grid_moments(map);
+    return {std::sqrt(m.m0), m.rms_slope(), std::sqrt(m.m4)};
+}
+
+double Measured::shortest_wave() const { return 2 * std::numbers::pi / fit.ks.value; }
+
+double Measured::points_per_wave(const HeightMap& map) const { return shortest_wave() / std::max(map.dx, map.dy); }
+
+Measured measure(HeightMap& map, const MeasureOptions& options) {
+    Measured m;
+    m.missing = count_missing(map);
+    const double points = static_cast<double>(map.nx) * map.ny;
+    m.missing_share = static_cast<double>(m.missing) / points;
+    if (m.missing > 0 && static_cast<double>(m.missing) == points) throw Error(Failure::bad_input, "all points of the map are missing");
+    if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
+    m.as_read = roughness(map);
+    m.form = detrend(map, options.detrend);
+    m.filled = fill_missing(map);
+    m.without_form = m.filtered = roughness(map);
+    m.filter_cutoff = options.filter_cutoff;
+    if (options.filter_cutoff > 0) {
+        gaussian_filter(map, options.filter_cutoff);
+        m.filtered = roughness(map);
+    }
+    m.parameters = height_parameters(map);
+    m.isotropy = isotropy_ratio(map);
+    m.spectrum = measure_spectrum(map);
+    m.fit = fit_self_affine(m.spectrum);
+    return m;
+}
+
+std::vector<std::string> told(const Measured& m, const HeightMap& map, const std::string& length_unit) {
+    const char* const l = length_unit.c_str();
+    std::vector<std::string> lines;
+    lines.push_back(
+        format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", map.nx, map.ny, map.dx, map.dy, l, map.Lx(), map.Ly(), l));
+    if (m.missing > 0)
+        lines.push_back(format("missing points: %ld (%.3g %%) filled; summits nearer to them than the shortest wave are left out",
+                               m.missing, 100 * m.missing_share));
+    std::string form = std::string("form '") + name(m.form.how) + "': ";
+    if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
+        form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);
+    if (m.form.how == Detrend::sphere)
+        form += format("radius %.6g %s (%s); ", std::abs(m.form.radius), l, m.form.radius > 0 ? "dome" : "bowl");
+    lines.push_back(form + told_change(m.as_read, m.without_form, l));
+    if (m.filter_cutoff > 0)
+        lines.push_back(format("filter (Gaussian, %.4g %s): ", m.filter_cutoff, l) + told_change(m.without_form, m.filtered, l));
+    lines.push_back(format("heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f", m.parameters.sq, l,
+                           m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
+    const double two_pi = 2 * std::numbers::pi;
+    lines.push_back(format("spectrum: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
+                           m.fit.hurst.value, m.fit.hurst.error, two_pi / m.fit.kl.value, l, m.fit.plateau ? " (plateau above)" : "",
+                           two_pi / m.fit.ks.value, l, m.fit.ks_seen ? "" : " (the grid's: no end seen)", m.points_per_wave(map)));
+    if (m.points_per_wave(map) < kFewPointsPerWave)
+        lines.push_back(format(
+            "warning: fewer than %.0f points in the shortest wave: the grid, or noise at the pixel, makes the slopes, curvatures and "
+            "summits; surface%%filter_cutoff takes out what is no roughness",
+            kFewPointsPerWave));
+    if (m.isotropy < 0.8 || std::abs(m.parameters.ssk) > 0.3 || std::abs(m.parameters.sku - 3) > 0.6)
+        lines.push_back(
+            "warning: the map is not isotropic or not Gaussian (isotropy ratio 1, Ssk 0, Sku 3 would be): surfaces made from its "
+            "spectrum are both");
+    return lines;
+}
+
+}  // namespace rsc

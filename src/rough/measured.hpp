@@ -1,0 +1,56 @@
+// From a measured map to a rough surface: missing points, form, filter, and what is left when they are done (physics, section 11).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rough/form.hpp"
+#include "rough/measured_spectrum.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+enum class Missing { refuse, fill };
+
+struct MeasureOptions {
+    Missing missing = Missing::refuse;
+    Detrend detrend = Detrend::plane;
+    double filter_cutoff = 0;  // 0: no filter [length]
+};
+
+// What the steps change.
+struct Roughness {
+    double height = 0;     // rms about the mean [length]
+    double slope = 0;      // rms gradient
+    double curvature = 0;  // sqrt(m4), the rms second derivative of a profile [1/length]
+};
+Roughness roughness(const HeightMap& map);
+
+// What was done to a map, and what it is now.
+struct Measured {
+    long missing = 0;                  // points filled
+    double missing_share = 0;          // of all points
+    std::vector<std::uint8_t> filled;  // 1 at j*nx + i where a point was filled; empty if none was
+    Form form;
+    double filter_cutoff = 0;
+    Roughness as_read, without_form, filtered;  // the last two are equal when there is no filter
+    HeightParameters parameters;
+    double isotropy = 1;
+    MeasuredSpectrum spectrum;
+    SelfAffineFit fit;
+    double shortest_wave() const;                        // 2 pi/ks [length]
+    double points_per_wave(const HeightMap& map) const;  // grid steps in the shortest wave
+};
+
+// Fewer points in the shortest wave than this, and the grid, or noise at the pixel, makes the curvatures.
+inline constexpr double kFewPointsPerWave = 4;
+
+// Subtracts the form fitted to the points present, fills the missing ones with the harmonic function of what is left around them, and filters, in place.
+// Throws Error(bad_input) when points are missing and Missing::refuse says so (the message names the first), or all are missing.
+Measured measure(HeightMap& map, const MeasureOptions& options);
+
+// Lines that tell what was done, without line ends; `length_unit` follows every length.
+std::vector<std::string> told(const Measured& measured, const HeightMap& map, const std::string& length_unit);
+
+}  // namespace rsc

@@ -1,0 +1,335 @@
+#include "rough/measured_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "error.hpp"
+#include "rough/fftw_planner.hpp"
+#include "rough/synthesis.hpp"
+
+namespace rsc {
+namespace {
+
+std::vector<double> hann(int n, bool none) {
+    std::vector<double> w(static_cast<std::size_t>(n), 1.0);
+    if (none) return w;
+    for (int i = 0; i < n; ++i) w[static_cast<std::size_t>(i)] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (i + 0.5) / n);
+    return w;
+}
+
+// Sums of 1, x, y, x^2, xy, y^2 with weights over the points before index i, so that a line through any run of points costs nothing.
+class Sums {
+public:
+    struct Six {
+        double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+        Six operator-(const Six& o) const { return {n - o.n, x - o.x, y - o.y, xx - o.xx, xy - o.xy, yy - o.yy}; }
+    };
+    Sums(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& weight) : to_(x.size() + 1) {
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Six& s = to_[i];
+            const double w = weight[i], wx = w * x[i], wy = w * y[i];
+            to_[i + 1] = {s.n + w, s.x + wx, s.y + wy, s.xx + wx * x[i], s.xy + wx * y[i], s.yy + wy * y[i]};
+        }
+    }
+    Six between(std::size_t first, std::size_t end) const { return first < end ? to_[end] - to_[first] : Six{}; }
+
+private:
+    std::vector<Six> to_;
+};
+
+struct Line {
+    double height = 0, slope = 0;                                    // y = height + slope x
+    double left = 0;                                                 // sum of squares of what is left
+    double height_variance = 0, slope_variance = 0, covariance = 0;  // in units of the variance of y
+};
+
+Line line_through(const Sums::Six& s) {
+    Line line;
+    const double mean_x = s.n > 0 ? s.x / s.n : 0, mean_y = s.n > 0 ? s.y / s.n : 0;
+    const double xx = s.xx - s.n * mean_x * mean_x, xy = s.xy - s.n * mean_x * mean_y, yy = s.yy - s.n * mean_y * mean_y;
+    if (!(xx > 1e-9 * s.n)) {  // one point, or none
+        line.height = mean_y;
+        line.left = std::max(0.0, yy);
+        return line;
+    }
+    line.slope = xy / xx;
+    line.height = mean_y - line.slope * mean_x;
+    line.left = std::max(0.0, yy - line.slope * xy);
+    line.slope_variance = 1 / xx;
+    line.height_variance = 1 / s.n + mean_x * mean_x / xx;
+    line.covariance = -mean_x / xx;
+    return line;
+}
+
+// The power law begins at point `low` and ends before point `high`; points before `low` lie on a plateau of its height or are left
+// to a line of their own, as are the points from `high` on.
+struct Cut {
+    std::size_t low = 0, high = 0;
+    bool plateau = false;
+};
+
+class BandSearch {
+public:
+    BandSearch(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& weight)
+        : x_(x), sums_(x, y, weight), power_(x.size() + 1) {
+        for (std::size_t i = 0; i < x.size(); ++i) power_[i + 1] = power_[i] + std::exp(x[i] + y[i]);  // k Phi
+    }
+
+    Line power_law(const Cut& c) const {
+        Sums::Six s = sums_.between(c.low, c.high);
+        if (c.plateau && c.low > 0) {
+            // The points of the plateau count as if they lay at kl.
+            const Sums::Six p = sums_.between(0, c.low);
+            const double x = x_[c.low];
+            s = {s.n + p.n, s.x + p.n * x, s.y + p.y, s.xx + p.n * x * x, s.xy + x * p.y, s.yy + p.yy};
+        }
+        return line_through(s);
+    }
+    // Weighted sum of squares of what is left, and the weight that it is a sum over.
+    struct Left {
+        double square = 0, weight = 0;
+        double mean() const { return square / weight; }
+    };
+    Left left(const Cut& c) const {
+        Left l;
+        const auto add = [&](double square, const Sums::Six& s) { l.square += square, l.weight += s.n; };
+        add(power_law(c).left, sums_.between(c.plateau ? 0 : c.low, c.high));
+        if (!c.plateau && c.low > kBlurred) {
+            const Sums::Six s = sums_.between(0, c.low - kBlurred);
+            add(line_through(s).left, s);
+        }
+        if (c.high + kBlurred < x_.size()) {
+            const Sums::Six s = sums_.between(c.high + kBlurred, x_.size());
+            add(line_through(s).left, s);
+        }
+        return l;
+    }
+    // Bayes' criterion: a break must earn its parameters. Infinite for what is no self-affine band.
+    double cost(const Cut& c) const {
+        constexpr double kSteepest = -2 * (1 + 1.5), kFlattest = -2 * (1 - 0.5);
+        const double slope = power_law(c).slope;
+        constexpr double kLeastPower = 0.01;  // of the mean square height: what is less is noise, however straight
+        if (slope < kSteepest || slope > kFlattest) return HUGE_VAL;
+        if (power_[c.high] - power_[c.low] < kLeastPower * power_.back()) return HUGE_VAL;
+        const auto n = static_cast<double>(x_.size());
+        double parameters = 2;
+        if (c.low > 0) parameters += c.plateau ? 1 : 3;
+        if (c.high < x_.size()) parameters += 3;
+        return n * std::log(left(c).mean() + kScatter) + 2 * parameters * std::log(n);
+    }
+    static constexpr double kScatter = 1e-6;    // squared: no spectrum is known better than to 0.1 %
+    static constexpr std::size_t kBlurred = 2;  // rings that a Hann window couples to one
+
+private:
+    const std::vector<double>& x_;
+    Sums sums_;
+    std::vector<double> power_;
+};
+
+}  // namespace
+
+double SelfAffineFit::operator()(double k) const {
+    if (k > ks.value * (1 + 1e-12)) return 0;
+    if (k < kl.value) return plateau ? Phi0.value : 0;
+    return Phi0.value * std::pow(k / kl.value, -2 * (1 + hurst.value));
+}
+
+MeasuredSpectrum measure_spectrum(const HeightMap& map) {
+    const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
+    const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
+    // The window makes a constant a wave as long as the map: the mean it sees goes first.
+    double sum = 0, weights = 0, squares = 0;
+    for (int j = 0; j < ny; ++j) {
+        double row = 0, row_w = 0, row_s = 0;
+        for (int i = 0; i < nx; ++i) {
+            const double w = wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)];
+            row += w * map(i, j), row_w += w, row_s += w * w;
+        }
+        sum += row, weights += row_w, squares += row_s;
+    }
+    const double mean = sum / weights;
+    const std::unique_ptr<double[], HeightMap::Free> buffer(
+        allocate_doubles(2 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(ny), "the spectrum of a height map"));
+    double* const z = buffer.get();
+    auto* const modes = reinterpret_cast<std::complex<double>*>(z);
+    FftwPlan plan;
+    {
+        const auto lock = fftw_planning();
+        plan.reset(fftw_plan_dft_r2c_2d(ny, nx, z, reinterpret_cast<fftw_complex*>(z), FFTW_ESTIMATE));
+    }
+    if (!plan) throw Error(Failure::internal, "spectrum: FFTW made no plan");
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+            z[static_cast<std::ptrdiff_t>(j) * 2 * columns + i] =
+                wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)] * (map(i, j) - mean);
+    fftw_execute(plan.get());
+
+    const double step_x = 2 * std::numbers::pi / map.Lx(), step_y = 2 * std::numbers::pi / map.Ly(), ring = std::min(step_x, step_y);
+    const double nyquist = std::numbers::pi / std::max(map.dx, map.dy);
+    const auto rings = static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
+    std::vector<double> power(rings + 1, 0.0), count(rings + 1, 0.0);
+    for (int j = 0; j < ny; ++j) {
+        const double ky = step_y * (j <= ny / 2 ? j : j - ny);
+        for (int i = 0; i < columns; ++i) {
+            const double kx = step_x * i, q = std::hypot(kx, ky) / ring;
+            if (!(q < static_cast<double>(rings) + 0.5)) continue;
+            const auto r = static_cast<std::size_t>(q + 0.5);
+            const double copies = i == 0 || 2 * i == nx ? 1 : 2;  // the other half plane is the mirror image
+            power[r] += copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
+            count[r] += copies;
+        }
+    }
+    // Parseval: the squares of the modes sum up to nx ny times those of the windowed heights.
+    const double scale = 1 / (static_cast<double>(nx) * ny * squares * step_x * step_y);
+    MeasuredSpectrum s;
+    // (sum w^2)^2/(n sum w^4) of a Hann window is 0.514 in each direction.
+    constexpr double kHann = 0.514;
+    s.independent = map.periodic ? 0.5 : 0.5 * kHann * kHann;
+    s.coupled = map.periodic ? 1 : 1 / kHann;
+    for (std::size_t r = 1; r <= rings; ++r) {
+        if (count[r] == 0) continue;  // a narrow map has rings without modes
+        s.wavenumber.push_back(static_cast<double>(r) * ring);
+        s.psd.push_back(scale * power[r] / count[r]);
+        s.modes.push_back(count[r]);
+    }
+    return s;
+}
+
+SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
+    std::vector<double> k, x, y, weight;
+    double weights = 0;
+    for (std::size_t i = 0; i < spectrum.psd.size(); ++i)
+        if (spectrum.psd[i] > 0) {
+            const double independent = spectrum.independent * spectrum.modes[i];
+            k.push_back(spectrum.wavenumber[i]);
+            x.push_back(std::log(spectrum.wavenumber[i]));
+            // The logarithm of a mean of M squared amplitudes is expected 1/(2M) below that of their expectation.
+            y.push_back(std::log(spectrum.psd[i]) + 0.5 / independent);
+            weight.push_back(independent);
+            weights += independent;
+        }
+    for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
+    constexpr std::size_t kFewest = 8, kShortest = 4;  // rings in all; rings of a power law
+    const std::size_t n = x.size();
+    if (n < kFewest)
+        throw Error(Failure::bad_input, "the map is too small for a spectrum: it has " + std::to_string(n) + " rings of modes");
+    const BandSearch search(x, y, weight);
+    Cut best{0, n, false};
+    double least = HUGE_VAL;  // one power law over the whole is among the cuts tried; if nothing fits, it stays
+    const auto try_cut = [&](const Cut& c) {
+        if (c.high < c.low + kShortest || c.high > n) return;
+        if (c.plateau && c.low == 0) return;  // the same as none
+        if (const double cost = search.cost(c); cost < least) least = cost, best = c;
+    };
+    // Breaks on some 60 places a decade first, then one by one around the best.
+    std::vector<std::size_t> places;
+    for (double place = 0; static_cast<std::size_t>(place) <= n; place = std::max(place + 1, place * 1.04))
+        places.push_back(static_cast<std::size_t>(place));
+    places.push_back(n);
+    for (const bool plateau : {false, true})
+        for (const std::size_t low : places)
+            for (const std::size_t high : places) try_cut({low, high, plateau});
+    for (int round = 0; round < 3; ++round) {
+        const Cut around = best;
+        const std::size_t wide = 3 + n / 40;
+        for (std::size_t low = around.low > wide ? around.low - wide : 0; low <= around.low + wide; ++low)
+            try_cut({low, around.high, around.plateau});
+        for (std::size_t high = around.high > wide ? around.high - wide : 0; high <= around.high + wide; ++high)
+            try_cut({best.low, high, around.plateau});
+    }
+
+    // The rings at the breaks are blurred: the line is fitted without them.
+    const double half_ring = 0.5 * spectrum.wavenumber[0];
+    Cut inner = best;
+    if (best.high < n && inner.high > inner.low + kShortest) --inner.high;
+    if (best.low > 0 && !best.plateau && inner.high > inner.low + kShortest) ++inner.low;
+    const Line line = search.power_law(inner);
+    SelfAffineFit fit;
+    fit.plateau = best.plateau;
+    fit.ks_seen = best.high < n;
+    const double points = static_cast<double>(best.high - (best.plateau ? 0 : best.low));
+    const double variance = spectrum.coupled * std::max(line.left / std::max(points - 2, 1.0), BandSearch::kScatter);
+    fit.hurst = {-0.5 * line.slope - 1, 0.5 * std::sqrt(variance * line.slope_variance)};
+
+    // How far a break may move before the residual grows by one variance.
+    const auto reach = [&](auto moved, std::size_t at) {
+        const double limit = search.left(best).square + variance;
+        const auto allowed = [&](std::size_t to) {
+            const Cut c = moved(to);
+            return c.low + kShortest <= c.high && c.high <= n && search.left(c).square <= limit;
+        };
+        std::size_t low = at, high = at;
+        while (low > 0 && allowed(low - 1)) --low;
+        while (high < n && allowed(high + 1)) ++high;
+        const double width = k[std::min(high, n - 1)] - k[std::min(low, n - 1)];
+        return std::max(0.5 * width, half_ring / std::sqrt(3.0));
+    };
+    if (best.low == 0) {
+        fit.kl = {k[0], half_ring};
+    } else if (fit.plateau) {
+        fit.kl = {k[best.low], reach([&](std::size_t low) { return Cut{low, best.high, true}; }, best.low)};
+    } else {
+        fit.kl = {k[best.low], reach([&](std::size_t low) { return Cut{low, best.high, false}; }, best.low)};
+    }
+    if (!fit.ks_seen) {
+        fit.ks = {k[n - 1], half_ring};
+    } else {
+        // Half of the line, from the last ring that has it.
+        std::size_t last = best.high - 1;
+        const double half = std::log(2.0);
+        const auto above = [&](std::size_t i) { return y[i] - (line.height + line.slope * x[i]) + half; };  // > 0: above half of the line
+        const std::size_t limit = std::min(n - 1, best.high + 3);
+        while (last < limit && above(last + 1) > 0) ++last;
+        while (last > best.low && above(last) <= 0) --last;
+        double ks = k[best.high - 1];
+        if (last < limit && above(last) > 0 && above(last + 1) <= 0) {
+            const double share_last = std::exp(above(last)), share_next = std::exp(above(last + 1));  // in halves of the line
+            ks = k[last] + (k[last + 1] - k[last]) * std::clamp((share_last - 1) / (share_last - share_next), 0.0, 1.0);
+        }
+        fit.ks = {ks, reach([&](std::size_t high) { return Cut{best.low, high, best.plateau}; }, best.high)};
+    }
+    const double xl = std::log(fit.kl.value), log_phi = line.height + line.slope * xl;
+    const double log_variance = variance * (line.height_variance + 2 * xl * line.covariance + xl * xl * line.slope_variance);
+    fit.Phi0 = {std::exp(log_phi), std::exp(log_phi) * std::sqrt(std::max(0.0, log_variance))};
+    return fit;
+}
+
+HeightParameters height_parameters(const HeightMap& map) {
+    const double points = static_cast<double>(map.nx) * map.ny;
+    const auto mean_power = [&](double level, int power) {
+        double sum = 0;
+        for (int j = 0; j < map.ny; ++j) {
+            double row = 0;
+            for (int i = 0; i < map.nx; ++i) row += std::pow(map(i, j) - level, power);
+            sum += row;
+        }
+        return sum / points;
+    };
+    const double level = mean_power(0, 1);
+    HeightParameters p;
+    p.sq = std::sqrt(mean_power(level, 2));
+    p.ssk = mean_power(level, 3) / std::pow(p.sq, 3);
+    p.sku = mean_power(level, 4) / std::pow(p.sq, 4);
+    p.sdq = grid_moments(map).rms_slope();
+    return p;
+}
+
+double isotropy_ratio(const HeightMap& map) {
+    double xx = 0, xy = 0, yy = 0;
+    for (int j = 0; j + 1 < map.ny; ++j) {
+        double row_xx = 0, row_xy = 0, row_yy = 0;
+        for (int i = 0; i + 1 < map.nx; ++i) {
+            // Gradient in the middle of four points.
+            const double a = map(i, j), b = map(i + 1, j), c = map(i, j + 1), d = map(i + 1, j + 1);
+            const double zx = 0.5 * (b - a + d - c) / map.dx, zy = 0.5 * (c - a + d - b) / map.dy;
+            row_xx += zx * zx, row_xy += zx * zy, row_yy += zy * zy;
+        }
+        xx += row_xx, xy += row_xy, yy += row_yy;
+    }
+    const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
+    return mean + apart > 0 ? std::sqrt(std::max(0.0, mean - apart) / (mean + apart)) : 1.0;
+}
+
+}  // namespace rsc

@@ -1,0 +1,25 @@
+// Missing points of a measured map: filled by the harmonic function of their border.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rough/asperities.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+// Number of points whose height is NaN.
+long count_missing(const HeightMap& map);
+
+// Gives every missing point the height at which it is the mean of its four neighbours, weighted by 1/dx^2 and 1/dy^2 (beyond an
+// edge there is no neighbour): the harmonic function with the heights around as its values at the border, by conjugate gradients to
+// 1e-12. Returns the points filled, 1 at j*nx + i, or nothing if none was missing. Throws Error(bad_input) if all are missing.
+std::vector<std::uint8_t> fill_missing(HeightMap& map);
+
+// Leaves out the asperities nearer than `distance` to a filled point and corrects the count: their curvatures are the filling's. The means of the
+// count are those of the asperities kept.
+void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled,
+                      double distance);
+
+}  // namespace rsc
