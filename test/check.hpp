@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 
 namespace check {
 
@@ -23,6 +24,13 @@ inline void close(double a, double b, double tolerance, const char* what, const 
     if (error <= tolerance) return;  // false for NaN
     ++failures;
     std::printf("%s:%d: failed: %s: %.17g against %.17g, error %.3g > %.3g\n", file, line, what, a, b, error, tolerance);
+}
+
+// The larger of two errors, and not a number if either is: std::max would drop it.
+inline double worse(double worst, double error) { return std::isnan(worst) || error <= worst ? worst : error; }
+inline double worse(double worst, std::initializer_list<double> errors) {
+    for (double error : errors) worst = worse(worst, error);
+    return worst;
 }
 
 inline int summary() {

@@ -99,8 +99,7 @@ test_kills() {
     campaign 250
     expect 0 in_folder whole "$rsc" -q ../case.nml
     mkdir killed && cd killed
-    RANDOM=${RSC_TEST_SEED:-$$}
-    echo "RSC_TEST_SEED=${RSC_TEST_SEED:-$$}"
+    RANDOM=${RSC_TEST_SEED:-20180417}   # the same moments at every run, as far as the machine's load lets them be
     local kills=0 runs=0 kept=0 signal status size=0
     while [ $kills -lt 20 ]; do
         runs=$((runs + 1))

@@ -2,7 +2,7 @@
 # which files are there afterwards.
 #   RSC      the program             FOLDER   a folder for this test alone
 #   INPUT    file for stdin, or ""   ARGS     the command line
-#   STATUS   the exit status         ERROR, OUTPUT   regular expressions; "" asserts silence on stderr, nothing on stdout
+#   STATUS   the exit status         ERROR, OUTPUT   regular expressions; "" asserts silence
 #   FILES    the files it leaves ("" for none)
 file(REMOVE_RECURSE "${FOLDER}")
 file(MAKE_DIRECTORY "${FOLDER}")
@@ -24,7 +24,10 @@ elseif(NOT error MATCHES "${ERROR}")
   message("stderr does not match: ${ERROR}")
   set(failed TRUE)
 endif()
-if(NOT output MATCHES "${OUTPUT}")
+if(OUTPUT STREQUAL "" AND NOT output STREQUAL "")
+  message("stdout should be empty")
+  set(failed TRUE)
+elseif(NOT output MATCHES "${OUTPUT}")
   message("stdout does not match: ${OUTPUT}")
   set(failed TRUE)
 endif()

@@ -104,7 +104,7 @@ int main() {
                 if (row.separation > 2.75) continue;
                 Distance& d = distances[{ratio, law}];
                 d.N += N, d.A += A, ++d.count;
-                d.worst_N = std::max(d.worst_N, std::abs(N)), d.worst_A = std::max(d.worst_A, std::abs(A));
+                d.worst_N = check::worse(d.worst_N, std::abs(N)), d.worst_A = check::worse(d.worst_A, std::abs(A));
             }
             std::printf("; %ld pairs overlap, %d contacts beyond the law at the last\n", last.overlapping_pairs, last.beyond_law);
         }

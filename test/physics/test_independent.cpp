@@ -108,12 +108,12 @@ void against_slow_solver() {
                 for (std::size_t c = 0; c < level.f.size(); ++c) F[at(level.asperity[c])] = level.f[c];
                 double difference = 0;
                 for (std::size_t i = 0; i < a.size(); ++i) {
-                    difference = std::max(difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
+                    difference = check::worse(difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
                 }
                 CHECK(difference <= kTolerance * N);
                 if (N > 0) {
-                    worst_load = std::max(worst_load, std::abs(level.force / N - 1));
-                    worst_area = std::max(worst_area, std::abs(level.area / A - 1));
+                    worst_load = check::worse(worst_load, std::abs(level.force / N - 1));
+                    worst_area = check::worse(worst_area, std::abs(level.area / A - 1));
                     worst_force = std::max(worst_force, difference / N);
                 }
                 contacts = std::max(contacts, static_cast<int>(level.f.size()));
@@ -168,7 +168,7 @@ void newton_order() {
     }
     const double order = covariance / variance;
     double C = 0;
-    for (std::size_t k = 0; k < from.size(); ++k) C = std::max(C, std::exp(to[k] - 1.5 * from[k]));
+    for (std::size_t k = 0; k < from.size(); ++k) C = check::worse(C, std::exp(to[k] - 1.5 * from[k]));
     std::printf("e' <= %.2f e^1.5 in %zu pairs of residuals, slope of ln e' over ln e %.2f; at most %d steps\n", C, from.size(), order,
                 most_steps);
     CHECK(from.size() >= 40);

@@ -70,9 +70,9 @@ void against_brute_force() {
             double worst = 0, sum_g = 0, sum_a = 0;
             for (std::size_t s = 0; s < std::min(found.size(), summits.size()); ++s) {
                 const auto [i, j] = summits[s];
-                worst = std::max({worst, std::abs(found.x[s] - (-1 + i * 0.5)), std::abs(found.y[s] - (2 + j * 0.25)),
-                                  std::abs(found.z[s] - z(i, j)), std::abs(found.kappa1[s] / k1[s] - 1),
-                                  std::abs(found.kappa2[s] - k2[s]) / k1[s], std::abs(found.radius[s] * kg[s] - 1)});
+                worst = check::worse(worst, {std::abs(found.x[s] - (-1 + i * 0.5)), std::abs(found.y[s] - (2 + j * 0.25)),
+                                             std::abs(found.z[s] - z(i, j)), std::abs(found.kappa1[s] / k1[s] - 1),
+                                             std::abs(found.kappa2[s] - k2[s]) / k1[s], std::abs(found.radius[s] * kg[s] - 1)});
                 sum_g += kg[s], sum_a += (k1[s] + k2[s]) / 2;
             }
             CHECK_CLOSE(worst, 0, 1e-12);
@@ -245,7 +245,7 @@ void against_theory() {
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         const auto bin = static_cast<std::size_t>((1 - 1 / ratios[i]) / step);
         const double theory_at = cdf[std::min(bin, cdf.size() - 1)] / cdf.back();
-        distance = std::max(distance, std::abs(theory_at - static_cast<double>(i) / static_cast<double>(ratios.size())));
+        distance = check::worse(distance, std::abs(theory_at - static_cast<double>(i) / static_cast<double>(ratios.size())));
     }
     std::printf("Kolmogorov-Smirnov distance of kappa1/kappa2: %.4f\n", distance);
     CHECK_CLOSE(distance, 0, 2 / std::sqrt(static_cast<double>(ratios.size())) + 0.01);  // 0.07 % point, and the grid's bias

@@ -1,4 +1,5 @@
 // The namelist reader and the key registry: values, positions, messages, round trips, limits, studies, the command line.
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <vector>
@@ -146,6 +147,92 @@ void test_warnings() {
     CHECK(reading.warnings.size() == 1 && reading.warnings[0].at.line == 1 && reading.warnings[0].at.column == 33);
     CHECK(read_namelist("&indentation levels = 1.0, 2.0, ! last\n start = 3 /\n").warnings.empty());
     CHECK(read_namelist("&surface sigma = 1.0, ! rms\n n = 64, ! points\n /\n").warnings.empty());
+}
+
+// What each number may be, written out once more: the last values in, the first values out. A key without a row here is one whose
+// bounds nobody has looked at.
+void test_bounds() {
+    struct Row {
+        const char* key;
+        std::vector<const char*> in, out;
+    };
+    const std::vector<Row> rows = {
+        {"run%seed", {"-9223372036854775808", "9223372036854775807"}, {}},
+        {"run%realizations", {"1", "10000000"}, {"0", "-1", "10000001"}},
+        {"run%first_realization", {"1", "2147483647"}, {"0", "2147483648"}},
+        {"run%threads", {"0", "4096"}, {"-1", "4097"}},
+        {"solids%E", {"1e-50", "Infinity"}, {"0", "-1", "NaN", "-Infinity"}},
+        {"solids%nu", {"-0.999", "0", "0.5"}, {"-1", "0.5000001", "NaN"}},
+        {"solids%R", {"1e-50", "Infinity"}, {"0", "-1", "NaN"}},
+        {"surface%L", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
+        {"surface%n", {"2", "32768"}, {"1", "32769"}},
+        {"surface%hurst", {"0", "1"}, {"-0.001", "1.001", "NaN"}},
+        {"surface%L_lambda_l", {"1", "32768"}, {"0.999", "32769", "NaN"}},
+        {"surface%L_lambda_s", {"1", "32768"}, {"0.999", "32769", "NaN"}},
+        {"surface%sigma", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
+        {"indentation%start", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "-Infinity", "NaN"}},
+        {"indentation%stop", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "-Infinity", "NaN"}},
+        {"indentation%steps", {"1", "1000000"}, {"0", "1000001"}},
+        {"indentation%levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
+        {"indentation%centre", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
+        {"indentation%selection_factor", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
+        {"solver%tolerance", {"1e-14", "0.1"}, {"9e-15", "0", "-1", "0.1001", "Infinity", "NaN"}},
+        {"solver%max_iterations", {"1", "1000000"}, {"0", "1000001"}},
+        {"solver%delta0", {"1e-50", "1000"}, {"0", "-1", "1000.1", "NaN"}},
+        {"output%map_cells", {"1", "4096"}, {"0", "4097"}},
+        {"output%radial_bins", {"1", "100000"}, {"0", "100001"}},
+        {"output%pdf_levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
+        {"output%pdf_bins", {"1", "100000"}, {"0", "100001"}},
+        {"output%compression", {"0", "9"}, {"-1", "10"}},
+    };
+    for (const Row& row : rows) {
+        Case c;
+        const bool element = find_key(std::string_view(row.key).substr(0, std::string_view(row.key).find('%')),
+                                      std::string_view(row.key).substr(std::string_view(row.key).find('%') + 1))
+                                 ->size == 2;
+        const std::string name = row.key + std::string(element ? "(2)" : "");
+        for (const char* value : row.in) {
+            bool taken = true;
+            try {
+                set_key(c, name, value);
+            } catch (const Error&) {
+                taken = false;
+            }
+            if (!taken) std::printf("  %s = %s is refused\n", row.key, value);
+            CHECK(taken);
+        }
+        for (const char* value : row.out) {
+            bool refused = false;
+            try {
+                set_key(c, name, value);
+            } catch (const Error&) {
+                refused = true;
+            }
+            if (!refused) std::printf("  %s = %s is taken\n", row.key, value);
+            CHECK(refused);
+        }
+    }
+    for (const Key& key : registry()) {
+        if (key.type != Type::real && key.type != Type::integer && key.type != Type::long_integer) continue;
+        const std::string name = std::string(key.group) + "%" + key.name;
+        const bool there = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return name == row.key; });
+        if (!there) std::printf("  %s has no row in test_bounds\n", name.c_str());
+        CHECK(there);
+    }
+}
+
+// Values left out between commas keep what stands there, however many follow each other.
+void test_nulls() {
+    const auto pdf = [](const std::string& text) {
+        return read_case_text("&output pdf_levels = " + text + " /", "case.nml").settings.output.pdf_levels;
+    };
+    CHECK((pdf(",,9.5") == std::vector<double>{2.0, 2.5, 9.5}));
+    CHECK((pdf("1.5,,9.5") == std::vector<double>{1.5, 2.5, 9.5}));
+    CHECK((pdf("2*,9.5") == std::vector<double>{2.0, 2.5, 9.5}));
+    CHECK((pdf(" , , , 9.5") == std::vector<double>{2.0, 2.5, 3.0, 9.5}));
+    const Case c = read_case_text("&solids E = ,7.5  nu = , 0.25  R = 3.5,, /", "case.nml").settings;
+    CHECK(c.solids.E[0] == 78.0e3 && c.solids.E[1] == 7.5 && c.solids.nu[0] == 0.42 && c.solids.nu[1] == 0.25);
+    CHECK(c.solids.R[0] == 3.5 && c.solids.R[1] == 2.5);
 }
 
 // A value for a key that is not its default.
@@ -360,6 +447,8 @@ int main() {
     test_syntax();
     test_messages();
     test_warnings();
+    test_bounds();
+    test_nulls();
     test_round_trip();
     test_set_and_get();
     test_limits();

@@ -275,7 +275,15 @@ void instruction_sets() {
         near_field(*k);
         mesh_window_loops(*k);
     }
-    CHECK(found >= 1);
+    // What this machine has is there, and the widest of it is the one in use.
+    const char* widest = "generic";
+#if defined(__x86_64__)
+    widest = "sse2";
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) widest = "avx2";
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) widest = "avx512";
+#endif
+    CHECK(std::string(pair_instruction_set()) == widest);
+    CHECK(found >= (widest == std::string("generic") ? 1 : widest == std::string("sse2") ? 2 : widest == std::string("avx2") ? 3 : 4));
     CHECK(pair_kernels("no such set") == nullptr);
     CHECK(pair_kernels(pair_instruction_set()) == &pair_kernels());
 }

@@ -133,9 +133,9 @@ void elementary_functions() {
     double worst_log = 0, worst_exp = 0, worst_trig = 0;
     for (int i = 1; i < 200000; ++i) {
         const double u = i / 200000.0, x = std::exp(60 * u - 36);
-        worst_log = std::max(worst_log, std::abs(vector_math::log_positive(x) - std::log(x)) / (std::abs(std::log(x)) + 1e-300));
+        worst_log = check::worse(worst_log, std::abs(vector_math::log_positive(x) - std::log(x)) / (std::abs(std::log(x)) + 1e-300));
         const double e = 80 * u - 40;
-        worst_exp = std::max(worst_exp, std::abs(vector_math::exp_moderate(e) / std::exp(e) - 1));
+        worst_exp = check::worse(worst_exp, std::abs(vector_math::exp_moderate(e) / std::exp(e) - 1));
         double c, s;
         vector_math::cos_sin_turns(u, c, s);
         const long double turn = 2 * std::numbers::pi_v<long double> * u;

@@ -27,7 +27,7 @@ double rms(const HeightMap& map) {
 double largest_difference(const HeightMap& a, const HeightMap& b) {
     double worst = 0;
     for (int j = 0; j < a.ny; ++j)
-        for (int i = 0; i < a.nx; ++i) worst = std::max(worst, std::abs(a(i, j) - b(i, j)));
+        for (int i = 0; i < a.nx; ++i) worst = check::worse(worst, std::abs(a(i, j) - b(i, j)));
     return worst;
 }
 
@@ -66,7 +66,7 @@ void against_cosines() {
             const std::vector<double> z = by_cosines(s, n, {11, 5});
             double worst = 0;
             for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
+                for (int i = 0; i < n; ++i) worst = check::worse(worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
             CHECK_CLOSE(worst, 0.0, 1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
             CHECK(map.periodic && map.nx == n && map.ny == n);
             CHECK_RELATIVE(map.dx * n, 2.0, 1e-15);
@@ -78,7 +78,7 @@ void same_surface_on_finer_grid() {
     const HeightMap coarse = synthesize(s, 128, Normalise::ensemble, 1, 1), fine = synthesize(s, 256, Normalise::ensemble, 1, 1);
     double worst = 0;
     for (int j = 0; j < 128; ++j)
-        for (int i = 0; i < 128; ++i) worst = std::max(worst, std::abs(coarse(i, j) - fine(2 * i, 2 * j)));
+        for (int i = 0; i < 128; ++i) worst = check::worse(worst, std::abs(coarse(i, j) - fine(2 * i, 2 * j)));
     CHECK_CLOSE(worst, 0.0, 1e-12 * s.sigma);
 }
 
