@@ -1,6 +1,4 @@
 // Cases: options by name, and a run of the whole program.
-#include <omp.h>
-
 #include <algorithm>
 #include <string>
 
@@ -8,6 +6,7 @@
 #include "api/handles.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
+#include "run/campaign_team.hpp"
 #include "run/run.hpp"
 
 namespace rsc::api {
@@ -28,12 +27,7 @@ void require_sound(const Case& settings, std::initializer_list<std::string_view>
     if (!text.empty()) throw Error(Failure::bad_input, text);
 }
 
-int threads_of(const Case& settings) { return settings.run.threads > 0 ? settings.run.threads : omp_get_max_threads(); }
-
-Spectrum spectrum_of(const Case& settings) {
-    const auto& keys = settings.surface;
-    return {keys.L.value_or(1.0), keys.hurst, keys.L_lambda_l, keys.L_lambda_s, keys.plateau, keys.sigma.value_or(0.01)};
-}
+int threads_of(const Case& settings) { return static_cast<int>(thread_count(settings.run.threads)); }
 
 }  // namespace rsc::api
 

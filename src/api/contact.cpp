@@ -6,34 +6,19 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "contact/deflection.hpp"
-#include "contact/equivalent.hpp"
 #include "rough/magnitude.hpp"
 
 namespace rsc::api {
 namespace {
 
-SolverOptions options_of(const Case& settings, const rsc_asperities::Content& on) {
-    SolverOptions options;
-    options.method = settings.solver.method;
-    options.law = settings.asperities.law;
-    options.interaction = settings.solver.interaction;
-    options.selection = settings.indentation.selection;
-    options.selection_factor = settings.indentation.selection_factor;
-    options.sigma = settings.surface.sigma.value_or(on.sigma);
-    options.tolerance = settings.solver.tolerance;
-    options.max_iterations = settings.solver.max_iterations;
-    options.delta0 = settings.solver.delta0;
-    options.mean_spacing = on.mean_spacing;
-    if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
-        throw Error(Failure::bad_input,
-                    "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
-                    "asperities, all of one height, give none");
-    }
-    return options;
+// Asperities that were given one by one learn from the case how large the surface is.
+Site site_of(const Case& settings, const Ground& on) {
+    return on.list && settings.surface.L ? list_site(on.asperities, settings.surface.L, "the asperities") : on.site;
 }
 
 void require_contact_keys(const Case& settings) {
-    require_sound(settings, {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma"});
+    require_sound(settings,
+                  {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
 }
 
 const Level& level_of(const rsc_contact* contact) {
@@ -79,7 +64,8 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             require_finite(y0, 6, "y0");
             const rsc::Case& settings = settings_of(a_case);
             require_contact_keys(settings);
-            return new rsc_contact(asperities->content, {E_star, R, x0, y0}, options_of(settings, *asperities->content));
+            const auto& on = asperities->ground;
+            return new rsc_contact(on, {E_star, R, x0, y0}, rsc::solver_of(settings, site_of(settings, *on)));
         });
     });
 }
@@ -91,12 +77,9 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
             const rsc::Case& settings = settings_of(a_case);
             require_contact_keys(settings);
             require_sound(settings, {"solids"});
-            const auto& on = *asperities->content;
-            const auto& centre = settings.indentation.centre;
-            const rsc::Indenter indenter{rsc::equivalent_modulus(settings.solids.E, settings.solids.nu),
-                                         rsc::equivalent_radius(settings.solids.R), centre[0].value_or(on.x_middle),
-                                         centre[1].value_or(on.y_middle)};
-            return new rsc_contact(asperities->content, indenter, options_of(settings, on));
+            const auto& on = asperities->ground;
+            const rsc::Site site = site_of(settings, *on);
+            return new rsc_contact(on, rsc::indenter_of(settings, site), rsc::solver_of(settings, site));
         });
     });
 }

@@ -6,7 +6,6 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "read/inputs.hpp"
 #include "rough/magnitude.hpp"
 
 namespace rsc::api {
@@ -14,27 +13,14 @@ namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
-// Hertz asperities are the paper's, on the grid; the other laws want the summits between its points, and the biharmonic.
-Detail detail_of(const Case& settings) { return settings.asperities.law == LawKind::hertz ? Detail::grid : Detail::subgrid; }
-
-Moments theory_of(const Case& settings) { return theoretical_moments(spectrum_of(settings)); }
-
 void copy_to(double* output, const std::vector<double>& values) {
     if (output) std::copy(values.begin(), values.end(), output);
 }
 
-rsc_asperities* share(rsc_asperities::Content&& content) {
+rsc_asperities* share(Ground&& ground) {
     auto handle = std::make_unique<rsc_asperities>();
-    handle->content = std::make_shared<const rsc_asperities::Content>(std::move(content));
+    handle->ground = std::make_shared<const Ground>(std::move(ground));
     return handle.release();
-}
-
-double rms(const std::vector<double>& values) {
-    const double n = static_cast<double>(values.size());
-    double mean = 0, square = 0;
-    for (double v : values) mean += v / n;
-    for (double v : values) square += (v - mean) * (v - mean) / n;
-    return std::sqrt(square);
 }
 
 void require_positive(const std::vector<double>& values, int argument, const char* name) {
@@ -72,12 +58,7 @@ int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, in
             const rsc::Case& settings = settings_of(a_case);
             require_sound(settings, {"surface", "run"});
             auto made = std::make_unique<rsc_surface>();
-            made->theory = theory_of(settings);
-            const rsc::Spectrum spectrum = spectrum_of(settings);
-            made->sigma = spectrum.sigma;
-            made->points_per_wave = settings.surface.n / spectrum.L_lambda_s;
-            made->map = rsc::synthesize(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization, nullptr,
-                                        threads_of(settings));
+            made->surface = rsc::make_surface(settings, realization, threads_of(settings));
             return made.release();
         });
     });
@@ -97,7 +78,7 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
             if (nx > std::numeric_limits<std::int64_t>::max() / 8 / ny) throw std::bad_alloc();
             require_finite(heights, nx * ny, 9, "heights");
             auto made = std::make_unique<rsc_surface>();
-            rsc::HeightMap& map = made->map;
+            rsc::HeightMap& map = made->surface.map;
             map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
             map.dx = dx;
             map.dy = dy;
@@ -105,7 +86,7 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
             map.y0 = y0;
             map.periodic = periodic == 1;
             std::copy(heights, heights + nx * ny, map.row(0));
-            made->sigma = std::sqrt(rsc::grid_moments(map).m0);
+            made->surface.origin.sigma = rsc::detrend(map, rsc::Detrend::none).rms;
             return made.release();
         });
     });
@@ -115,9 +96,10 @@ int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
     return guarded(0, [&] {
         construct(surface, "surface", [&] {
             require(original, 2, "original");
-            const rsc::HeightMap& from = original->map;
+            const rsc::HeightMap& from = original->surface.map;
             auto made = std::make_unique<rsc_surface>();
-            rsc::HeightMap& map = made->map;
+            made->surface.origin = original->surface.origin;
+            rsc::HeightMap& map = made->surface.map;
             map.allocate(from.nx, from.ny, from.stride);
             map.dx = from.dx;
             map.dy = from.dy;
@@ -125,8 +107,6 @@ int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
             map.y0 = from.y0;
             map.periodic = from.periodic;
             for (int j = 0; j < from.ny; ++j) std::copy(from.row(j), from.row(j) + from.nx, map.row(j));
-            made->theory = original->theory;
-            made->sigma = original->sigma;
             return made.release();
         });
     });
@@ -148,8 +128,8 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
                                                                         {"sphere", rsc::Detrend::sphere}};
         const auto* const form = std::find_if(std::begin(kForms), std::end(kForms), [&](const auto& f) { return f.first == word; });
         if (form == std::end(kForms)) refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
-        const double left = rsc::detrend(surface->map, form->second).rms;
-        if (!surface->theory) surface->sigma = left;
+        const double left = rsc::detrend(surface->surface.map, form->second).rms;
+        if (!surface->surface.origin.theory) surface->surface.origin.sigma = left;
         put(rms_left, left);
     });
 }
@@ -158,7 +138,7 @@ int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, d
                          int32_t* periodic) {
     return guarded(0, [&] {
         require(surface, 1, "surface");
-        const rsc::HeightMap& map = surface->map;
+        const rsc::HeightMap& map = surface->surface.map;
         put(nx, map.nx);
         put(ny, map.ny);
         put(dx, map.dx);
@@ -172,7 +152,7 @@ int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, d
 int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights) {
     return guarded(0, [&] {
         require(surface, 1, "surface");
-        const rsc::HeightMap& map = surface->map;
+        const rsc::HeightMap& map = surface->surface.map;
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
         for (int j = 0; j < map.ny; ++j) std::copy(map.row(j), map.row(j) + map.nx, heights + static_cast<std::ptrdiff_t>(j) * map.nx);
@@ -182,7 +162,7 @@ int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heigh
 int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4) {
     return guarded(0, [&] {
         require(surface, 1, "surface");
-        const rsc::Moments moments = rsc::grid_moments(surface->map);
+        const rsc::Moments moments = rsc::grid_moments(surface->surface.map);
         put(m0, moments.m0);
         put(m2, moments.m2);
         put(m4, moments.m4);
@@ -194,17 +174,7 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
         construct(asperities, "asperities", [&] {
             require(surface, 2, "surface");
             const rsc::Case& settings = settings_of(a_case);
-            const rsc::HeightMap& map = surface->map;
-            rsc_asperities::Content content;
-            content.asperities = rsc::find_asperities(map, settings.asperities.curvature, nullptr, threads_of(settings),
-                                                      detail_of(settings), surface->points_per_wave);
-            if (content.asperities.size() == 0) refuse(2, "surface", "has no summit: no point lies strictly above its 8 neighbours");
-            content.sigma = surface->sigma;
-            content.mean_spacing = surface->theory ? surface->theory->mean_spacing()
-                                                   : std::sqrt(map.Lx() * map.Ly() / static_cast<double>(content.asperities.size()));
-            content.x_middle = map.x0 + 0.5 * map.Lx();
-            content.y_middle = map.y0 + 0.5 * map.Ly();
-            return share(std::move(content));
+            return share(rsc::make_ground(surface->surface, settings, threads_of(settings)));
         });
     });
 }
@@ -214,16 +184,7 @@ int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
         construct(asperities, "asperities", [&] {
             const rsc::Case& settings = settings_of(a_case);
             require_sound(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
-            const rsc::Spectrum spectrum = spectrum_of(settings);
-            rsc_asperities::Content content;
-            content.mean_spacing = theory_of(settings).mean_spacing();
-            content.asperities =
-                rsc::make_asperities(spectrum, settings.surface.n, settings.surface.normalise, settings.run.seed, realization,
-                                     settings.asperities.curvature, nullptr, nullptr, threads_of(settings), detail_of(settings));
-            if (content.asperities.size() == 0) refuse(2, "a_case", "gives a surface without summits");
-            content.sigma = spectrum.sigma;
-            content.x_middle = content.y_middle = 0.5 * spectrum.L;
-            return share(std::move(content));
+            return share(rsc::make_ground(settings, realization, threads_of(settings)));
         });
     });
 }
@@ -236,8 +197,8 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             if ((kappa1 || kappa2 || angle) && !(kappa1 && kappa2 && angle)) {
                 refuse(!kappa1 ? 7 : !kappa2 ? 8 : 9, "curvature", "is missing: kappa1, kappa2 and angle go together");
             }
-            rsc_asperities::Content content;
-            rsc::Asperities& a = content.asperities;
+            rsc::Ground ground;
+            rsc::Asperities& a = ground.asperities;
             const auto take = [n](std::vector<double>& to, const double* from, int argument, const char* name) {
                 require_finite(from, n, argument, name);
                 to.assign(from, from + n);
@@ -259,11 +220,9 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             }
             if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
             require_apart(a);
-            content.sigma = rms(a.z);
-            const rsc::Extent box = rsc::extent(a);
-            content.x_middle = 0.5 * (box.x_min + box.x_max);
-            content.y_middle = 0.5 * (box.y_min + box.y_max);
-            return share(std::move(content));
+            ground.site = rsc::list_site(a, {}, "the asperities");
+            ground.list = true;
+            return share(std::move(ground));
         });
     });
 }
@@ -285,14 +244,14 @@ int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
     return guarded(0, [&] {
         require(asperities, 1, "asperities");
         require(n, 2, "n");
-        put(n, asperities->content->asperities.size());
+        put(n, asperities->ground->asperities.size());
     });
 }
 
 int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius) {
     return guarded(0, [&] {
         require(asperities, 1, "asperities");
-        const rsc::Asperities& a = asperities->content->asperities;
+        const rsc::Asperities& a = asperities->ground->asperities;
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(x, a.x);
         copy_to(y, a.y);
@@ -304,7 +263,7 @@ int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* 
 int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle) {
     return guarded(0, [&] {
         require(asperities, 1, "asperities");
-        const rsc::Asperities& a = asperities->content->asperities;
+        const rsc::Asperities& a = asperities->ground->asperities;
         if (a.kappa1.empty()) refuse(1, "asperities", "were given without curvatures");
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(kappa1, a.kappa1);

@@ -11,23 +11,22 @@
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
+#include "run/prepare.hpp"
 
 namespace rsc {
 
 struct Job {
     Case settings;
-    Domain domain;  // the surface's rectangle
+    Site site;
     Indenter indenter;
     SolverOptions solver;
-    double sigma = 0;            // the length unit='sigma' and delta0 mean
-    std::vector<double> levels;  // separations [length], or forces [force] with control='force'
-    std::optional<Spectrum> spectrum;
-    std::optional<Moments> theory;
+    double sigma = 0;               // the length unit='sigma' and delta0 mean
+    std::vector<double> levels;     // separations [length], or forces [force] with control='force'
+    std::optional<Moments> theory;  // of a synthetic surface
     ObserveOptions observe;
-    // Of a surface that was read: it is the same in every realization.
-    Asperities given;
-    SurfaceStatistics given_statistics;
-    std::optional<HeightMap> given_heights;
+    // What was read: it is the same in every realization.
+    std::optional<Ground> given;
+    std::optional<HeightMap> given_heights;  // if the case wants them
 };
 
 // Reads what the case names, works out levels, domain and ranges. Throws Error(bad_input) for what cannot be run.

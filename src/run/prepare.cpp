@@ -1,0 +1,185 @@
+#include "run/prepare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "contact/equivalent.hpp"
+#include "contact/law/law.hpp"
+#include "error.hpp"
+#include "read/inputs.hpp"
+
+namespace rsc {
+namespace {
+
+// Hertz asperities are the paper's, on the grid; the laws that look closer want the summits themselves.
+Detail detail_of(const Case& settings) { return settings.asperities.law == LawKind::hertz ? Detail::grid : Detail::subgrid; }
+
+double rms(const std::vector<double>& values) {
+    double mean = 0, square = 0;
+    for (double v : values) mean += v;
+    mean /= static_cast<double>(values.size());
+    for (double v : values) square += (v - mean) * (v - mean);
+    return std::sqrt(square / static_cast<double>(values.size()));
+}
+
+void count_summits(const SummitCount& count, SurfaceStatistics& s) {
+    s.mean_kappa_g = count.mean_kappa_g;
+    s.mean_kappa_a = count.mean_kappa_a;
+    s.summits = count.summits;
+    s.saddles = count.saddles + count.repeated;
+}
+
+void require_summits(const Ground& ground, const std::string& name, const std::string& where) {
+    if (ground.asperities.size() > 0) return;
+    throw Error(Failure::bad_input, name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
+}
+
+Ground make_synthetic(const Case& settings, std::int64_t number, int threads) {
+    const auto& keys = settings.surface;
+    Ground ground;
+    ground.site = synthetic_site(settings);
+    SummitCount count;
+    Moments sampled, differences;
+    ground.asperities = make_asperities(spectrum_of(settings), keys.n, keys.normalise, settings.run.seed, number,
+                                        settings.asperities.curvature, &count, &sampled, threads, detail_of(settings), &differences);
+    require_summits(ground, "the surface", "");
+    auto& s = ground.statistics;
+    s.sigma = std::sqrt(sampled.m0);
+    s.m2 = sampled.m2;
+    s.m4 = sampled.m4;
+    s.m2_grid = differences.m2;
+    s.m4_grid = differences.m4;
+    count_summits(count, s);
+    return ground;
+}
+
+Ground read_list(const Case& settings) {
+    const auto& keys = settings.surface;
+    Ground ground;
+    ground.asperities = read_asperities(keys.file, settings.run.length_unit);
+    make_law(settings.asperities.law, ground.asperities, 1);  // refuses asperities that lack what the law needs
+    ground.site = list_site(ground.asperities, keys.L, "the asperities in " + keys.file);
+    ground.statistics.summits = static_cast<std::int64_t>(ground.asperities.size());
+    ground.statistics.sigma = ground.site.sigma;
+    ground.list = true;
+    return ground;
+}
+
+}  // namespace
+
+Spectrum spectrum_of(const Case& settings) {
+    const auto& keys = settings.surface;
+    return {keys.L.value_or(1.0), keys.hurst, keys.L_lambda_l, keys.L_lambda_s, keys.plateau, keys.sigma.value_or(0.01)};
+}
+
+Surface make_surface(const Case& settings, std::int64_t number, int threads) {
+    const auto& keys = settings.surface;
+    Surface surface;
+    switch (keys.source) {
+        case Source::synthetic: {
+            const Spectrum spectrum = spectrum_of(settings);
+            surface.origin.sigma = spectrum.sigma;
+            surface.origin.points_per_wave = keys.n / spectrum.L_lambda_s;
+            surface.origin.theory = theoretical_moments(spectrum);
+            surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, nullptr, threads);
+            break;
+        }
+        case Source::heights:
+            surface.map = read_heights(keys.file, keys.L, settings.run.length_unit);
+            surface.origin.name = keys.file;
+            surface.origin.sigma = detrend(surface.map, keys.detrend).rms;
+            break;
+        case Source::asperities: throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
+    }
+    return surface;
+}
+
+Site synthetic_site(const Case& settings) {
+    const Spectrum spectrum = spectrum_of(settings);
+    return {{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, theoretical_moments(spectrum).mean_spacing()};
+}
+
+Site list_site(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
+    const Extent box = extent(asperities);
+    const double extent = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
+    if (L && extent > *L) {
+        throw Error(Failure::bad_input,
+                    "surface%L = " + std::to_string(*L) + " is less than the extent of " + whose + ", " + std::to_string(extent));
+    }
+    Site site;
+    site.sigma = rms(asperities.z);
+    if (L && std::min(box.x_min, box.y_min) >= 0 && std::max(box.x_max, box.y_max) <= *L) {
+        site.domain = {0, 0, *L, *L};
+    } else {
+        const double side = L.value_or(extent > 0 ? extent : 1.0);
+        site.domain = {0.5 * (box.x_min + box.x_max) - 0.5 * side, 0.5 * (box.y_min + box.y_max) - 0.5 * side, side, side};
+    }
+    if (L || extent > 0) site.mean_spacing = std::sqrt(site.domain.Lx * site.domain.Ly / static_cast<double>(asperities.size()));
+    return site;
+}
+
+Ground make_ground(const Surface& surface, const Case& settings, int threads) {
+    const HeightMap& map = surface.map;
+    Ground ground;
+    SummitCount count;
+    ground.asperities =
+        find_asperities(map, settings.asperities.curvature, &count, threads, detail_of(settings), surface.origin.points_per_wave);
+    require_summits(ground, surface.origin.name,
+                    map.periodic                          ? ""
+                    : detail_of(settings) == Detail::grid ? " inside the map"
+                                                          : " " + std::to_string(kMeasuredReach) + " or more points inside the map");
+    ground.site.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
+    ground.site.sigma = surface.origin.sigma;
+    if (surface.origin.theory)
+        ground.site.mean_spacing = surface.origin.theory->mean_spacing();
+    else
+        ground.site.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(ground.asperities.size()));
+    auto& s = ground.statistics;
+    const Moments grid = grid_moments(map);
+    s.sigma = surface.origin.sigma;
+    s.m2 = s.m2_grid = grid.m2;
+    s.m4 = s.m4_grid = grid.m4;
+    count_summits(count, s);
+    return ground;
+}
+
+Ground make_ground(const Case& settings, std::int64_t number, int threads) {
+    switch (settings.surface.source) {
+        case Source::synthetic: return make_synthetic(settings, number, threads);
+        case Source::heights: return make_ground(make_surface(settings, number, threads), settings, threads);
+        case Source::asperities: return read_list(settings);
+    }
+    throw Error(Failure::internal, "a source of asperities that nobody knows");
+}
+
+Indenter indenter_of(const Case& settings, const Site& site) {
+    const auto& centre = settings.indentation.centre;
+    const Domain& d = site.domain;
+    return {equivalent_modulus(settings.solids.E, settings.solids.nu), equivalent_radius(settings.solids.R),
+            centre[0].value_or(d.x0 + 0.5 * d.Lx), centre[1].value_or(d.y0 + 0.5 * d.Ly)};
+}
+
+double sigma_of(const Case& settings, const Site& site) { return settings.surface.sigma.value_or(site.sigma); }
+
+SolverOptions solver_of(const Case& settings, const Site& site) {
+    SolverOptions options;
+    options.method = settings.solver.method;
+    options.law = settings.asperities.law;
+    options.interaction = settings.solver.interaction;
+    options.selection = settings.indentation.selection;
+    options.selection_factor = settings.indentation.selection_factor;
+    options.sigma = sigma_of(settings, site);
+    options.tolerance = settings.solver.tolerance;
+    options.max_iterations = settings.solver.max_iterations;
+    options.delta0 = settings.solver.delta0;
+    options.mean_spacing = site.mean_spacing;
+    if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
+        throw Error(Failure::bad_input,
+                    "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
+                    "asperities, all of one height, give none");
+    }
+    return options;
+}
+
+}  // namespace rsc

@@ -1,0 +1,78 @@
+// A case becomes surface, asperities and contact: the one way, for the program and for the library. What holds where a key is not set
+// stands here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "case/case.hpp"
+#include "contact/indentation.hpp"
+#include "file/result.hpp"
+#include "observe/record.hpp"
+#include "rough/asperities.hpp"
+
+namespace rsc {
+
+// The spectrum that the keys of &surface ask for.
+Spectrum spectrum_of(const Case& settings);
+
+// What is known of heights beside them.
+struct Origin {
+    double sigma = 0;                  // rms height that is meant: the one asked for, or what detrending left [length]
+    double points_per_wave = 0;        // grid steps in the shortest wave of a synthetic surface; 0: not known
+    std::optional<Moments> theory;     // of a synthetic surface
+    std::string name = "the surface";  // what messages call it
+};
+
+struct Surface {
+    HeightMap map;
+    Origin origin;
+};
+
+// Realization `number` of the surface that &surface source names: made, or read and detrended and then the same for every number.
+// Throws Error(bad_input) for a source that has no heights, and as synthesize and read_heights do.
+Surface make_surface(const Case& settings, std::int64_t number, int threads);
+
+// What a contact has to know of the surface beside its asperities.
+struct Site {
+    Domain domain;            // the surface's rectangle
+    double sigma = 0;         // rms height of the surface, or of the asperities of a list [length]
+    double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
+};
+
+// Asperities, and what is known of where they come from.
+struct Ground {
+    Asperities asperities;
+    Site site;
+    SurfaceStatistics statistics;
+    bool list = false;  // given one by one: the site is then a guess, which surface%L may better
+};
+
+// Site of a synthetic surface. Known before there are asperities.
+Site synthetic_site(const Case& settings);
+
+// Site of asperities that were given: the square of side L about them, [0, L]^2 if it holds them; without L the smallest square
+// about the middle of the smallest rectangle that holds them, of side 1 for a single one. Throws Error(bad_input) naming `whose`
+// asperities they are when L is less than their extent.
+Site list_site(const Asperities& asperities, std::optional<double> L, const std::string& whose);
+
+// The summits of a surface by the keys of &asperities. Never empty: throws Error(bad_input) for a surface without summits.
+Ground make_ground(const Surface& surface, const Case& settings, int threads);
+
+// Realization `number` of the asperities that &surface source names, whatever it is. Those of a synthetic surface are found while
+// it is made, without storing it: the same as those of make_surface where that grid is fine enough for the law. Never empty.
+// Throws Error(bad_input) for what cannot be read, made or used by the law.
+Ground make_ground(const Case& settings, std::int64_t number, int threads);
+
+// E* and R from &solids, the tip above indentation%centre, by default the middle of the surface.
+Indenter indenter_of(const Case& settings, const Site& site);
+
+// The length that unit='sigma' and delta0 mean.
+double sigma_of(const Case& settings, const Site& site);
+
+// The keys of &solver, and of &asperities and &indentation that the solver looks at. Throws Error(bad_input) where it needs an rms
+// height and there is none.
+SolverOptions solver_of(const Case& settings, const Site& site);
+
+}  // namespace rsc
