@@ -35,4 +35,11 @@ double equivalent_radius(const double (&R)[2]) {
     return curvature > 0 ? 1 / curvature : std::numeric_limits<double>::infinity();
 }
 
+double tangential_ratio(const double (&E)[2], const double (&nu)[2]) {
+    const double E_star = equivalent_modulus(E, nu);
+    double compliance = 0;  // 1/(2 G*)
+    for (int i = 0; i < 2; ++i) compliance += (2 - nu[i]) * (1 + nu[i]) / E[i];
+    return 2 / (E_star * compliance);
+}
+
 }  // namespace rsc

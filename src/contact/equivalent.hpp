@@ -11,4 +11,8 @@ double equivalent_modulus(const double (&E)[2], const double (&nu)[2]);
 // Throws Error(bad_input): a radius that is not positive.
 double equivalent_radius(const double (&R)[2]);
 
+// m = 4 G*/E* of two bodies, 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the tangential stiffness of any of their contacts
+// over the normal one (Johnson 1985, section 7.3); 2 (1 - nu)/(2 - nu) for like bodies. Throws as equivalent_modulus.
+double tangential_ratio(const double (&E)[2], const double (&nu)[2]);
+
 }  // namespace rsc

@@ -1,0 +1,178 @@
+// Friction, conductance and lateral force of asperities in contact against problems solved on their own.
+#include <algorithm>
+#include <numbers>
+
+#include "check.hpp"
+#include "contact/contact_curve.hpp"
+#include "contact/lateral.hpp"
+#include "random_asperities.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kE = 94.0e3, kFlat = __builtin_huge_val();
+const Friction kFriction{0.4, 0.75};
+using Real = long double;
+
+SolverOptions tight() {
+    SolverOptions options;
+    options.tolerance = 1e-13;
+    return options;
+}
+
+struct Slid {
+    Contact one, other;
+    ContactCurve curve{one, other};
+    Slid(const Asperities& a, const Indenter& indenter, const SolverOptions& options)
+        : one(a, indenter, options), other(a, indenter, options) {}
+};
+
+// The slip problem of spots solved directly. Pressed by the forces f_i with penetrations u_i, spot i slipped in to the penetration u*_i
+// carries q_i = mu (f_i - f_i(u*_i)) and moves by (mu/m)(u_i - u*_i) against its surroundings (Mindlin), which all q_j move by
+// q_j/(m pi E* d_ij): the sum is the slide xi of the sphere; a spot that would need u*_i < 0 slips as a whole. One scalar equation a
+// spot, by bisection, spot after spot until nothing changes.
+std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi) {
+    const std::size_t n = level.asperity.size();
+    const Real mu = kFriction.coefficient, m = kFriction.ratio, pi = std::numbers::pi_v<Real>;
+    std::vector<Real> q(n, 0);
+    for (int sweep = 0; sweep < 400; ++sweep) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto at = static_cast<std::size_t>(level.asperity[i]);
+            Real moved = 0;
+            for (std::size_t j = 0; j < n; ++j) {
+                const auto to = static_cast<std::size_t>(level.asperity[j]);
+                if (j != i) moved += q[j] / (m * pi * kE * std::hypot(Real(a.x[at]) - a.x[to], Real(a.y[at]) - a.y[to]));
+            }
+            const Real rest = std::clamp<Real>(level.u[i] - m / mu * (xi - moved), 0, level.u[i]);
+            const Real c = 4 / Real(3) * kE * std::sqrt(Real(a.radius[at]));
+            q[i] = mu * (c * level.u[i] * std::sqrt(Real(level.u[i])) - c * rest * std::sqrt(rest));
+        }
+    }
+    return q;
+}
+
+void spots_against_slip_problem() {
+    const Asperities two = [] {
+        Asperities a;
+        a.x = {0.4, 0.412}, a.y = {0.5, 0.5}, a.z = {0.01, 0.009}, a.radius = {3e-4, 5e-4};
+        return a;
+    }();
+    const Asperities five = [] {
+        Asperities a;
+        a.x = {0.4, 0.413, 0.407, 0.39, 0.42}, a.y = {0.5, 0.5, 0.511, 0.508, 0.49};
+        a.z = {0.01, 0.009, 0.0095, 0.0082, 0.0101}, a.radius = {3e-4, 5e-4, 2e-4, 8e-4, 4e-4};
+        return a;
+    }();
+    for (const Asperities& a : {two, five}) {
+        Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
+        const double delta = 0.0;
+        const Level level = Contact(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
+        CHECK(level.asperity.size() == a.size());
+        const double full = full_slip(slid.curve, kFriction, delta);
+        for (double part : {0.05, 0.3, 0.6, 0.9, 0.99}) {
+            const auto q = slip_problem(a, level, part * full);
+            FrictionHistory path(kFriction);
+            path.go_to(slid.curve, delta, {});
+            path.go_to(slid.curve, delta, {0, part * full});
+            const auto spots = slip_of_spots(slid.curve, path);
+            Real Q = 0;
+            CHECK(spots.size() == q.size());
+            for (std::size_t i = 0; i < q.size(); ++i) {
+                Q += q[i];
+                CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]), 1e-8 * kFriction.coefficient * level.force);
+                CHECK(spots[i].force.x == 0 && spots[i].stick_radius < spots[i].radius);
+                // c = a (1 - q/(mu f))^(1/3), Mindlin's stick radius of a spot of its own.
+                const double left = 1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
+                CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)), 1e-5 * level.a[i]);
+            }
+            CHECK_CLOSE(path.tangential_force().y, static_cast<double>(Q), 1e-8 * kFriction.coefficient * level.force);
+            const auto points = slide_to(slid.curve, kFriction, delta, {part * full});
+            CHECK_CLOSE(points[0].force, static_cast<double>(Q), 1e-8 * kFriction.coefficient * level.force);
+        }
+    }
+}
+
+// Constriction (Holm; Greenwood 1966): a spot of radius a at unit potential passes the current 4 a/(rho_1 + rho_2) and raises the
+// potential at the distance d by I (rho_1 + rho_2)/(2 pi d). Solved for all spots by elimination; rho_1 + rho_2 = 1.
+double conductance_of_spots(const Asperities& a, const Level& level) {
+    const std::size_t n = level.asperity.size();
+    std::vector<std::vector<Real>> row(n, std::vector<Real>(n + 1, 1));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            const auto p = static_cast<std::size_t>(level.asperity[i]), q = static_cast<std::size_t>(level.asperity[j]);
+            const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
+            row[i][j] = i == j ? 1 / (4 * Real(level.a[i])) : 1 / (2 * std::numbers::pi_v<Real> * d);
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i == k) continue;
+            const Real factor = row[i][k] / row[k][k];
+            for (std::size_t j = k; j <= n; ++j) row[i][j] -= factor * row[k][j];
+        }
+    }
+    Real sum = 0;
+    for (std::size_t k = 0; k < n; ++k) sum += row[k][n] / row[k][k];
+    return static_cast<double>(sum);
+}
+
+void conductance() {
+    Asperities lone;
+    lone.x = {0.5}, lone.y = {0.5}, lone.z = {0.01}, lone.radius = {3e-4};
+    Contact holm(lone, {kE, kFlat, 0.5, 0.5}, tight());
+    const Level spot = holm.at_separation(0.004);
+    CHECK_RELATIVE(-2 * holm.stiffness() / kE, 4 * spot.a[0], 1e-12);
+    const Asperities a = random_asperities(400, 0.02, 0.01, 5e-4, 0.3, 3);
+    Contact contact(a, {kE, 2.5, 0.5, 0.5}, tight());
+    for (double Z0 : {0.005, 0.0, -0.01}) {
+        const Level level = contact.at_separation(Z0);
+        CHECK(level.asperity.size() > 5);
+        CHECK_RELATIVE(-2 * contact.stiffness() / kE, conductance_of_spots(a, level), 1e-10);
+    }
+}
+
+// A rough contact: the loop closes, its area is what the history loses, first loading is inside mu N.
+void rough_loop() {
+    const Asperities a = random_asperities(400, 0.02, 0.01, 5e-4, 0.3, 7);
+    Slid slid(a, {kE, 2.5, 0.5, 0.5}, tight());
+    const double delta = 0.0, full = full_slip(slid.curve, kFriction, delta);
+    const double most = kFriction.coefficient * slid.curve.load(delta).force;
+    FrictionHistory path(kFriction);
+    path.go_to(slid.curve, delta, {});
+    CHECK_RELATIVE(path.stiffness(slid.curve).yy, kFriction.ratio * slid.curve.stiffness(delta), 1e-10);
+    path.go_to(slid.curve, delta, {0.9 * full, 0});
+    const double Q_A = path.tangential_force().x;
+    double lost = path.work_lost();
+    const SlideCycle cycle = slide_cycle(slid.curve, kFriction, delta, 40);
+    for (int round = 0; round < 2; ++round) {
+        double area = 0, Q = Q_A;
+        const int parts = 40;
+        for (int k = 1; k <= 2 * parts; ++k) {
+            const double t = k <= parts ? 1 - 2.0 * k / parts : 2.0 * k / parts - 3;
+            path.go_to(slid.curve, delta, {0.9 * full * t, 0});
+            const double now = path.tangential_force().x;
+            area += 0.5 * (Q + now) * (k <= parts ? -1 : 1) * 1.8 * full / parts;
+            Q = now;
+        }
+        CHECK_CLOSE(Q, Q_A, 1e-12 * most);
+        CHECK_RELATIVE(path.work_lost() - lost, cycle.work, 1e-10);
+        CHECK_RELATIVE(area, cycle.work, 5e-3);  // 80 trapezia
+        lost = path.work_lost();
+    }
+    CHECK_RELATIVE(cycle.force[cycle.first - 1], most, 1e-12);
+    for (std::size_t k = 1; k < cycle.first; ++k) CHECK(cycle.force[k] > cycle.force[k - 1]);
+    CHECK(slid.curve.failed() == 0);
+    // The force at a given slide, and the slide at that force.
+    const auto point = slide_to(slid.curve, kFriction, delta, {0.37 * full})[0];
+    CHECK_CLOSE(slide_at_force(slid.curve, kFriction, delta, point.force).displacement, 0.37 * full, 1e-9 * full);
+}
+
+}  // namespace
+
+int main() {
+    spots_against_slip_problem();
+    conductance();
+    rough_loop();
+    return check::summary();
+}
