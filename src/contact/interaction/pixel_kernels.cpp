@@ -1,0 +1,97 @@
+#include "contact/interaction/pixel_kernels.hpp"
+
+#include "rough/dispatch.hpp"
+
+namespace rsc {
+namespace {
+
+// Eight doubles at any address; the compiler makes of them what the instruction set has.
+using Vector [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
+
+RSC_ALWAYS_INLINE const Vector& vector_at(const double* p) { return *reinterpret_cast<const Vector*>(p); }
+RSC_ALWAYS_INLINE Vector& vector_at(double* p) { return *reinterpret_cast<Vector*>(p); }
+
+// Rows at a time, their sums in registers.
+template <int Rows>
+RSC_ALWAYS_INLINE void near_rows(const NearTable& t, const double* corner, std::size_t n, const TileSource* sources, double* sums) {
+    Vector sum[Rows];
+    for (int r = 0; r < Rows; ++r) sum[r] = vector_at(sums + r * kTileColumns);
+    for (std::size_t k = 0; k < n; ++k) {
+        const double* row = corner - sources[k].row * t.stride - sources[k].column;
+        const double value = sources[k].value;
+        for (int r = 0; r < Rows; ++r) sum[r] += value * vector_at(row + r * t.stride);
+    }
+    for (int r = 0; r < Rows; ++r) vector_at(sums + r * kTileColumns) = sum[r];
+}
+
+template <int Rows>
+RSC_ALWAYS_INLINE void near_tile(const NearTable& t, int rows, int ox, int oy, std::size_t n, const TileSource* sources, double* sums) {
+    const double* corner = t.values + (t.reach_y - rows * oy) * t.stride + t.reach_x - kTileColumns * ox;
+    int r = 0;
+    for (; r + Rows <= rows; r += Rows) near_rows<Rows>(t, corner + r * t.stride, n, sources, sums + r * kTileColumns);
+    for (; r < rows; ++r) near_rows<1>(t, corner + r * t.stride, n, sources, sums + r * kTileColumns);
+}
+
+template <int Vectors, int Pairs>
+RSC_ALWAYS_INLINE void slice(int columns, const double* T, const double* const* from, double* const* to, int first) {
+    Vector sum[Pairs][Vectors];
+    for (int k = 0; k < Pairs; ++k)
+        for (int v = 0; v < Vectors; ++v) sum[k][v] = vector_at(to[k] + first + v * kLane);
+    for (int j = 0; j < columns; ++j, T += Vectors * kLane)
+        for (int k = 0; k < Pairs; ++k)
+            for (int v = 0; v < Vectors; ++v) sum[k][v] += from[k][j] * vector_at(T + v * kLane);
+    for (int k = 0; k < Pairs; ++k)
+        for (int v = 0; v < Vectors; ++v) vector_at(to[k] + first + v * kLane) = sum[k][v];
+}
+
+template <int Pairs>
+RSC_ALWAYS_INLINE void all_slices(int rows, int columns, const double* T, const double* const* from, double* const* to) {
+    for (int first = 0; first < rows; first += kSlice) {
+        const int vectors = (rows - first < kSlice ? rows - first : kSlice) / kLane;
+        switch (vectors) {
+            case 1: slice<1, Pairs>(columns, T, from, to, first); break;
+            case 2: slice<2, Pairs>(columns, T, from, to, first); break;
+            case 3: slice<3, Pairs>(columns, T, from, to, first); break;
+            default: slice<4, Pairs>(columns, T, from, to, first); break;
+        }
+        T += vectors * kLane * columns;
+    }
+}
+
+// A pair's sum is taken in the same order however many pairs go together.
+template <int Pairs>
+RSC_ALWAYS_INLINE void translate(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to) {
+    std::size_t k = 0;
+    for (; k + Pairs <= n; k += Pairs) all_slices<Pairs>(rows, columns, T, from + k, to + k);
+    for (; k < n; ++k) all_slices<1>(rows, columns, T, from + k, to + k);
+}
+
+#define RSC_PIXEL_KERNELS(name, attribute, near_count, pair_count)                                                                         \
+    attribute void near_tile_##name(const NearTable& t, int rows, int ox, int oy, std::size_t n, const TileSource* s, double* sums) {      \
+        near_tile<near_count>(t, rows, ox, oy, n, s, sums);                                                                                \
+    }                                                                                                                                      \
+    attribute void translate_##name(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to) { \
+        translate<pair_count>(rows, columns, T, n, from, to);                                                                              \
+    }                                                                                                                                      \
+    constexpr PixelKernels kernels_##name = {near_tile_##name, translate_##name};
+
+RSC_PIXEL_KERNELS(baseline, , 2, 1)
+#if defined(__x86_64__) && defined(__GNUC__)
+RSC_PIXEL_KERNELS(avx2, [[gnu::target("avx2,fma")]], 4, 1)
+RSC_PIXEL_KERNELS(avx512, [[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]], 8, 4)
+#endif
+
+}  // namespace
+
+const PixelKernels& pixel_kernels() {
+#if defined(__x86_64__) && defined(__GNUC__)
+    static const bool avx512 =
+        __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (avx512) return kernels_avx512;
+    if (avx2) return kernels_avx2;
+#endif
+    return kernels_baseline;
+}
+
+}  // namespace rsc

@@ -1,0 +1,463 @@
+// Tiles of 8 pixels along x and about as long along y; boxes of 2 x 2 tiles, of 4 x 4, and so on, only where there are pixels.
+// Tiles that touch act on each other pixel by pixel. Boxes that do not touch, but whose parents do, act through q x q Chebyshev points:
+// pressures to points of a tile, to those of its parents, between boxes, and back down again by the same interpolation.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
+#include "contact/interaction/pixel_products.hpp"
+
+namespace rsc {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+constexpr int kOffsets = 49;          // of boxes: -3 ... 3 in both directions
+constexpr std::size_t kThreads = 64;  // boxes from which threads pay
+constexpr std::size_t kChunk = 128;   // boxes that a thread takes at a time
+
+// Interpolation error of q points (test_pixels.cpp measures it).
+double interpolation_error(int q) { return 0.2 * std::pow(6.0, -q); }
+constexpr int kMostPoints = 18;
+int points_for(double error) {
+    int q = 3;
+    while (q < kMostPoints && interpolation_error(q) > error) ++q;
+    return q;
+}
+
+// Chebyshev points of [-1, 1], and the weights that interpolate from them to t.
+double chebyshev_point(int q, int i) { return std::cos(std::numbers::pi * (i + 0.5) / q); }
+void interpolation_weights(int q, double t, double* weight) {
+    for (int i = 0; i < q; ++i) {
+        weight[i] = 1;
+        for (int j = 0; j < q; ++j) {
+            if (j != i) weight[i] *= (t - chebyshev_point(q, j)) / (chebyshev_point(q, i) - chebyshev_point(q, j));
+        }
+    }
+}
+
+struct Box {
+    int x, y;
+};
+
+// The boxes of one size.
+struct Generation {
+    int x0 = 0, y0 = 0, nx = 0, ny = 0;  // the rectangle of boxes they lie in
+    std::vector<int> index;              // box at each place of it, -1: none
+    std::vector<Box> boxes;              // row by row
+    std::vector<int> parent;             // in the next generation
+    // Boxes that act through their points, for chunks of kChunk boxes by offset: pairs pair_begin[chunk*kOffsets + offset] on.
+    std::vector<std::size_t> pair_begin;
+    std::vector<int> pair_from, pair_to;
+
+    int find(int x, int y) const {
+        x -= x0, y -= y0;
+        return x < 0 || y < 0 || x >= nx || y >= ny ? -1 : index[at(y) * at(nx) + at(x)];
+    }
+};
+
+// Where the pixels of a set lie.
+struct Layout {
+    std::vector<Generation> generations;  // tiles first
+    std::vector<std::size_t> place;       // of each pixel: tile * (8 rows) + row * 8 + column
+};
+
+void enclose(Generation& g, const std::vector<Box>& boxes) {
+    int x1 = boxes[0].x, y1 = boxes[0].y;
+    g.x0 = x1, g.y0 = y1;
+    for (const Box& b : boxes) {
+        g.x0 = std::min(g.x0, b.x), g.y0 = std::min(g.y0, b.y);
+        x1 = std::max(x1, b.x), y1 = std::max(y1, b.y);
+    }
+    g.nx = x1 - g.x0 + 1, g.ny = y1 - g.y0 + 1;
+    g.index.assign(at(g.nx) * at(g.ny), -1);
+    for (const Box& b : boxes) g.index[at(b.y - g.y0) * at(g.nx) + at(b.x - g.x0)] = 0;
+    for (int y = 0; y < g.ny; ++y)
+        for (int x = 0; x < g.nx; ++x) {
+            int& k = g.index[at(y) * at(g.nx) + at(x)];
+            if (k < 0) continue;
+            k = static_cast<int>(g.boxes.size());
+            g.boxes.push_back({g.x0 + x, g.y0 + y});
+        }
+}
+
+// Pairs of boxes that do not touch and whose parents do (or are the same or have none).
+void pair_up(Generation& g, bool last) {
+    const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
+    std::vector<std::vector<std::array<int, 3>>> found(chunks);
+#pragma omp parallel for schedule(dynamic, 4) if (g.boxes.size() > 8 * kThreads)
+    for (std::size_t c = 0; c < chunks; ++c)
+        for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
+            const Box b = g.boxes[k];
+            const int x_begin = last ? g.x0 : ((b.x >> 1) - 1) * 2, x_end = last ? g.x0 + g.nx : x_begin + 6;
+            const int y_begin = last ? g.y0 : ((b.y >> 1) - 1) * 2, y_end = last ? g.y0 + g.ny : y_begin + 6;
+            for (int y = y_begin; y < y_end; ++y)
+                for (int x = x_begin; x < x_end; ++x) {
+                    if (std::abs(x - b.x) <= 1 && std::abs(y - b.y) <= 1) continue;
+                    const int from = g.find(x, y);
+                    if (from >= 0) found[c].push_back({(y - b.y + 3) * 7 + x - b.x + 3, from, static_cast<int>(k)});
+                }
+        }
+    g.pair_begin.assign(chunks * kOffsets + 1, 0);
+    std::size_t total = 0;
+    for (std::size_t c = 0; c < chunks; ++c) {
+        std::array<std::size_t, kOffsets> count{};
+        for (const auto& pair : found[c]) ++count[at(pair[0])];
+        for (int o = 0; o < kOffsets; ++o) {
+            g.pair_begin[c * kOffsets + at(o)] = total;
+            total += count[at(o)];
+        }
+    }
+    g.pair_begin.back() = total;
+    g.pair_from.resize(total);
+    g.pair_to.resize(total);
+    for (std::size_t c = 0; c < chunks; ++c) {
+        std::array<std::size_t, kOffsets> next;
+        for (int o = 0; o < kOffsets; ++o) next[at(o)] = g.pair_begin[c * kOffsets + at(o)];
+        for (const auto& pair : found[c]) {
+            const std::size_t n = next[at(pair[0])]++;
+            g.pair_from[n] = pair[1];
+            g.pair_to[n] = pair[2];
+        }
+    }
+}
+
+int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+Layout make_layout(const std::vector<Pixel>& pixels, int rows) {
+    Layout layout;
+    if (pixels.empty()) return layout;
+    std::vector<Box> boxes(pixels.size());
+    for (std::size_t k = 0; k < pixels.size(); ++k) boxes[k] = {floor_divide(pixels[k].x, kTileColumns), floor_divide(pixels[k].y, rows)};
+    layout.generations.emplace_back();
+    enclose(layout.generations[0], boxes);
+    layout.place.resize(pixels.size());
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const int tile = layout.generations[0].find(boxes[k].x, boxes[k].y);
+        layout.place[k] = at(tile) * at(kTileColumns * rows) + at((pixels[k].y - boxes[k].y * rows) * kTileColumns) +
+                          at(pixels[k].x - boxes[k].x * kTileColumns);
+    }
+    for (;;) {
+        Generation& g = layout.generations.back();
+        const bool last = g.nx <= 4 && g.ny <= 4;
+        pair_up(g, last);
+        if (last) break;
+        std::vector<Box> above(g.boxes.size());
+        for (std::size_t k = 0; k < above.size(); ++k) above[k] = {g.boxes[k].x >> 1, g.boxes[k].y >> 1};
+        Generation next;
+        enclose(next, above);
+        g.parent.resize(above.size());
+        for (std::size_t k = 0; k < above.size(); ++k) g.parent[k] = next.find(above[k].x, above[k].y);
+        layout.generations.push_back(std::move(next));
+    }
+    return layout;
+}
+
+// What interpolation of one number of points needs, for all layouts.
+class Interpolation {
+public:
+    Interpolation(int q, int rows, double aspect) : q_(q), rows_(rows), aspect_(aspect) {
+        padded_ = (q * q + kLane - 1) / kLane * kLane;
+        columns_of_.resize(at(kTileColumns * q));
+        rows_of_.resize(at(rows * q));
+        for (int i = 0; i < kTileColumns; ++i) interpolation_weights(q, (i + 0.5) * 2 / kTileColumns - 1, &columns_of_[at(i * q)]);
+        for (int i = 0; i < rows; ++i) interpolation_weights(q, (i + 0.5) * 2 / rows - 1, &rows_of_[at(i * q)]);
+        for (int half = 0; half < 2; ++half) {
+            child_[half].resize(at(q * q));
+            for (int i = 0; i < q; ++i)
+                interpolation_weights(q, 0.5 * chebyshev_point(q, i) + (half == 0 ? -0.5 : 0.5), &child_[half][at(i * q)]);
+        }
+    }
+
+    int points() const { return q_; }
+    int padded() const { return padded_; }
+
+    // Pressures on the pixels of a tile to its points: point[j*q + i] = sum rows_of(r, j) columns_of(c, i) value.
+    void up_from_tile(std::size_t n, const TileSource* sources, double* point) const {
+        for (std::size_t k = 0; k < n; ++k) {
+            const double* wx = &columns_of_[at(sources[k].column * q_)];
+            const double* wy = &rows_of_[at(sources[k].row * q_)];
+            for (int j = 0; j < q_; ++j) {
+                const double v = sources[k].value * wy[j];
+                for (int i = 0; i < q_; ++i) point[j * q_ + i] += v * wx[i];
+            }
+        }
+    }
+    void down_to_tile(const double* point, double* values) const {
+        double line[kMostPoints];
+        for (int r = 0; r < rows_; ++r) {
+            const double* wy = &rows_of_[at(r * q_)];
+            for (int i = 0; i < q_; ++i) {
+                line[i] = 0;
+                for (int j = 0; j < q_; ++j) line[i] += wy[j] * point[j * q_ + i];
+            }
+            for (int c = 0; c < kTileColumns; ++c) {
+                const double* wx = &columns_of_[at(c * q_)];
+                double sum = 0;
+                for (int i = 0; i < q_; ++i) sum += wx[i] * line[i];
+                values[r * kTileColumns + c] += sum;
+            }
+        }
+    }
+    void up(int half_x, int half_y, const double* child, double* parent) const {
+        double part[kMostPoints * kMostPoints];
+        const double *cx = child_[half_x].data(), *cy = child_[half_y].data();
+        for (int j = 0; j < q_; ++j) {
+            double* to = part + j * q_;
+            std::fill_n(to, q_, 0.0);
+            for (int k = 0; k < q_; ++k)
+                for (int i = 0; i < q_; ++i) to[i] += child[j * q_ + k] * cx[k * q_ + i];
+        }
+        for (int k = 0; k < q_; ++k)
+            for (int j = 0; j < q_; ++j)
+                for (int i = 0; i < q_; ++i) parent[j * q_ + i] += cy[k * q_ + j] * part[k * q_ + i];
+    }
+    void down(int half_x, int half_y, const double* parent, double* child) const {
+        double part[kMostPoints * kMostPoints];
+        const double *cx = child_[half_x].data(), *cy = child_[half_y].data();
+        for (int k = 0; k < q_; ++k) {
+            double* to = part + k * q_;
+            std::fill_n(to, q_, 0.0);
+            for (int j = 0; j < q_; ++j)
+                for (int i = 0; i < q_; ++i) to[i] += cy[k * q_ + j] * parent[j * q_ + i];
+        }
+        for (int j = 0; j < q_; ++j)
+            for (int k = 0; k < q_; ++k) {
+                double sum = 0;
+                for (int i = 0; i < q_; ++i) sum += cx[k * q_ + i] * part[j * q_ + i];
+                child[j * q_ + k] += sum;
+            }
+    }
+
+    // Matrices of a generation by offset of the source box, made when first wanted.
+    const std::vector<std::vector<double>>& matrices(std::size_t generation) {
+        while (matrices_.size() <= generation) make_matrices();
+        return matrices_[generation];
+    }
+
+private:
+    void make_matrices() {
+        const std::size_t generation = matrices_.size();
+        const double half_x = 0.5 * kTileColumns * std::ldexp(1.0, static_cast<int>(generation));
+        const double half_y = 0.5 * rows_ * aspect_ * std::ldexp(1.0, static_cast<int>(generation));
+        matrices_.emplace_back(kOffsets);
+        const int n = q_ * q_;
+        // Quadrant of positive offsets; the others are its mirror images: point i of a line is point q-1-i of its mirror.
+        for (int oy = 0; oy <= 3; ++oy)
+            for (int ox = 0; ox <= 3; ++ox) {
+                if (ox <= 1 && oy <= 1) continue;
+                std::vector<double> K(at(n) * at(n));  // (target, source)
+#pragma omp parallel for schedule(static) if (n > 32)
+                for (int t = 0; t < n; ++t)
+                    for (int s = 0; s < n; ++s) {
+                        const double x = half_x * (2 * ox + chebyshev_point(q_, s % q_) - chebyshev_point(q_, t % q_));
+                        const double y = half_y * (2 * oy + chebyshev_point(q_, s / q_) - chebyshev_point(q_, t / q_));
+                        K[at(t) * at(n) + at(s)] = pixel_kernel(x, y, aspect_);
+                    }
+                for (int sy = oy == 0 ? 1 : -1; sy <= 1; sy += 2)
+                    for (int sx = ox == 0 ? 1 : -1; sx <= 1; sx += 2) {
+                        const auto mirror = [&](int k) {
+                            const int i = k % q_, j = k / q_;
+                            return at((sy < 0 ? q_ - 1 - j : j) * q_ + (sx < 0 ? q_ - 1 - i : i));
+                        };
+                        std::vector<double>& T = matrices_.back()[at((sy * oy + 3) * 7 + sx * ox + 3)];
+                        T.assign(at(padded_) * at(n), 0.0);
+                        std::size_t k = 0;
+                        for (int first = 0; first < padded_; first += kSlice) {
+                            const int end = std::min(padded_, first + kSlice);
+                            for (int s = 0; s < n; ++s)
+                                for (int t = first; t < end; ++t, ++k) {
+                                    if (t < n) T[k] = K[mirror(t) * at(n) + mirror(s)];
+                                }
+                        }
+                    }
+            }
+    }
+
+    int q_, rows_, padded_ = 0;
+    double aspect_;
+    std::vector<double> columns_of_, rows_of_;  // weights of a tile's columns and rows
+    std::vector<double> child_[2];              // of the points of the lower and the upper half
+    std::vector<std::vector<std::vector<double>>> matrices_;
+};
+
+class Tree final : public PixelProducts {
+public:
+    Tree(double E_star, double dx, double dy, double inner_error, double full_error)
+        : scale_(dx / (std::numbers::pi * E_star)),
+          aspect_(dy / dx),
+          rows_(rows_of(dy / dx)),
+          inner_(points_for(inner_error), rows_, aspect_),
+          full_(points_for(full_error), rows_, aspect_) {
+        table_.reach_x = 2 * kTileColumns;
+        table_.reach_y = 2 * rows_;
+        table_.stride = 2 * table_.reach_x + 1;
+        near_.resize(at(table_.stride) * at(2 * table_.reach_y + 1));
+        for (int y = -table_.reach_y; y <= table_.reach_y; ++y)
+            for (int x = -table_.reach_x; x <= table_.reach_x; ++x)
+                near_[at((y + table_.reach_y) * table_.stride + x + table_.reach_x)] =
+                    pixel_kernel(std::abs(x), std::abs(y) * aspect_, aspect_);
+        table_.values = near_.data();
+    }
+
+    void set_pixels(const std::vector<Pixel>& pixels) override {
+        pixels_ = pixels;
+        layout_ = make_layout(pixels, rows_);
+    }
+
+    void apply(const double* p, double* w, Accuracy accuracy) override {
+        ++count_;
+        Interpolation& interpolation = accuracy == Accuracy::inner ? inner_ : full_;
+        product(layout_, interpolation, pixels_.size(), p, w);
+    }
+
+    void elsewhere(const double* p, const std::vector<Pixel>& where, double* w) override {
+        ++count_;
+        std::vector<Pixel> all;
+        std::vector<double> values, image;
+        for (std::size_t k = 0; k < pixels_.size(); ++k) {
+            if (p[k] == 0) continue;
+            all.push_back(pixels_[k]);
+            values.push_back(p[k]);
+        }
+        const std::size_t sources = all.size();
+        all.insert(all.end(), where.begin(), where.end());
+        values.resize(all.size(), 0.0);
+        image.resize(all.size());
+        // A pixel may stand twice, as a source and as a target: pressures are added up in its place.
+        product(make_layout(all, rows_), inner_, all.size(), values.data(), image.data());
+        std::copy(image.begin() + static_cast<std::ptrdiff_t>(sources), image.end(), w);
+    }
+
+    double coefficient(int dx, int dy) const override {
+        dx = std::abs(dx), dy = std::abs(dy);
+        if (dx <= table_.reach_x && dy <= table_.reach_y)
+            return scale_ * near_[at((dy + table_.reach_y) * table_.stride + dx + table_.reach_x)];
+        return scale_ * pixel_kernel(dx, dy * aspect_, aspect_);
+    }
+
+    double inner_error() const override { return interpolation_error(inner_.points()); }
+    double full_error() const override { return interpolation_error(full_.points()); }
+
+private:
+    // As many rows as make a tile nearly square, a power of two.
+    static int rows_of(double aspect) { return 1 << std::clamp(static_cast<int>(std::lround(3 - std::log2(aspect))), 0, 6); }
+
+    void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w);
+
+    double scale_, aspect_;
+    int rows_;
+    std::vector<double> near_;
+    NearTable table_{};
+    Interpolation inner_, full_;
+    std::vector<Pixel> pixels_;
+    Layout layout_;
+    // Of one product: pressures by tile, points of all boxes.
+    std::vector<double> tiles_;
+    std::vector<std::size_t> source_begin_;
+    std::vector<TileSource> sources_;
+    std::vector<std::vector<double>> up_, down_;
+    std::vector<std::vector<char>> loaded_;
+};
+
+void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w) {
+    if (n == 0) return;
+    const auto& generations = layout.generations;
+    const Generation& leaf = generations[0];
+    const std::size_t tiles = leaf.boxes.size(), size = at(kTileColumns * rows_), points = at(interpolation.padded());
+    const int q = interpolation.points();
+
+    tiles_.assign(tiles * size, 0.0);
+    for (std::size_t k = 0; k < n; ++k) tiles_[layout.place[k]] += p[k];
+    source_begin_.assign(tiles + 1, 0);
+    sources_.clear();
+    for (std::size_t t = 0; t < tiles; ++t) {
+        for (std::size_t k = 0; k < size; ++k) {
+            if (const double v = tiles_[t * size + k]; v != 0)
+                sources_.push_back({static_cast<std::int16_t>(k % kTileColumns), static_cast<std::int16_t>(k / kTileColumns), v});
+        }
+        source_begin_[t + 1] = sources_.size();
+    }
+
+    const std::size_t levels = generations.size();
+    up_.resize(std::max(up_.size(), levels));
+    down_.resize(std::max(down_.size(), levels));
+    loaded_.resize(std::max(loaded_.size(), levels));
+    for (std::size_t l = 0; l < levels; ++l) {
+        up_[l].assign(generations[l].boxes.size() * points, 0.0);
+        down_[l].assign(generations[l].boxes.size() * points, 0.0);
+        loaded_[l].assign(generations[l].boxes.size(), 0);
+        if (!generations[l].pair_from.empty()) interpolation.matrices(l);
+    }
+#pragma omp parallel for schedule(dynamic, 64) if (tiles > kThreads)
+    for (std::size_t t = 0; t < tiles; ++t) {
+        const std::size_t b = source_begin_[t], m = source_begin_[t + 1] - b;
+        if (m > 0) interpolation.up_from_tile(m, sources_.data() + b, up_[0].data() + t * points);
+    }
+    for (std::size_t t = 0; t < tiles; ++t) loaded_[0][t] = source_begin_[t + 1] > source_begin_[t];
+    for (std::size_t l = 0; l + 1 < levels; ++l) {
+        const Generation& g = generations[l];
+        for (std::size_t k = 0; k < g.boxes.size(); ++k) {
+            if (!loaded_[l][k]) continue;
+            const auto parent = at(g.parent[k]);
+            loaded_[l + 1][parent] = 1;
+            interpolation.up(g.boxes[k].x & 1, g.boxes[k].y & 1, up_[l].data() + k * points, up_[l + 1].data() + parent * points);
+        }
+    }
+    const PixelKernels& kernels = pixel_kernels();
+    for (std::size_t l = 0; l < levels; ++l) {
+        const Generation& g = generations[l];
+        if (g.pair_from.empty()) continue;
+        const auto& matrices = interpolation.matrices(l);
+        const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
+#pragma omp parallel for schedule(dynamic, 1) if (g.boxes.size() > kThreads)
+        for (std::size_t c = 0; c < chunks; ++c) {
+            std::vector<const double*> from;
+            std::vector<double*> to;
+            for (std::size_t o = 0; o < kOffsets; ++o) {
+                from.clear();
+                to.clear();
+                for (std::size_t k = g.pair_begin[c * kOffsets + o]; k < g.pair_begin[c * kOffsets + o + 1]; ++k) {
+                    if (!loaded_[l][at(g.pair_from[k])]) continue;
+                    from.push_back(up_[l].data() + at(g.pair_from[k]) * points);
+                    to.push_back(down_[l].data() + at(g.pair_to[k]) * points);
+                }
+                if (!from.empty())
+                    kernels.translate(static_cast<int>(points), q * q, matrices[o].data(), from.size(), from.data(), to.data());
+            }
+        }
+    }
+    for (std::size_t l = levels - 1; l-- > 0;) {
+        const Generation& g = generations[l];
+#pragma omp parallel for schedule(static) if (g.boxes.size() > kThreads)
+        for (std::size_t k = 0; k < g.boxes.size(); ++k)
+            interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
+                               down_[l].data() + k * points);
+    }
+#pragma omp parallel for schedule(dynamic, 16) if (tiles > kThreads)
+    for (std::size_t t = 0; t < tiles; ++t) {
+        double* values = tiles_.data() + t * size;
+        std::fill_n(values, size, 0.0);
+        interpolation.down_to_tile(down_[0].data() + t * points, values);
+        const Box b = leaf.boxes[t];
+        for (int oy = -1; oy <= 1; ++oy)
+            for (int ox = -1; ox <= 1; ++ox) {
+                const int s = leaf.find(b.x + ox, b.y + oy);
+                if (s < 0) continue;
+                const std::size_t begin = source_begin_[at(s)], m = source_begin_[at(s) + 1] - begin;
+                if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
+            }
+    }
+    for (std::size_t k = 0; k < n; ++k) w[k] = scale_ * tiles_[layout.place[k]];
+}
+
+}  // namespace
+
+std::unique_ptr<PixelProducts> make_tree_products(double E_star, double dx, double dy, double inner_error, double full_error) {
+    return std::make_unique<Tree>(E_star, dx, dy, inner_error, full_error);
+}
+
+}  // namespace rsc

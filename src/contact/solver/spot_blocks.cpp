@@ -1,0 +1,183 @@
+#include "contact/solver/spot_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "rough/dispatch.hpp"
+
+namespace rsc {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+// Lower triangle of the Cholesky factor L of A (n x n by rows), then A^-1 = L^-T L^-1 by columns of the identity. In place; the sums
+// run along rows, so that they become vectors.
+RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A, double* inverse) {
+    for (std::size_t i = 0; i < n; ++i) {
+        double* row = A + i * n;
+        for (std::size_t j = 0; j < i; ++j) {
+            const double* other = A + j * n;
+            double sum = 0;
+#pragma omp simd reduction(+ : sum)
+            for (std::size_t k = 0; k < j; ++k) sum += row[k] * other[k];
+            row[j] = (row[j] - sum) * other[j];  // other[j] holds 1/L_jj
+        }
+        double sum = 0;
+#pragma omp simd reduction(+ : sum)
+        for (std::size_t k = 0; k < i; ++k) sum += row[k] * row[k];
+        row[i] = 1 / __builtin_sqrt(row[i] - sum);
+    }
+    // L^-1 by rows into `inverse` (lower triangle).
+    for (std::size_t i = 0; i < n; ++i) {
+        double* to = inverse + i * n;
+        for (std::size_t j = 0; j < i; ++j) to[j] = 0;
+        for (std::size_t k = 0; k < i; ++k) {
+            const double factor = A[i * n + k];
+            const double* from = inverse + k * n;
+            for (std::size_t j = 0; j <= k; ++j) to[j] -= factor * from[j];
+        }
+        for (std::size_t j = 0; j < i; ++j) to[j] *= A[i * n + i];
+        to[i] = A[i * n + i];
+    }
+    // L^-T L^-1: sums of outer products of the rows of L^-1, into A.
+    for (std::size_t k = 0; k < n * n; ++k) A[k] = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double* row = inverse + k * n;
+        for (std::size_t i = 0; i <= k; ++i) {
+            double* to = A + i * n;
+            const double factor = row[i];
+            for (std::size_t j = 0; j <= k; ++j) to[j] += factor * row[j];
+        }
+    }
+}
+RSC_DISPATCH(invert, invert_body, (std::size_t n, double* A, double* inverse), (n, A, inverse))
+
+RSC_ALWAYS_INLINE void multiply_body(std::size_t n, const float* A, const float* x, float* y) {
+    for (std::size_t i = 0; i < n; ++i) y[i] = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+        const float factor = x[j];
+        const float* row = A + j * n;  // symmetric
+        for (std::size_t i = 0; i < n; ++i) y[i] += factor * row[i];
+    }
+}
+RSC_DISPATCH(multiply, multiply_body, (std::size_t n, const float* A, const float* x, float* y), (n, A, x, y))
+
+struct Sets {
+    std::vector<int> parent;
+    int find(int k) {
+        while (parent[at(k)] != k) k = parent[at(k)] = parent[at(parent[at(k)])];
+        return k;
+    }
+    void join(int a, int b) {
+        a = find(a), b = find(b);
+        if (a != b) parent[at(std::max(a, b))] = std::min(a, b);  // the root is the first pixel
+    }
+};
+
+// First pixel at or after (x, y).
+int lower(const std::vector<Pixel>& pixels, int x, int y) {
+    return static_cast<int>(std::lower_bound(pixels.begin(), pixels.end(), Pixel{x, y},
+                                             [](const Pixel& a, const Pixel& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }) -
+                            pixels.begin());
+}
+
+}  // namespace
+
+int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, int period_x, int period_y) {
+    const int n = static_cast<int>(pixels.size());
+    Sets sets;
+    sets.parent.resize(pixels.size());
+    std::iota(sets.parent.begin(), sets.parent.end(), 0);
+    int above = 0;  // runs along the row above
+    for (int k = 0; k < n; ++k) {
+        const Pixel p = pixels[at(k)];
+        if (k > 0 && pixels[at(k - 1)] == Pixel{p.x - 1, p.y}) sets.join(k - 1, k);
+        while (above < k && (pixels[at(above)].y < p.y - 1 || (pixels[at(above)].y == p.y - 1 && pixels[at(above)].x < p.x))) ++above;
+        if (above < k && pixels[at(above)] == Pixel{p.x, p.y - 1}) sets.join(above, k);
+        const auto wrap = [&](int x, int y) {
+            const int other = lower(pixels, x, y);
+            if (other < n && pixels[at(other)] == Pixel{x, y}) sets.join(other, k);
+        };
+        if (period_x > 0 && p.x == period_x - 1) wrap(0, p.y);
+        if (period_y > 0 && p.y == period_y - 1) wrap(p.x, 0);
+    }
+    label.resize(pixels.size());
+    int count = 0;
+    for (int k = 0; k < n; ++k) {
+        const int root = sets.find(k);
+        label[at(k)] = root == k ? count++ : label[at(root)];
+    }
+    return count;
+}
+
+bool SpotBlocks::Less::operator()(const Shape& a, const Shape& b) const {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        [](const Pixel& p, const Pixel& q) { return std::tie(p.y, p.x) < std::tie(q.y, q.x); });
+}
+
+void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& products) {
+    std::vector<int> label;
+    const int spots = connected_sets(pixels, label);
+    std::vector<int> size(at(spots), 0);
+    for (int l : label) ++size[at(l)];
+    // A block: a spot, or the part of a large one in a square of the lattice.
+    std::vector<std::tuple<int, int, int, int>> key(pixels.size());  // spot, square, position
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const bool cut = size[at(label[k])] > kMostPixels;
+        key[k] = {label[k], cut ? (pixels[k].y + (1 << 20) * kSquare) / kSquare : 0,
+                  cut ? (pixels[k].x + (1 << 20) * kSquare) / kSquare : 0, static_cast<int>(k)};
+    }
+    std::sort(key.begin(), key.end());
+    for (auto& [shape, inverse] : known_) inverse.wanted = false;
+    blocks_.clear();
+    members_.resize(pixels.size());
+    std::vector<std::pair<const Shape*, Inverse*>> fresh;
+    for (std::size_t b = 0; b < key.size();) {
+        std::size_t e = b;
+        Shape shape;
+        const Pixel first = pixels[at(std::get<3>(key[b]))];
+        while (e < key.size() && std::get<0>(key[e]) == std::get<0>(key[b]) && std::get<1>(key[e]) == std::get<1>(key[b]) &&
+               std::get<2>(key[e]) == std::get<2>(key[b])) {
+            const int k = std::get<3>(key[e]);
+            members_[e++] = k;
+            shape.push_back({pixels[at(k)].x - first.x, pixels[at(k)].y - first.y});
+        }
+        const auto [place, is_new] = known_.try_emplace(std::move(shape));
+        place->second.wanted = true;
+        if (is_new) fresh.push_back({&place->first, &place->second});
+        blocks_.push_back({b, &place->second});
+        b = e;
+    }
+    std::erase_if(known_, [](const auto& entry) { return !entry.second.wanted; });
+#pragma omp parallel for schedule(dynamic, 1) if (fresh.size() > 16)
+    for (std::size_t f = 0; f < fresh.size(); ++f) {
+        const Shape& shape = *fresh[f].first;
+        const std::size_t n = shape.size();
+        std::vector<double> A(n * n), inverse(n * n);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j) A[i * n + j] = products.coefficient(shape[i].x - shape[j].x, shape[i].y - shape[j].y);
+        const double unit = A[0];
+        for (double& v : A) v /= unit;
+        invert(n, A.data(), inverse.data());
+        fresh[f].second->values.assign(A.begin(), A.end());
+    }
+    blocks_.push_back({key.size(), nullptr});
+}
+
+void SpotBlocks::apply(const double* r, double* z) const {
+    double unit = 0;  // single precision takes any unit
+    for (std::size_t k = 0; k < members_.size(); ++k) unit = std::max(unit, std::abs(r[k]));
+    if (!(unit > 0)) unit = 1;
+#pragma omp parallel for schedule(static) if (members_.size() > 4000)
+    for (std::size_t b = 0; b < blocks_.size() - 1; ++b) {
+        const std::size_t begin = blocks_[b].begin, n = blocks_[b + 1].begin - begin;
+        float x[kMostPixels], y[kMostPixels];
+        for (std::size_t k = 0; k < n; ++k) x[k] = static_cast<float>(r[members_[begin + k]] / unit);
+        multiply(n, blocks_[b].inverse->values.data(), x, y);
+        for (std::size_t k = 0; k < n; ++k) z[members_[begin + k]] = unit * static_cast<double>(y[k]);
+    }
+}
+
+}  // namespace rsc
