@@ -221,7 +221,7 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
         const double E_star = contact->contact.indenter().E_star;
-        for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(contact->on->asperities, level, E_star, x[i], y[i]);
+        for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(level, E_star, x[i], y[i]);
     });
 }
 

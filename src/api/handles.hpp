@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "case/case.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
 
@@ -28,7 +28,7 @@ struct rsc_contact {
         : on(std::move(on_)), options(options_), contact(on->asperities, indenter, options) {}
     std::shared_ptr<const rsc::Ground> on;
     rsc::SolverOptions options;
-    rsc::Contact contact;
+    rsc::AsperityContact contact;
     std::optional<rsc::Level> level;
     double energy = 0;
 };

@@ -1,6 +1,7 @@
 // A case: every key of the namelist, with its value. The registry (registry.hpp) names, checks, prints and describes them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,12 +13,19 @@
 
 namespace rsc {
 
+// Enumerations with the spellings of their values, in their order. Those of the contact stand in contact/indentation.hpp.
 enum class Source { synthetic, heights, asperities };
+inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities"};
 enum class Control { separation, force };
+inline constexpr std::array kControlNames = {"separation", "force"};
 enum class LevelUnit { sigma, length };
+inline constexpr std::array kLevelUnitNames = {"sigma", "length"};
 enum class Spacing { linear, log };
+inline constexpr std::array kSpacingNames = {"linear", "log"};
 enum class Format { netcdf4, cdf5, classic };
+inline constexpr std::array kFormatNames = {"netcdf4", "cdf5", "classic"};
 enum class Contacts { automatic, none, last, all };
+inline constexpr std::array kContactsNames = {"auto", "none", "last", "all"};
 enum class StudyMode { product, zip };
 
 struct Case {

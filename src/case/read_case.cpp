@@ -127,12 +127,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     for (const Problem& problem : check_case(settings))
         if (!concerns_faulty(reading.ledger, problem) && !(reading.study && varied(*reading.study, problem)))
             faults.push_back({place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
-    if (reading.study) {
-        if (!kStudiesAvailable)
-            faults.push_back({reading.study->at, "&study is not available yet"});
-        else if (faults.empty() && set_faults.empty())
-            faults = check_study(settings, *reading.study);
-    }
+    if (reading.study && faults.empty() && set_faults.empty()) faults = check_study(settings, *reading.study);
 
     std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
         return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;

@@ -1,17 +1,13 @@
 #include "case/registry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "case/namelist_value.hpp"
 
 namespace rsc {
 namespace {
-
-// --- edit here when something becomes available ---
-constexpr Unavailable kUnavailable[] = {
-    {"solver", "interaction", "hertz"},
-};
 
 constexpr double kNoLimit = Case::kInfinity;
 constexpr Bounds kAny{};
@@ -52,16 +48,26 @@ Key one_of(const char* group, const char* name, std::vector<const char*> choices
     return {group, name, choice, 1, false, 32, "", kAny, std::move(choices), "", meaning, slot};
 }
 
+Key changing(Changes what, Key key) {
+    key.changes = what;
+    return key;
+}
+
+template <std::size_t n>
+std::vector<const char*> names(const std::array<const char*, n>& all) {
+    return {all.begin(), all.end()};
+}
+
 std::vector<Key> make_registry() {
     return {
-        text("run", "title", 1024, "title of the result file", RSC_SLOT(run.title)),
+        changing(Changes::file, text("run", "title", 1024, "title of the result file", RSC_SLOT(run.title))),
         scalar("run", "seed", long_integer, "1", kAny, "seed of the noise: with `realization` it is the surface", RSC_SLOT(run.seed)),
         scalar("run", "realizations", integer, "1", between(1, 1e7), "number of surfaces", RSC_SLOT(run.realizations)),
         scalar("run", "first_realization", integer, "1", between(1, 2147483647.0),
                "number of the first surface; realization k of a seed is the same surface whatever the rest",
                RSC_SLOT(run.first_realization)),
-        scalar("run", "threads", integer, "1", between(0, 4096), "threads to use, 0 for all; results do not depend on it",
-               RSC_SLOT(run.threads)),
+        changing(Changes::nothing, scalar("run", "threads", integer, "1", between(0, 4096),
+                                          "threads to use, 0 for all; results do not depend on it", RSC_SLOT(run.threads))),
         text("run", "length_unit", 64, "unit of every length, as UDUNITS spells it; '1' for pure numbers", RSC_SLOT(run.length_unit)),
         text("run", "force_unit", 64, "unit of every force, as UDUNITS spells it; '1' for pure numbers", RSC_SLOT(run.force_unit)),
 
@@ -70,8 +76,8 @@ std::vector<Key> make_registry() {
         array("solids", "nu", 2, "1", above(-1, 0.5), "Poisson's ratio of the two bodies", RSC_FIRST(solids.nu)),
         array("solids", "R", 2, "length", kPositiveOrInfinite, "radius of the two bodies; Infinity is flat", RSC_FIRST(solids.R)),
 
-        one_of("surface", "source", {"synthetic", "heights", "asperities"},
-               "make a surface, read a height map from `file`, or read asperities from `file`", RSC_CHOICE(surface.source)),
+        one_of("surface", "source", names(kSourceNames), "make a surface, read a height map from `file`, or read asperities from `file`",
+               RSC_CHOICE(surface.source)),
         text("surface", "file", 4096, "file with the heights or the asperities: NetCDF or text", RSC_SLOT(surface.file)),
         optional("surface", "L", 1, kPositive, "1.0; for heights and asperities taken from the file",
                  "side of the surface (x extent of a map)", RSC_SLOT(surface.L)),
@@ -85,47 +91,47 @@ std::vector<Key> make_registry() {
                RSC_SLOT(surface.plateau)),
         optional("surface", "sigma", 1, kPositive, "0.01; for heights and asperities the rms of what was read",
                  "rms height to make; for heights and asperities the length that unit = 'sigma' and delta0 mean", RSC_SLOT(surface.sigma)),
-        one_of("surface", "normalise", {"sample", "ensemble"}, "sigma holds for each surface exactly, or in expectation",
+        one_of("surface", "normalise", names(kNormaliseNames), "sigma holds for each surface exactly, or in expectation",
                RSC_CHOICE(surface.normalise)),
-        one_of("surface", "detrend", {"none", "mean", "plane"},
-               "what to subtract from heights read; separation is measured from z = 0 after it", RSC_CHOICE(surface.detrend)),
+        one_of("surface", "detrend", names(kDetrendNames), "what to subtract from heights read; separation is measured from z = 0 after it",
+               RSC_CHOICE(surface.detrend)),
 
-        one_of("asperities", "curvature", {"geometric", "algebraic"}, "mean of the principal curvatures that gives an asperity its radius",
+        one_of("asperities", "curvature", names(kCurvatureNames), "mean of the principal curvatures that gives an asperity its radius",
                RSC_CHOICE(asperities.curvature)),
-        one_of("asperities", "law", {"hertz", "elliptic", "fourth_order"},
+        one_of("asperities", "law", names(kLawNames),
                "what an asperity is: a sphere on a grid point (the paper's), or at the summit between the points an elliptic "
                "paraboloid, or one flattened as the summit is; the latter two count once what elliptic spots share",
                RSC_CHOICE(asperities.law)),
 
-        one_of("indentation", "control", {"separation", "force"}, "what start, stop and levels are", RSC_CHOICE(indentation.control)),
+        one_of("indentation", "control", names(kControlNames), "what start, stop and levels are", RSC_CHOICE(indentation.control)),
         scalar("indentation", "start", real, "`unit`", kAny, "first level", RSC_SLOT(indentation.start)),
         scalar("indentation", "stop", real, "`unit`", kAny, "last level", RSC_SLOT(indentation.stop)),
         scalar("indentation", "steps", integer, "1", between(1, 1e6), "number of levels, both ends included", RSC_SLOT(indentation.steps)),
-        one_of("indentation", "unit", {"sigma", "length"}, "unit of the levels; with force control they are forces",
+        one_of("indentation", "unit", names(kLevelUnitNames), "unit of the levels; with force control they are forces",
                RSC_CHOICE(indentation.unit)),
-        one_of("indentation", "spacing", {"linear", "log"}, "spacing of the levels", RSC_CHOICE(indentation.spacing)),
+        one_of("indentation", "spacing", names(kSpacingNames), "spacing of the levels", RSC_CHOICE(indentation.spacing)),
         list("indentation", "levels", 10000, "`unit`", "start, stop and steps give the levels",
              "explicit levels instead of start, stop and steps", RSC_SLOT(indentation.levels)),
         optional("indentation", "centre", 2, kAny, "the middle of the surface", "x and y of the sphere's tip",
                  RSC_FIRST(indentation.centre)),
-        one_of("indentation", "selection", {"overlap", "paper"},
+        one_of("indentation", "selection", names(kSelectionNames),
                "asperities the solver is given: all that can touch, or those within selection_factor of the paper's radius",
                RSC_CHOICE(indentation.selection)),
         scalar("indentation", "selection_factor", real, "1", kPositive, "factor of selection = 'paper'",
                RSC_SLOT(indentation.selection_factor)),
 
-        one_of("solver", "method", {"auto", "dgesv", "direct", "mesh"},
+        one_of("solver", "method", names(kMethodNames),
                "dgesv: the paper's method; direct and mesh: matrix-free, by pairs or by transforms", RSC_CHOICE(solver.method)),
         scalar("solver", "tolerance", real, "1", between(1e-14, 0.1),
                "relative residual of F - C<G0 - B F>^(3/2); for dgesv also on |dF|/|F|", RSC_SLOT(solver.tolerance)),
         scalar("solver", "max_iterations", integer, "1", between(1, 1e6), "Newton steps at a level", RSC_SLOT(solver.max_iterations)),
         scalar("solver", "delta0", real, "sigma", above(0, 1e3), "first regularisation of the paper's method", RSC_SLOT(solver.delta0)),
-        one_of("solver", "interaction", {"point", "hertz", "none"},
-               "how an asperity lowers the surface elsewhere: as a point force, as a Hertz spot, or not", RSC_CHOICE(solver.interaction)),
+        one_of("solver", "interaction", names(kInteractionNames), "how an asperity lowers the surface elsewhere: as a point force, or not",
+               RSC_CHOICE(solver.interaction)),
 
-        text("output", "file", 4096, "the result file", RSC_SLOT(output.file)),
-        one_of("output", "format", {"netcdf4", "cdf5", "classic"}, "format of the result file", RSC_CHOICE(output.format)),
-        one_of("output", "contacts", {"auto", "none", "last", "all"},
+        changing(Changes::file, text("output", "file", 4096, "the result file", RSC_SLOT(output.file))),
+        changing(Changes::file, one_of("output", "format", names(kFormatNames), "format of the result file", RSC_CHOICE(output.format))),
+        one_of("output", "contacts", names(kContactsNames),
                "levels whose contacts are written; auto: all for one realization, none for a campaign", RSC_CHOICE(output.contacts)),
         scalar("output", "heights", logical, "", kAny, "write the height map, too", RSC_SLOT(output.heights)),
         scalar("output", "map_cells", integer, "1", between(1, 4096), "cells along a side of the coarse maps", RSC_SLOT(output.map_cells)),
@@ -133,7 +139,8 @@ std::vector<Key> make_registry() {
         list("output", "pdf_levels", 100, "sigma", "", "separations whose distributions are written: the nearest level run to each",
              RSC_SLOT(output.pdf_levels)),
         scalar("output", "pdf_bins", integer, "1", between(1, 100000), "bins of the distributions", RSC_SLOT(output.pdf_bins)),
-        scalar("output", "compression", integer, "1", between(0, 9), "deflate level of netcdf4", RSC_SLOT(output.compression)),
+        changing(Changes::file,
+                 scalar("output", "compression", integer, "1", between(0, 9), "deflate level of netcdf4", RSC_SLOT(output.compression))),
     };
 }
 
@@ -153,11 +160,6 @@ constexpr std::pair<const char*, const char*> kGroups[] = {
 };
 
 }  // namespace
-
-const bool kCampaignsAvailable = true;
-const bool kStudiesAvailable = true;
-
-std::span<const Unavailable> unavailable() { return kUnavailable; }
 
 std::span<const Key> registry() {
     static const std::vector<Key> keys = make_registry();

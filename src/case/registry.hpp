@@ -16,6 +16,9 @@
 
 namespace rsc {
 
+// What another value of a key may change in a result: its numbers; only how the file holds them; nothing at all.
+enum class Changes { numbers, file, nothing };
+
 enum class Type { logical, integer, long_integer, real, string, choice };
 
 // What a real or integer may be. NaN never passes; Infinity only where `infinity` says so.
@@ -50,6 +53,7 @@ struct Key {
     const char* unset;  // for a key that may stay unset: what then holds; otherwise ""
     const char* meaning;
     Slot (*slot)(Case&);
+    Changes changes = Changes::numbers;
 };
 
 // All keys, group by group in the documented order.
@@ -61,16 +65,6 @@ const char* group_meaning(std::string_view group);
 const Key* find_key(std::string_view group, std::string_view name);
 // "; did you mean 'sigma'?", "; it belongs to &surface" or nothing.
 std::string suggest_key(std::string_view group, std::string_view name);
-
-// Choices that are documented and not built yet: refused by name.
-struct Unavailable {
-    const char* group;
-    const char* name;
-    const char* choice;
-};
-std::span<const Unavailable> unavailable();
-extern const bool kCampaignsAvailable;  // &run realizations > 1
-extern const bool kStudiesAvailable;    // &study
 
 // --- values by name -----------------------------------------------------------------------------------------------------------
 
@@ -117,6 +111,9 @@ struct Problem {
 std::vector<Problem> check_case(const Case& settings);
 // Throws Error(bad_input) with a line for each problem.
 void require_valid(const Case& settings);
+
+// The case with the default of every key that changes nothing in a result.
+Case without_idle_keys(const Case& settings);
 
 // Every key with its value, as namelist input that reads back to the same bits.
 std::string effective_namelist(const Case& settings);

@@ -20,7 +20,6 @@ public:
 
     std::vector<Problem> check() {
         for (const Key& key : registry()) check_key(key);
-        check_available();
         check_units();
         check_solids();
         check_surface();
@@ -93,17 +92,6 @@ private:
         return namelist::from_real(value);
     }
 
-    void check_available() {
-        for (const Unavailable& u : unavailable()) {
-            const Key& key = *find_key(u.group, u.name);
-            const ChoiceSlot chosen = std::get<ChoiceSlot>(key.slot(const_cast<Case&>(c_)));
-            if (std::string_view(u.choice) == key.choices.at(static_cast<std::size_t>(chosen.get(chosen.object))))
-                problems_.push_back({{&key}, 0, std::string(u.name) + " = '" + u.choice + "' is not available yet"});
-        }
-        if (c_.run.realizations > 1 && !kCampaignsAvailable)
-            complain({"run%realizations"}, "realizations = " + std::to_string(c_.run.realizations) + " is not available yet: only 1 is");
-    }
-
     void check_units() {
         if (const std::string wrong = unit_problem(c_.run.length_unit, Quantity::length); !wrong.empty())
             complain({"run%length_unit"}, "length_unit: " + wrong);
@@ -120,7 +108,7 @@ private:
         const Case::Surface& s = c_.surface;
         if (s.source != Source::synthetic) {
             if (s.file.empty()) complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
-            if (c_.run.realizations > 1 && kCampaignsAvailable)
+            if (c_.run.realizations > 1)
                 complain({"run%realizations", "surface%source"}, "realizations: a surface that is read is one realization");
             return;
         }

@@ -27,12 +27,6 @@ const char* type_name(Type type) {
     return "";
 }
 
-bool is_unavailable(const Key& key, std::string_view choice) {
-    return std::any_of(unavailable().begin(), unavailable().end(), [&](const Unavailable& u) {
-        return std::string_view(u.group) == key.group && std::string_view(u.name) == key.name && choice == u.choice;
-    });
-}
-
 void describe_key(std::ostream& out, const Key& key) {
     static const Case defaults;
     out << "  " << key.name;
@@ -48,7 +42,6 @@ void describe_key(std::ostream& out, const Key& key) {
     if (!bounds.empty()) out << ", " << bounds;
     for (std::size_t i = 0; i < key.choices.size(); ++i) {
         out << (i == 0 ? ": " : ", ") << "'" << key.choices[i] << "'";
-        if (is_unavailable(key, key.choices[i])) out << " (not available yet)";
     }
     out << "\n      " << key.meaning << "\n";
 }
@@ -66,6 +59,14 @@ void describe_group(std::ostream& out, std::string_view group) {
 }
 
 }  // namespace
+
+Case without_idle_keys(const Case& settings) {
+    static const Case defaults;
+    Case result = settings;
+    for (const Key& key : registry())
+        if (key.changes == Changes::nothing) set_key(result, full_name(key), get_key(defaults, full_name(key)));
+    return result;
+}
 
 std::string effective_namelist(const Case& settings) {
     std::string text;

@@ -1,51 +1,53 @@
-// The contact of the asperities of a rough surface with a sphere, level by level (paper, section 4).
+// The contact of a rough surface with a sphere, level by level, whatever it is made of: asperities (asperity_contact.hpp) or elements.
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <cstddef>
+#include <optional>
 
-#include "contact/indentation.hpp"
-#include "contact/interaction/products.hpp"
-#include "contact/law/law.hpp"
-#include "contact/ranking.hpp"
-#include "contact/solver/newton.hpp"
+#include "contact/level.hpp"
 
 namespace rsc {
 
 class Contact {
 public:
-    // The asperities must outlive the contact. Throws Error(bad_input) for moduli, radii or options out of range.
-    Contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options);
-    ~Contact();
-    Contact(Contact&&) noexcept;
+    virtual ~Contact() = default;
 
-    // The answer at the separation Z0 [length]. It depends on Z0 alone: earlier levels are used as a start where the solution is
-    // proved unique, and not otherwise. Never throws for a level that did not converge: see Level::status.
+    // The answer at the separation Z0 [length]; afterwards the contact has been there (of consequence where path_dependent()). Never
+    // throws for a level that did not converge: see Level::status. Throws Error(bad_input) if Z0 is not finite.
     Level at_separation(double Z0);
 
     // The separation at which the sphere carries the force N > 0 [force], and the answer there, to the tolerance or to the
-    // spacing of floating-point numbers Z0, whichever is coarser.
+    // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way leave no trace.
     Level at_force(double N);
 
-    // dN/dZ0 of the last level (negative; 0 without contact) [force/length].
-    double stiffness();
+    // Of the last level:
+    // dN/dZ0 (negative; 0 without contact) [force/length].
+    virtual double stiffness() = 0;
+    // Elastic energy W, with dW/dZ0 = -N [force length]. Its error is of the order of the square of the residual.
+    virtual double energy() const = 0;
 
-    // Elastic energy of the last level, W = sum W_i(u_i) + F'BF/2 with the work W_i = int_0^u f du of the asperities and the
-    // interaction energy: since u + B F = g0, dW/dZ0 = F'dg0/dZ0 = -N, the contact is conservative [force length]. Evaluated as
-    // -E(F) of newton.hpp, which equals W at the solution and is in error only by the square of the residual.
-    double energy() const;
+    // Moves the tip to (x0, y0). The last level may serve as a start for the next. Throws Error(bad_input) if not finite.
+    virtual void move_tip(double x0, double y0) = 0;
 
-    // Moves the tip to (x0, y0). The last level goes on as a start for the next where the solution is proved unique.
-    void move_tip(double x0, double y0);
+    // Z0 at which the sphere touches the surface [length]; -Infinity when nothing lies under it.
+    virtual double first_touch() const = 0;
 
-    // Z0 at which the sphere touches its first asperity [length]; -Infinity when none lies under it.
-    double first_touch() const;
+    virtual const Indenter& indenter() const = 0;
 
-    const Indenter& indenter() const;
+    // Whether a level depends on those before it.
+    virtual bool path_dependent() const { return false; }
 
-private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+protected:
+    // A trial: the answer at Z0, which stiffness() and energy() then speak of.
+    virtual Level solve(double Z0) = 0;
+    // The last level solved is accepted: what remembers its path goes on from here.
+    virtual void accept() {}
+
+    // What force control asks of a model.
+    virtual double tolerance() const = 0;                         // relative, of the force
+    virtual double first_place_force(double depth) = 0;           // of the place touched first, alone, pressed in so far
+    virtual std::optional<double> likely_separation() const = 0;  // where to begin; none: near first touch
+    virtual std::size_t levels_since_move() const = 0;            // solved since the tip was moved, at most a few
 };
 
 }  // namespace rsc

@@ -39,11 +39,10 @@ double spot_deflection(double force, double radius, double distance, double E_st
     return force / (std::numbers::pi * E_star * distance) * sum;
 }
 
-double deflection(const Asperities& asperities, const Level& level, double E_star, double x, double y) {
+double deflection(const Level& level, double E_star, double x, double y) {
     double sum = 0;
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        const auto i = static_cast<std::size_t>(level.asperity[k]);
-        const double dx = x - asperities.x[i], dy = y - asperities.y[i];
+    for (std::size_t k = 0; k < level.f.size(); ++k) {
+        const double dx = x - level.x[k], dy = y - level.y[k];
         sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), E_star);
     }
     return sum;

@@ -1,8 +1,11 @@
 // The first half of the table: what the file is, its axes, the levels, the surfaces, closed forms.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "file/netcdf_table.hpp"
+#include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 #include "version.h"
 
@@ -12,6 +15,18 @@ namespace {
 const char* const kPaper =
     "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, "
     "Journal of Multiscale Modelling (2018)";
+
+// flag_values from `first` on, and the names of an enumeration from there.
+template <std::size_t n>
+NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t first) {
+    std::vector<std::int32_t> values;
+    std::string meanings;
+    for (std::size_t k = first; k < n; ++k) {
+        values.push_back(static_cast<std::int32_t>(k));
+        meanings += (k > first ? " " : "") + std::string(names[k]);
+    }
+    return {{"flag_values", values}, {"flag_meanings", meanings}};
+}
 
 }  // namespace
 
@@ -43,7 +58,7 @@ void ResultTable::axes() {
     add("step", {"step"}, "1", "number of the level", step);
 
     const Names dims = r_.force_control ? Names{"realization", "step"} : Names{"step"};
-    std::vector<double> separation = of_rows<double>([](const LevelRow& row) { return row.separation; });
+    std::vector<double> separation = of_rows<double>([](const LevelValues& row) { return row.separation; });
     if (!r_.force_control) separation.resize(o_.steps);  // the same in every realization
     std::vector<double> scaled = separation;
     for (double& z : scaled) z /= r_.sigma;
@@ -51,60 +66,36 @@ void ResultTable::axes() {
     add_absent("separation_sigma", dims, "1", "separation over rms height, Z0/sigma", scaled, "sigma is sigma_reference");
 }
 
+// The declared quantities of a level (observe/quantities.hpp).
 void ResultTable::levels() {
     const Names dims{"realization", "step"};
-    const auto integers = [&](const std::string& name, const std::string& long_name, auto get, NetcdfAttributes attributes = {}) {
-        add(name, dims, "1", long_name, of_rows<std::int32_t>(get), std::move(attributes));
-    };
-    add("force", dims, unit(0, 1), "normal force on the sphere, N", of_rows<double>([](const LevelRow& l) { return l.force; }),
-        comment("N = sum of the forces f of the contacts"));
-    add("contact_area", dims, unit(2), "true contact area, A", of_rows<double>([](const LevelRow& l) { return l.area; }),
-        comment("law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area of the union of their elliptic spots"));
-    integers("contacts", "number of asperities in contact", [](const LevelRow& l) { return l.contacts; });
-    integers("candidates", "number of asperities given to the solver", [](const LevelRow& l) { return l.candidates; });
-    integers("iterations", "Newton iterations", [](const LevelRow& l) { return l.iterations; });
-    add("residual", dims, "1", "relative residual of F - C<G0 - B F>^(3/2)", of_rows<double>([](const LevelRow& l) { return l.residual; }),
-        comment("unregularised, over all candidates: it says whether the forces are right"));
-    integers(
-        "status", "how the level ended", [](const LevelRow& l) { return l.status; },
-        {{"flag_values", std::vector<std::int32_t>{0, 1, 2, 3, 4}},
-         {"flag_meanings", "converged out_of_validity overlapping not_unique not_converged"},
-         {"comment",
-          "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, perhaps not the "
-          "only one; "
-          "4: do not use. The larger is the more serious and hides the smaller"}});
-    integers("method", "solver used", [](const LevelRow& l) { return l.method; },
-             {{"flag_values", std::vector<std::int32_t>{1, 2, 3}}, {"flag_meanings", "dgesv direct mesh"}});
-    integers("products", "products with the interaction matrix B (direct, mesh) or solves (dgesv)",
-             [](const LevelRow& l) { return clamped(l.products); });
-    integers("overlapping_pairs", "pairs of contacts with d < a_i + a_j", [](const LevelRow& l) { return clamped(l.overlapping_pairs); });
-    integers(
-        "large_contacts", "contacts with a > <d>/4", [](const LevelRow& l) { return l.large_contacts; },
-        comment("<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"));
-    integers(
-        "beyond_law", "contacts past the range in which the law describes a summit",
-        [](const LevelRow& l) { return clamped(l.beyond_law); },
-        comment("asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
-                "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its "
-                "radius stays and the stiffness with it; 0 for the other laws"));
-    integers(
-        "crowded_cells", "cells of the map with an area fraction above pi/16", [](const LevelRow& l) { return l.crowded_cells; },
-        comment("19.6 %: beyond it point forces do not describe the interaction well"));
-    integers("contacts_outside_map", "contacts outside the map: in force and contact_area, in no cell",
-             [](const LevelRow& l) { return l.outside_map; });
-    const std::vector<double> stiffness = of_rows<double>([](const LevelRow& l) { return l.stiffness; });
-    bool computed = false;
-    for (double k : stiffness) computed = computed || !std::isnan(k);
-    if (computed) add_absent("stiffness", dims, unit(-1, 1), "derivative of the force by the separation, dN/dZ0", stiffness);
+    for (const LevelQuantity& q : level_quantities()) {
+        NetcdfAttributes attributes;
+        if (std::holds_alternative<LevelStatus LevelValues::*>(q.member)) attributes = flags(kLevelStatusNames, 0);
+        if (std::holds_alternative<Method LevelValues::*>(q.member)) attributes = flags(kMethodNames, 1);  // 0 is 'auto'
+        append(attributes, comment(q.comment));
+        if (q.integer()) {
+            add(q.name, dims, "1", q.meaning, of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }), attributes);
+            continue;
+        }
+        const std::vector<double> values = of_rows<double>([&](const LevelValues& l) { return q.of(l); });
+        if (q.always)
+            add(q.name, dims, unit(q.length_power, q.force_power), q.meaning, values, attributes);
+        else if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
+            add_absent(q.name, dims, unit(q.length_power, q.force_power), q.meaning, values, q.comment);
+    }
 }
 
 void ResultTable::means() {
-    const std::string deviation = "divisor M - 1 for M realizations";
-    if (r_.force_control) add("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation_mean);
-    add("force_mean", {"step"}, unit(0, 1), "mean force over realizations", o_.force_mean);
-    add_absent("force_std", {"step"}, unit(0, 1), "standard deviation of the force over realizations", o_.force_std, deviation);
-    add("contact_area_mean", {"step"}, unit(2), "mean contact area over realizations", o_.area_mean);
-    add_absent("contact_area_std", {"step"}, unit(2), "standard deviation of the contact area over realizations", o_.area_std, deviation);
+    if (r_.force_control) add("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
+    for (const LevelQuantity& q : level_quantities()) {
+        if (!q.statistics) continue;
+        const LevelStatistics s = o_.statistics([&](const LevelValues& l) { return q.of(l); });
+        const std::string name = q.name, of = std::string(q.plain) + " over realizations";
+        add(name + "_mean", {"step"}, unit(q.length_power, q.force_power), "mean " + of, s.mean);
+        add_absent(name + "_std", {"step"}, unit(q.length_power, q.force_power), "standard deviation of the " + of, s.deviation,
+                   "divisor M - 1 for M realizations");
+    }
 }
 
 void ResultTable::surfaces() {
@@ -161,7 +152,7 @@ void ResultTable::regimes() {
     const std::string which = r_.theory ? "m2_theory and m4_theory" : "the means of m2 and m4 over realizations";
     const bool known = m.m2 > 0 && m.m4 > 0;
     std::vector<double> first, second, hertz;
-    for (double N : o_.force_mean) {
+    for (double N : o_.force.mean) {
         first.push_back(known ? area_one_asperity(N, m.mean_radius(), E) : kAbsent);
         second.push_back(known ? area_proportional(N, m.m2, E) : kAbsent);
         hertz.push_back(std::isfinite(R) && std::isfinite(N) ? hertz_contact(N, R, E).area() : kAbsent);

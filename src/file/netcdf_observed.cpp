@@ -57,7 +57,7 @@ void ResultTable::radial() {
     add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
     add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
     std::vector<double> hertz;
-    for (double N : o_.force_mean)
+    for (double N : o_.force.mean)
         for (double r : o_.radii)
             hertz.push_back(std::isfinite(r_.indenter.R) && std::isfinite(N)
                                 ? hertz_contact(N, r_.indenter.R, r_.indenter.E_star).pressure(r)

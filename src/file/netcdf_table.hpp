@@ -19,6 +19,7 @@ inline constexpr const char* kAbsentMeans = "_FillValue: absent";
 inline std::int32_t clamped(std::int64_t n) {
     return static_cast<std::int32_t>(std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
 }
+inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>(n)); }
 
 class ResultTable {
 public:
@@ -93,7 +94,7 @@ private:
     std::vector<T> of_rows(Get get) const {
         std::vector<T> values;
         values.reserve(o_.rows.size());
-        for (const LevelRow& row : o_.rows) values.push_back(get(row));
+        for (const LevelValues& row : o_.rows) values.push_back(get(row));
         return values;
     }
     template <typename Get>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/indentation.hpp"
+#include "contact/level.hpp"
 #include "observe/fits.hpp"
 
 namespace rsc {

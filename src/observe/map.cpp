@@ -31,7 +31,7 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     return grid;
 }
 
-MapLevel map_level(const MapGrid& grid, const Asperities& asperities, const Level& level) {
+MapLevel map_level(const MapGrid& grid, const Level& level) {
     struct Entry {
         std::int32_t cell;
         std::size_t contact;
@@ -40,8 +40,7 @@ MapLevel map_level(const MapGrid& grid, const Asperities& asperities, const Leve
     std::vector<Entry> entries;
     entries.reserve(level.asperity.size());
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        const auto i = static_cast<std::size_t>(level.asperity[k]);
-        const int cell = grid.cell(asperities.x[i], asperities.y[i]);
+        const int cell = grid.cell(level.x[k], level.y[k]);
         if (cell < 0)
             ++map.outside;
         else

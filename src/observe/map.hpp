@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/indentation.hpp"
-#include "rough/asperities.hpp"
+#include "contact/level.hpp"
 
 namespace rsc {
 
@@ -39,7 +38,7 @@ struct MapLevel {
 };
 
 // Sums run over the contacts in their order in `level`.
-MapLevel map_level(const MapGrid& grid, const Asperities& asperities, const Level& level);
+MapLevel map_level(const MapGrid& grid, const Level& level);
 
 // The area fraction beyond which a cell of contacts counts as crowded: spots in a square array touch at pi/4; interaction by
 // point forces is trusted to a quarter of that, pi/16 = 19.6 %.

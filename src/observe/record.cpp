@@ -9,46 +9,11 @@
 namespace rsc {
 namespace {
 
-LevelRow row_of(const Level& level) {
-    LevelRow row;
-    row.separation = level.separation;
-    row.force = level.force;
-    row.area = level.area;
-    row.residual = level.residual;
-    row.products = level.products;
-    row.overlapping_pairs = level.overlapping_pairs;
-    row.contacts = static_cast<std::int32_t>(level.asperity.size());
-    row.candidates = level.candidates;
-    row.iterations = level.iterations;
-    row.status = static_cast<std::int32_t>(level.status);
-    row.method = static_cast<std::int32_t>(level.method);
-    row.large_contacts = level.large_contacts;
-    row.beyond_law = level.beyond_law;
-    return row;
-}
-
 void require_finite(const Level& level, std::size_t step) {
     bool finite =
         std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual);
     for (std::size_t k = 0; k < level.asperity.size(); ++k) finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
     if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
-}
-
-// Mean and sample deviation of one quantity over realizations, two passes in their order.
-template <typename Get>
-void mean_and_deviation(const Observations& o, Get get, std::vector<double>& mean, std::vector<double>* deviation) {
-    const auto M = static_cast<double>(o.realizations);
-    mean.assign(o.steps, kAbsent);
-    if (deviation) deviation->assign(o.steps, kAbsent);
-    if (o.realizations == 0) return;
-    for (std::size_t s = 0; s < o.steps; ++s) {
-        double sum = 0, squares = 0;
-        for (std::size_t k = 0; k < o.realizations; ++k) sum += get(o.row(k, s));
-        mean[s] = sum / M;
-        if (!deviation || o.realizations < 2) continue;
-        for (std::size_t k = 0; k < o.realizations; ++k) squares += (get(o.row(k, s)) - mean[s]) * (get(o.row(k, s)) - mean[s]);
-        (*deviation)[s] = std::sqrt(squares / (M - 1));
-    }
 }
 
 }  // namespace
@@ -63,15 +28,14 @@ std::int32_t nearest_level(const std::vector<Level>& levels, double separation) 
 }
 
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
-                          const Asperities& asperities, const std::vector<Level>& levels, std::span<const double> stiffness) {
+                          const std::vector<Level>& levels) {
     RealizationRecord record;
     record.realization = realization;
     record.surface = surface;
     for (std::size_t s = 0; s < levels.size(); ++s) {
         require_finite(levels[s], s);
-        LevelRow row = row_of(levels[s]);
-        if (s < stiffness.size()) row.stiffness = stiffness[s];
-        record.maps.push_back(map_level(options.map, asperities, levels[s]));
+        LevelValues row = levels[s];
+        record.maps.push_back(map_level(options.map, levels[s]));
         row.outside_map = record.maps.back().outside;
         row.crowded_cells = count_crowded_cells(options.map, record.maps.back());
         record.levels.push_back(row);
@@ -81,6 +45,26 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
         if (step >= 0) record.distributions.push_back(distributions_of(options.pdf, levels[static_cast<std::size_t>(step)], step));
     }
     return record;
+}
+
+// Two passes in the order of the realizations.
+LevelStatistics Observations::statistics(const std::function<double(const LevelValues&)>& of) const {
+    LevelStatistics s;
+    const auto M = static_cast<double>(realizations);
+    s.mean.assign(steps, kAbsent);
+    s.deviation.assign(steps, kAbsent);
+    for (std::size_t step = 0; step < steps && realizations > 0; ++step) {
+        double sum = 0, squares = 0;
+        for (std::size_t k = 0; k < realizations; ++k) sum += of(row(k, step));
+        s.mean[step] = sum / M;
+        if (realizations < 2) continue;
+        for (std::size_t k = 0; k < realizations; ++k) {
+            const double off = of(row(k, step)) - s.mean[step];
+            squares += off * off;
+        }
+        s.deviation[step] = std::sqrt(squares / (M - 1));
+    }
+    return s;
 }
 
 Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_) : options(options_), steps(steps_) {
@@ -118,12 +102,9 @@ Observations Accumulators::finish() const {
     o.realization = realization;
     o.surface = surface;
     o.rows = rows;
-    mean_and_deviation(
-        o, [](const LevelRow& r) { return r.separation; }, o.separation_mean, nullptr);
-    mean_and_deviation(
-        o, [](const LevelRow& r) { return r.force; }, o.force_mean, &o.force_std);
-    mean_and_deviation(
-        o, [](const LevelRow& r) { return r.area; }, o.area_mean, &o.area_std);
+    o.separation = o.statistics([](const LevelValues& r) { return r.separation; });
+    o.force = o.statistics([](const LevelValues& r) { return r.force; });
+    o.area = o.statistics([](const LevelValues& r) { return r.area; });
 
     const double divisor = options.map.side * options.map.side * static_cast<double>(o.realizations > 0 ? o.realizations : 1);
     o.map_area_fraction = map_area;

@@ -7,13 +7,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <vector>
 
-#include "contact/indentation.hpp"
+#include "contact/level.hpp"
 #include "observe/distributions.hpp"
 #include "observe/map.hpp"
-#include "rough/asperities.hpp"
 
 namespace rsc {
 
@@ -34,31 +33,17 @@ struct SurfaceStatistics {
     std::int64_t summits = 0, saddles = 0;
 };
 
-// The scalars of one level.
-struct LevelRow {
-    double separation = 0, force = 0, area = 0, residual = 0;
-    double stiffness = kAbsent;  // dN/dZ0, negative, if it was computed [force/length]
-    std::int64_t products = 0, overlapping_pairs = 0;
-    std::int64_t beyond_law = 0;  // contacts past the range in which the law describes a summit
-    std::int32_t contacts = 0, candidates = 0, iterations = 0;
-    std::int32_t status = 0, method = 0;  // values of LevelStatus and Method
-    std::int32_t large_contacts = 0;      // contacts with a > <d>/4
-    std::int32_t crowded_cells = 0;       // map cells with an area fraction above pi/16
-    std::int32_t outside_map = 0;         // contacts outside the map
-};
-
 struct RealizationRecord {
     std::int64_t realization = 1;
     SurfaceStatistics surface;
-    std::vector<LevelRow> levels;
+    std::vector<LevelValues> levels;
     std::vector<MapLevel> maps;                // one a level
     std::vector<Distributions> distributions;  // one a pdf level
 };
 
-// Observes the levels of one realization. `stiffness` is empty or has one value a level.
-// Throws Error(internal) if a level holds a value that is not finite.
+// Observes the levels of one realization. Throws Error(internal) if a level holds a value that is not finite.
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
-                          const Asperities& asperities, const std::vector<Level>& levels, std::span<const double> stiffness = {});
+                          const std::vector<Level>& levels);
 
 // The level whose separation is nearest to the wanted one; of two equally near the first. -1 if there is none.
 std::int32_t nearest_level(const std::vector<Level>& levels, double separation);
@@ -71,7 +56,7 @@ struct Accumulators {
     std::size_t steps = 0;
     std::vector<std::int64_t> realization;
     std::vector<SurfaceStatistics> surface;
-    std::vector<LevelRow> rows;                // [realization][step]
+    std::vector<LevelValues> rows;             // [realization][step]
     std::vector<double> map_area, map_force;   // [step][cell], sums over realizations [length^2], [force]
     std::vector<Distributions> distributions;  // [pdf level]
 
@@ -83,19 +68,25 @@ struct Accumulators {
     Observations finish() const;
 };
 
-// Means over the realizations added. The deviation is that of the sample (divisor M - 1), NaN for one realization.
+// Mean and deviation (of the sample, divisor M - 1; NaN for one realization) of a level's quantity over realizations, a value a step.
+struct LevelStatistics {
+    std::vector<double> mean, deviation;
+};
+
+// What the realizations added amount to.
 struct Observations {
     ObserveOptions options;
     std::size_t realizations = 0, steps = 0;
     std::vector<std::int64_t> realization;
-    std::vector<SurfaceStatistics> surface;                                           // [realization]
-    std::vector<LevelRow> rows;                                                       // [realization][step]
-    std::vector<double> separation_mean, force_mean, force_std, area_mean, area_std;  // [step]
-    std::vector<double> map_area_fraction, map_pressure;                              // [step][j][i]
-    std::vector<double> radii;                                                        // middle of the rings [length]
-    std::vector<double> radial_area_fraction, radial_pressure;                        // [step][radius]
-    std::vector<FittedDistributions> distributions;                                   // [pdf level]
-    const LevelRow& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
+    std::vector<SurfaceStatistics> surface;  // [realization]
+    std::vector<LevelValues> rows;           // [realization][step]
+    LevelStatistics separation, force, area;
+    std::vector<double> map_area_fraction, map_pressure;        // [step][j][i]
+    std::vector<double> radii;                                  // middle of the rings [length]
+    std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
+    std::vector<FittedDistributions> distributions;             // [pdf level]
+    const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
+    LevelStatistics statistics(const std::function<double(const LevelValues&)>& of) const;
 };
 
 }  // namespace rsc

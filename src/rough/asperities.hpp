@@ -1,6 +1,7 @@
 // Asperities: the summits of a height map with their curvatures (paper, section 3).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,6 +13,7 @@
 namespace rsc {
 
 enum class Curvature { geometric, algebraic };
+inline constexpr std::array kCurvatureNames = {"geometric", "algebraic"};
 
 // Structure of arrays, one entry an asperity. x, y, z [length] and radius [length] are always there; the rest is empty when
 // the asperities were given without curvatures.

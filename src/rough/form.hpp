@@ -1,11 +1,14 @@
 // The form of a measured map: what is subtracted before the rest is called roughness.
 #pragma once
 
+#include <array>
+
 #include "rough/surface.hpp"
 
 namespace rsc {
 
 enum class Detrend { none, mean, plane, quadratic, sphere };
+inline constexpr std::array kDetrendNames = {"none", "mean", "plane", "quadratic", "sphere"};
 
 // A fitted form, in coordinates from the middle of the map.
 struct Form {

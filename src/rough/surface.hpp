@@ -1,6 +1,7 @@
 // A height map and how a synthetic one is made.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,6 +33,7 @@ struct HeightMap {
 };
 
 enum class Normalise { sample, ensemble };
+inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 
 // Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
 // integer wavevector) alone, so that the surface is the same on every grid that holds its modes: L_lambda_s <= n/2, or

@@ -129,8 +129,7 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
     std::error_code ignored;
     if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
 
-    Case base = read.settings;
-    base.run.threads = Case{}.run.threads;
+    const Case base = without_idle_keys(read.settings);
     NetcdfFile file;
     file.attribute("Conventions", "CF-1.10");
     file.attribute("title", read.settings.run.title.empty() ? "Manifest of a study" : read.settings.run.title + ": manifest of the study");

@@ -54,7 +54,7 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
 
 void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds, std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
-    const auto row = [&](std::size_t k) -> const LevelRow& { return sums.rows[(k + 1) * sums.steps - 1]; };
+    const auto row = [&](std::size_t k) -> const LevelValues& { return sums.rows[(k + 1) * sums.steps - 1]; };
     const Spread force = spread(count, [&](std::size_t k) { return row(k).force; });
     const Spread area = spread(count, [&](std::size_t k) { return row(k).area; });
     out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean, force.deviation, area.mean, area.deviation,
@@ -68,13 +68,13 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
                   format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(),
                   "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
     for (const std::size_t s : shown_steps(o.steps))
-        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation_mean[s], o.separation_mean[s] / job.sigma,
-                      o.force_mean[s], o.force_std[s], o.area_mean[s], o.area_std[s]);
+        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s], o.separation.mean[s] / job.sigma,
+                      o.force.mean[s], o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
 
     std::map<LevelStatus, long> statuses;
     long long crowded = 0;
-    for (const LevelRow& row : o.rows) {
-        ++statuses[static_cast<LevelStatus>(row.status)];
+    for (const LevelValues& row : o.rows) {
+        ++statuses[row.status];
         crowded += row.crowded_cells;
     }
     out << '\n' << o.realizations << " realizations, " << o.rows.size() << " levels in " << duration(seconds) << '\n';
@@ -87,11 +87,11 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
 RunSummary campaign_summary(const Observations& o) {
     RunSummary summary;
     summary.levels = static_cast<long>(o.rows.size());
-    for (const LevelRow& row : o.rows)
-        if (row.status == static_cast<std::int32_t>(LevelStatus::not_converged)) ++summary.failed;
-    summary.separation = o.separation_mean.back();
-    summary.force = o.force_mean.back();
-    summary.area = o.area_mean.back();
+    for (const LevelValues& row : o.rows)
+        if (row.status == LevelStatus::not_converged) ++summary.failed;
+    summary.separation = o.separation.mean.back();
+    summary.force = o.force.mean.back();
+    summary.area = o.area.mean.back();
     return summary;
 }
 

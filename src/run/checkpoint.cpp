@@ -269,18 +269,12 @@ void Checkpoint::remove() {
     if (::unlink(name_.c_str()) != 0 && errno != ENOENT) fail(errno);
 }
 
-bool Checkpoint::may_differ(const std::string& key) {
-    // Threads do not change a bit; the others are about where and how the result is written at the end.
-    static const std::string free[] = {"run%threads", "output%file", "output%format", "output%compression"};
-    return std::find(std::begin(free), std::end(free), key) != std::end(free);
-}
-
 std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now) {
     std::vector<std::string> lines;
     const auto shown = [](const std::string& value) { return value.empty() ? std::string("unset") : value; };
     for (const Key& key : registry()) {
         const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name), b = get_key(now, name);
-        if (a != b && !may_differ(name)) lines.push_back(name + ": " + shown(a) + " there, " + shown(b) + " now");
+        if (a != b && key.changes == Changes::numbers) lines.push_back(name + ": " + shown(a) + " there, " + shown(b) + " now");
     }
     return lines;
 }

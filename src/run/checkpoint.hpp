@@ -54,8 +54,6 @@ public:
     // The campaign is finished.
     void remove();
 
-    // Keys a campaign may be resumed with another value of: they do not touch the numbers.
-    static bool may_differ(const std::string& key);
     // "surface%sigma: 0.01 there, 0.02 now", a line a key that may not differ and does.
     static std::vector<std::string> differences(const Case& there, const Case& now);
 

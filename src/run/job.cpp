@@ -66,12 +66,12 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     Ground ground = job.given ? *job.given : make_ground(settings, number, threads);
     r.asperities = std::move(ground.asperities);
     r.statistics = ground.statistics;
-    Contact contact(r.asperities, job.indenter, job.solver);
+    AsperityContact contact(r.asperities, job.indenter, job.solver);
     r.levels.reserve(job.levels.size());
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (settings.indentation.control == Control::force) {
             r.levels.push_back(contact.at_force(job.levels[k]));
-            r.stiffness.push_back(contact.stiffness());
+            r.levels.back().stiffness = contact.stiffness();
         } else {
             r.levels.push_back(contact.at_separation(job.levels[k]));
         }
@@ -81,7 +81,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
 }
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& r) {
-    return observe(job.observe, number, r.statistics, r.asperities, r.levels, r.stiffness);
+    return observe(job.observe, number, r.statistics, r.levels);
 }
 
 }  // namespace rsc

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
@@ -37,7 +37,6 @@ struct Realization {
     SurfaceStatistics statistics;
     Asperities asperities;
     std::vector<Level> levels;
-    std::vector<double> stiffness;     // a value a level with control='force', otherwise empty
     std::optional<HeightMap> heights;  // if the case wants them
 };
 

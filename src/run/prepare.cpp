@@ -13,7 +13,7 @@ namespace rsc {
 namespace {
 
 // Hertz asperities are the paper's, on the grid; the laws that look closer want the summits themselves.
-Detail detail_of(const Case& settings) { return settings.asperities.law == LawKind::hertz ? Detail::grid : Detail::subgrid; }
+Detail detail_of(const Case& settings) { return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid; }
 
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;

@@ -46,7 +46,8 @@ void summarise(std::ostream& out, const Job& job, const Realization& r, const Ta
         out << line;
     }
     out << "method:";
-    for (const auto& [method, levels] : tally.methods) out << ' ' << method_name(method) << " (" << levels << " levels)";
+    for (const auto& [method, levels] : tally.methods)
+        out << ' ' << kMethodNames[static_cast<std::size_t>(method)] << " (" << levels << " levels)";
     out << '\n';
     print_statuses(out, tally.statuses, tally.levels);
     if (tally.crowded_cells > 0) {
@@ -96,11 +97,7 @@ private:
 
 }  // namespace
 
-std::string case_text(const Case& settings) {
-    Case told = settings;
-    told.run.threads = Case{}.run.threads;
-    return effective_namelist(told);
-}
+std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
 
 // On a terminal a line that is drawn over, unless the table scrolls there; `always` gives a line now and then elsewhere too.
 std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
@@ -150,14 +147,14 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     sums.add(record);
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
     keep_contacts(result, r.levels, keep);
-    const Realization shown{r.statistics, {}, {}, {}, {}};
+    const Realization shown{r.statistics, {}, {}, {}};
     result.asperities = std::move(r.asperities);
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
     write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
 
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table) summarise(*table, job, shown, tally, seconds, settings.output.file);
-    const LevelRow& last = record.levels.back();
+    const LevelValues& last = record.levels.back();
     const RunSummary summary{tally.levels, tally.statuses[LevelStatus::not_converged], last.separation, last.force, last.area};
     tell_failed(options, summary);
     return summary;

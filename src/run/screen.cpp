@@ -1,8 +1,11 @@
 #include "run/screen.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
+#include "file/netcdf_writer.hpp"
+#include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 
 namespace rsc {
@@ -17,25 +20,13 @@ std::string format(const char* text, Args... args) {
 
 }  // namespace
 
-const char* method_name(Method method) {
-    switch (method) {
-        case Method::automatic: return "auto";
-        case Method::dgesv: return "dgesv";
-        case Method::direct: return "direct";
-        case Method::mesh: return "mesh";
+std::string status_text(LevelStatus status) {
+    std::string text = kLevelStatusNames[static_cast<std::size_t>(status)];
+    for (char& c : text) {
+        if (c == '_') c = ' ';
+        if (status == LevelStatus::not_converged) c = static_cast<char>(std::toupper(c));
     }
-    return "?";
-}
-
-const char* status_name(LevelStatus status) {
-    switch (status) {
-        case LevelStatus::converged: return "converged";
-        case LevelStatus::out_of_validity: return "large contacts";
-        case LevelStatus::overlapping: return "overlapping";
-        case LevelStatus::not_unique: return "not unique";
-        case LevelStatus::not_converged: return "NOT CONVERGED";
-    }
-    return "?";
+    return text;
 }
 
 void print_case(std::ostream& out, const Job& job) {
@@ -52,25 +43,41 @@ void print_case(std::ostream& out, const Job& job) {
     }
 }
 
+// The columns after the first three are the level's declared quantities (observe/quantities.hpp).
 void print_heading(std::ostream& out, const Job& job) {
     print_case(out, job);
-    const char* l = job.settings.run.length_unit.c_str();
-    const char* f = job.settings.run.force_unit.c_str();
-    out << format("\n%5s %12s %9s %14s %14s %9s %10s %5s %9s  %s\n", "level", format("Z0 [%s]", l).c_str(), "Z0/sigma",
-                  format("N [%s]", f).c_str(), format("A [%s2]", l).c_str(), "contacts", "candidates", "steps", "residual", "status");
+    const std::string l = job.settings.run.length_unit, f = job.settings.run.force_unit;
+    out << format("\n%5s %12s %9s", "level", format("Z0 [%s]", l.c_str()).c_str(), "Z0/sigma");
+    for (const LevelQuantity& q : level_quantities()) {
+        if (!q.heading) continue;
+        std::string heading = q.heading;
+        if (q.length_power != 0 || q.force_power != 0) heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
+        out << format(" %*s", q.width, heading.c_str());
+    }
+    out << '\n';
 }
 
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
-    out << format("%5zu %12.6g %9.5f %14.8g %14.8g %9zu %10d %5d %9.1e  %s\n", number + 1, level.separation, level.separation / job.sigma,
-                  level.force, level.area, level.asperity.size(), level.candidates, level.iterations, level.residual,
-                  status_name(level.status));
+    out << format("%5zu %12.6g %9.5f", number + 1, level.separation, level.separation / job.sigma);
+    for (const LevelQuantity& q : level_quantities()) {
+        if (!q.heading) continue;
+        if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
+            out << "  " << status_text(level.status);
+        else if (q.integer())
+            out << format(" %*.0f", q.width, q.of(level));
+        else if (q.digits > 0)
+            out << format(" %*.*g", q.width, q.digits, q.of(level));
+        else
+            out << format(" %*.1e", q.width, q.of(level));
+    }
+    out << '\n';
 }
 
 void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts, long levels) {
     const auto tell = [&](LevelStatus status, const char* meaning) {
         const auto found = counts.find(status);
         if (found == counts.end() || found->second == 0) return;
-        out << format("  %ld of %ld levels: %s - %s\n", found->second, levels, status_name(status), meaning);
+        out << format("  %ld of %ld levels: %s - %s\n", found->second, levels, status_text(status).c_str(), meaning);
     };
     tell(
         LevelStatus::out_of_validity,

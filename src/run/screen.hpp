@@ -7,13 +7,12 @@
 #include <ostream>
 #include <string>
 
-#include "contact/indentation.hpp"
+#include "contact/level.hpp"
 #include "run/job.hpp"
 
 namespace rsc {
 
-const char* method_name(Method method);
-const char* status_name(LevelStatus status);
+std::string status_text(LevelStatus status);
 
 // The title, the bodies, and what theory says of the surface.
 void print_case(std::ostream& out, const Job& job);

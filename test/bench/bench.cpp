@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/spots.hpp"
 #include "rough/asperities.hpp"
@@ -58,7 +58,7 @@ std::vector<Level> indent(const Asperities& asperities, double sigma, Method met
     options.law = law;
     options.method = method;
     options.sigma = sigma;
-    Contact contact(asperities, kGold, options);
+    AsperityContact contact(asperities, kGold, options);
     std::vector<Level> levels;
     for (int k = 0; k < steps; ++k) levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));
     return levels;
@@ -210,7 +210,7 @@ void bench_many() {
         Level level;
         // The same fraction touches at every n when the mean pressure is the same: the depth grows like the interaction, as sqrt(n).
         const double depth = -2.2 * sigma - 4.2 * sigma * (std::sqrt(n / 1e4) - 1);
-        const double time = shortest(1, [&] { level = Contact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(depth); });
+        const double time = shortest(1, [&] { level = AsperityContact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(depth); });
         std::printf("  N = %6d: %6zu contacts (%.0f %%), area %.2f %%, %d Newton steps, %ld products, residual %.1e, %s, %.2f s\n", n,
                     level.f.size(), 100.0 * static_cast<double>(level.f.size()) / n, 100 * level.area, level.iterations, level.products,
                     level.residual, level.status == LevelStatus::not_converged ? "NOT CONVERGED" : "converged", time);
@@ -236,7 +236,7 @@ void bench_largest() {
     SolverOptions options;
     options.sigma = 0.01;
     Level level;
-    const double time = shortest(1, [&] { level = Contact(a, kGold, options).at_separation(0.01); });
+    const double time = shortest(1, [&] { level = AsperityContact(a, kGold, options).at_separation(0.01); });
     std::printf(
         "  Z0 = sigma: %d candidates, %zu contacts, %ld overlapping pairs, status %d, residual %.1e, %d Newton steps, %ld products: "
         "%.2f s (wanted: 10 s)\n",

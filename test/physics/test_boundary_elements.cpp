@@ -13,7 +13,7 @@
 #include <tuple>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "contact/equivalent.hpp"
 
 using namespace rsc;
@@ -93,7 +93,7 @@ int main() {
             SolverOptions o;
             o.law = law;
             o.sigma = spectrum.sigma;
-            Contact contact(a, {E_star, 2.5, 0.5, 0.5}, o);
+            AsperityContact contact(a, {E_star, 2.5, 0.5, 0.5}, o);
             std::printf("L/lambda_s %3d, seed %d, %-12s (N-N_BEM)/N_BEM, A  %%:", ratio, seed, name(law));
             Level last;
             for (const Row& row : levels) {
@@ -106,7 +106,7 @@ int main() {
                 d.N += N, d.A += A, ++d.count;
                 d.worst_N = check::worse(d.worst_N, std::abs(N)), d.worst_A = check::worse(d.worst_A, std::abs(A));
             }
-            std::printf("; %ld pairs overlap, %d contacts beyond the law at the last\n", last.overlapping_pairs, last.beyond_law);
+            std::printf("; %ld pairs overlap, %ld contacts beyond the law at the last\n", last.overlapping_pairs, last.beyond_law);
         }
     }
     for (const Recorded& recorded : kRecorded) {

@@ -3,7 +3,9 @@
 #include <numbers>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/ranking.hpp"
+#include "contact/solver/newton.hpp"
 #include "error.hpp"
 #include "random_asperities.hpp"
 
@@ -24,7 +26,7 @@ SolverOptions options(Method method, double tolerance) {
 }
 
 Level press(const Asperities& a, double Z0, const SolverOptions& o, double R = 2.5, double x0 = 0.5, double y0 = 0.5) {
-    return Contact(a, {kE, R, x0, y0}, o).at_separation(Z0);
+    return AsperityContact(a, {kE, R, x0, y0}, o).at_separation(Z0);
 }
 
 // One asperity under the tip is Hertz contact, to rounding.
@@ -102,11 +104,11 @@ void scaling() {
             for (double& value : *v) value *= s;
         }
         o.sigma *= s;
-        const Level scaled = Contact(large, {kE, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.005 * s);
+        const Level scaled = AsperityContact(large, {kE, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.005 * s);
         CHECK_RELATIVE(scaled.force, s * s * level.force, 1e-10);
         CHECK_RELATIVE(scaled.area, s * s * level.area, 1e-10);
         o.sigma /= s;
-        CHECK_RELATIVE(Contact(a, {3 * kE, 2.5, 0.5, 0.5}, o).at_separation(0.005).force, 3 * level.force, 1e-10);
+        CHECK_RELATIVE(AsperityContact(a, {3 * kE, 2.5, 0.5, 0.5}, o).at_separation(0.005).force, 3 * level.force, 1e-10);
     }
 }
 
@@ -170,7 +172,7 @@ void without_interaction() {
 // dN/dZ0 against central differences; pressing with a force finds the separation again.
 void stiffness_and_force_control() {
     const Asperities a = random_asperities(400, 0.012, 0.01, 5e-4, 0.5, 6);
-    Contact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct, 1e-12));
+    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct, 1e-12));
     const double h = 1e-6;
     const double plus = contact.at_separation(0.006 + h).force, minus = contact.at_separation(0.006 - h).force;
     const double N = contact.at_separation(0.006).force, K = contact.stiffness();
@@ -181,7 +183,7 @@ void stiffness_and_force_control() {
     CHECK_RELATIVE(again.force, N, 1e-11);
     CHECK_RELATIVE(again.separation, 0.006, 1e-9);
     for (double force : {1e-6 * N, 1e-3 * N, 30 * N}) {
-        Contact fresh(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct, 1e-10));
+        AsperityContact fresh(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct, 1e-10));
         const Level level = fresh.at_force(force);
         CHECK_RELATIVE(level.force, force, 1e-9);
         CHECK(level.status != LevelStatus::not_converged);
@@ -199,7 +201,7 @@ int main() {
     overlap_selection_loses_nothing();
     without_interaction();
     stiffness_and_force_control();
-    CHECK_THROWS(Contact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
-    CHECK_THROWS(Contact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);
+    CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
+    CHECK_THROWS(AsperityContact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);
     return check::summary();
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "rough/asperities.hpp"
 
 using namespace rsc;
@@ -39,7 +39,7 @@ double load(const Asperities& a, const Spectrum& s, LawKind law) {
     options.law = law;
     options.sigma = s.sigma;
     options.tolerance = 1e-9;
-    Contact contact(a, Indenter{1, INFINITY, 0.5, 0.5}, options);
+    AsperityContact contact(a, Indenter{1, INFINITY, 0.5, 0.5}, options);
     return contact.at_separation(2 * s.sigma).force;
 }
 

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/ranking.hpp"
+#include "contact/solver/newton.hpp"
 #include "error.hpp"
 #include "random_asperities.hpp"
 
@@ -71,7 +73,7 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
 }
 
 void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method, const char* what, double tolerance = 1e-10) {
-    const Level level = Contact(a, indenter, options(method, tolerance)).at_separation(Z0);
+    const Level level = AsperityContact(a, indenter, options(method, tolerance)).at_separation(Z0);
     sane(level, what);
     const double left = residual(a, indenter, Z0, level);
     const bool told = level.status == LevelStatus::not_converged, right = left <= 2 * tolerance;
@@ -89,7 +91,7 @@ void coincident() {
     CHECK_THROWS(validate(a, [](std::size_t i) { return "asperity " + std::to_string(i); }), Error);
     for (Method method : kMethods) {
         try {
-            sane(Contact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0), "coincident");
+            sane(AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0), "coincident");
         } catch (const Error& e) {
             CHECK(e.kind() == Failure::bad_input);
         }
@@ -100,7 +102,7 @@ void coincident() {
     for (double gap : {1.2e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
         const Asperities near = set_of({0.5, 0.5 + gap, 0.6}, {0.5, 0.5, 0.5}, {0.01, 0.012, 0.01}, 1e-3);
         for (Method method : kMethods) {
-            const Level level = Contact(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
+            const Level level = AsperityContact(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
             sane(level, "nearly coincident");
             if (gap < 1e-9) {
                 CHECK(level.status >= LevelStatus::not_unique);
@@ -121,7 +123,7 @@ void overlapping() {
     for (double d : {0.03, 0.015, 0.008, 0.004, 0.001, 1e-4}) {
         const Asperities a = set_of({0.5 - d / 2, 0.5 + d / 2}, {0.5, 0.5}, {g, g}, r);
         for (Method method : kMethods) {
-            const Level level = Contact(a, {kE, kFlat, 0.5, 0.5}, options(method)).at_separation(0.0);
+            const Level level = AsperityContact(a, {kE, kFlat, 0.5, 0.5}, options(method)).at_separation(0.0);
             sane(level, "overlapping");
             CHECK(residual(a, {kE, kFlat, 0.5, 0.5}, 0.0, level) <= 2e-10);
             bool overlap = level.f.size() == 2 && d < level.a[0] + level.a[1];
@@ -145,7 +147,7 @@ void small_spheres() {
     for (double R : {0.2, 0.05, 0.02, 1e-3, 1e-6}) {
         for (Method method : kMethods) {
             check_answer(a, {kE, R, 0.5, 0.5}, -0.02, method, "small sphere");
-            const Level level = Contact(a, {kE, R, 0.5, 0.5}, options(method)).at_separation(-10.0);
+            const Level level = AsperityContact(a, {kE, R, 0.5, 0.5}, options(method)).at_separation(-10.0);
             long under = 0;
             for (std::size_t i = 0; i < a.size(); ++i) under += std::hypot(a.x[i] - 0.5, a.y[i] - 0.5) <= R;
             CHECK(level.candidates == under);
@@ -153,9 +155,9 @@ void small_spheres() {
     }
     // Exactly at the rim, the sphere is at Z0 + R.
     const Asperities rim = set_of({0.75}, {0.5}, {0.3}, 1e-3);
-    CHECK_RELATIVE(Contact(rim, {kE, 0.25, 0.5, 0.5}, options(Method::direct)).at_separation(0.0).u.at(0), 0.05, 1e-12);
+    CHECK_RELATIVE(AsperityContact(rim, {kE, 0.25, 0.5, 0.5}, options(Method::direct)).at_separation(0.0).u.at(0), 0.05, 1e-12);
     // A tip far from the surface: no asperity under it.
-    Contact away(a, {kE, 0.1, 50.0, 0.5}, options(Method::direct));
+    AsperityContact away(a, {kE, 0.1, 50.0, 0.5}, options(Method::direct));
     CHECK(away.at_separation(-1.0).candidates == 0);
     CHECK(away.first_touch() == -std::numeric_limits<double>::infinity());
     CHECK(away.stiffness() == 0 && away.energy() == 0);
@@ -169,7 +171,7 @@ void depths() {
         double last = 0;
         for (double Z0 : {1e6, 1.0, 0.04, 0.02, 0.0, -0.05, -0.5, -10.0, -1e3, -1e6}) {
             for (Method method : kMethods) check_answer(a, {kE, R, 0.5, 0.5}, Z0, method, ("depth " + std::to_string(Z0)).c_str());
-            const double N = Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)).at_separation(Z0).force;
+            const double N = AsperityContact(a, {kE, R, 0.5, 0.5}, options(Method::direct)).at_separation(Z0).force;
             CHECK(N >= last);
             if (Z0 > 0.5) CHECK(N == 0);
             last = N;
@@ -177,13 +179,13 @@ void depths() {
         CHECK(last > 0);
     }
     // The flat gives what a very large sphere gives.
-    const double flat = Contact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force;
-    CHECK_RELATIVE(Contact(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force, flat, 1e-9);
+    const double flat = AsperityContact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force;
+    CHECK_RELATIVE(AsperityContact(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force, flat, 1e-9);
 }
 
 void counts() {
     // None: no asperity at all, none reached.
-    Contact none(Asperities{}, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+    AsperityContact none(Asperities{}, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
     for (double Z0 : {0.0, -1.0}) {
         const Level level = none.at_separation(Z0);
         sane(level, "none");
@@ -193,7 +195,7 @@ void counts() {
     // One: touching exactly is no contact; the next number below is one.
     const Asperities one = set_of({0.5}, {0.5}, {0.02}, 1e-3);
     for (Method method : kMethods) {
-        Contact contact(one, {kE, 2.5, 0.5, 0.5}, options(method));
+        AsperityContact contact(one, {kE, 2.5, 0.5, 0.5}, options(method));
         CHECK(contact.first_touch() == 0.02);
         CHECK(contact.at_separation(0.02).f.empty());
         const Level least = contact.at_separation(std::nextafter(0.02, 0.0));
@@ -207,7 +209,7 @@ void counts() {
         for (int j = 0; j < 20; ++j) all.x.push_back(i), all.y.push_back(j), all.z.push_back(0.0), all.radius.push_back(1e-3);
     }
     for (Method method : kMethods) {
-        const Level level = Contact(all, {kE, kFlat, 9.5, 9.5}, options(method)).at_separation(-1e-3);
+        const Level level = AsperityContact(all, {kE, kFlat, 9.5, 9.5}, options(method)).at_separation(-1e-3);
         CHECK(level.f.size() == 400 && level.status == LevelStatus::converged);
         CHECK(level.force < 400 * 4.0 / 3.0 * kE * std::sqrt(1e-3) * std::pow(1e-3, 1.5));
         CHECK(*std::max_element(level.f.begin(), level.f.end()) == level.f.front() ||
@@ -223,13 +225,13 @@ void radii_and_tolerances() {
     for (double& r : a.radius) r = 0.01 * std::pow(10.0, uniform(random));
     for (Method method : kMethods) {
         for (double tolerance : {1e-2, 1e-6, 1e-10, 1e-13}) check_answer(a, {kE, 2.5, 0.5, 0.5}, -0.01, method, "ten decades", tolerance);
-        const Level impossible = Contact(a, {kE, 2.5, 0.5, 0.5}, options(method, 1e-30)).at_separation(-0.01);
+        const Level impossible = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(method, 1e-30)).at_separation(-0.01);
         sane(impossible, "tolerance 1e-30");
         CHECK(impossible.status == LevelStatus::not_converged || impossible.residual == 0);
         for (int most : {1, 2}) {
             SolverOptions o = options(method, 1e-12);
             o.max_iterations = most;
-            const Level stopped = Contact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
+            const Level stopped = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
             sane(stopped, "stopped early");
             CHECK((stopped.status == LevelStatus::not_converged) == (stopped.residual > 1e-12));
         }
@@ -240,7 +242,7 @@ void radii_and_tolerances() {
 void units() {
     const Asperities a = random_asperities(200, 0.02, 0.01, 5e-4, 0.5, 14);
     for (Method method : kMethods) {
-        const Level reference = Contact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
+        const Level reference = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
         for (double s : {1e-30, 1e-12, 1e-9, 1e-3, 1e6, 1e9, 1e30}) {
             for (double e : {1e-20, 1.0, 1e20}) {
                 Asperities scaled = a;
@@ -249,7 +251,7 @@ void units() {
                 }
                 SolverOptions o = options(method);
                 o.sigma *= s;
-                const Level level = Contact(scaled, {kE * e, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.0);
+                const Level level = AsperityContact(scaled, {kE * e, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.0);
                 sane(level, "units");
                 CHECK(level.status == reference.status);
                 CHECK(level.f.size() == reference.f.size());
@@ -264,7 +266,7 @@ void units() {
 void forces() {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 15);
     for (double N : {1e-20, 1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
-        Contact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+        AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
         const Level level = contact.at_force(N);
         sane(level, "force");
         // Z0 has neighbours only so near, and the force with it: the last term is what one summit of radius 5e-3 or less takes.
@@ -272,11 +274,11 @@ void forces() {
         CHECK(level.status != LevelStatus::not_converged);
         CHECK_CLOSE(level.force, N, 1e-10 * N + 4 * ulp * std::abs(contact.stiffness()) + kE * 0.1 * std::pow(4 * ulp, 1.5));
     }
-    Contact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
     for (double N : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(contact.at_force(N), Error);
     for (double Z0 : {std::nan(""), kFlat, -kFlat}) CHECK_THROWS(contact.at_separation(Z0), Error);
-    for (double E : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(Contact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
-    for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(Contact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
+    for (double E : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(AsperityContact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
+    for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(AsperityContact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
 }
 
 // Residuals of numbers whose squares are none.
@@ -287,7 +289,7 @@ void beyond_squares() {
     CHECK(relative_residual({1, 0}, {__builtin_huge_val(), 0}) == 1);
     const Asperities a = set_of({0, 1e-3, 0}, {0, 0, 1e-3}, {0, 0, 0}, 0.5e-3);
     for (Method method : {Method::direct, Method::dgesv}) {
-        const Level level = Contact(a, {kE, kFlat, 0, 0}, options(method)).at_separation(-1e170);  // forces of some 1e258
+        const Level level = AsperityContact(a, {kE, kFlat, 0, 0}, options(method)).at_separation(-1e170);  // forces of some 1e258
         CHECK(std::isfinite(level.residual) && std::isfinite(level.force));
         CHECK(level.status == LevelStatus::not_converged || level.residual < 1e-6);
     }

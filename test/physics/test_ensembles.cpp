@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 
 using namespace rsc;
 
@@ -33,7 +33,7 @@ void exponential_summits() {
     SolverOptions o;
     o.interaction = Interaction::none;
     o.sigma = lambda;
-    Contact contact(a, {E, __builtin_huge_val(), 0.5, 0.5}, o);
+    AsperityContact contact(a, {E, __builtin_huge_val(), 0.5, 0.5}, o);
     const double c = 4.0 / 3.0 * E * std::sqrt(r) * std::pow(lambda, 1.5), s = std::numbers::pi * r * lambda;
     for (double d : {4.0, 2.0, 1.0, 0.2}) {
         const Level level = contact.at_separation(d * lambda);

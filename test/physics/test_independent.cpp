@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "independent.hpp"
 #include "random_asperities.hpp"
 
@@ -97,7 +97,7 @@ void against_slow_solver() {
             const bool all_methods = k % 10 == 0;
             for (Method method : {Method::direct, Method::dgesv, Method::mesh, Method::automatic}) {
                 if (method != Method::direct && !all_methods) continue;
-                const Level level = Contact(a, {kE, family.R, 0.5, 0.5}, options(method, family.law)).at_separation(Z0);
+                const Level level = AsperityContact(a, {kE, family.R, 0.5, 0.5}, options(method, family.law)).at_separation(Z0);
                 CHECK(level.status != LevelStatus::not_converged);
                 if (level.status >= LevelStatus::not_unique) continue;  // the two may find two minima
                 unique += method == Method::direct;
@@ -141,7 +141,7 @@ void newton_order() {
         for (int steps = 1; steps < 30; ++steps) {
             SolverOptions o = options(Method::direct);
             o.max_iterations = steps;
-            const Level level = Contact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
+            const Level level = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
             residual.push_back(level.residual);
             CHECK((level.status == LevelStatus::not_converged) == (level.residual > o.tolerance));
             CHECK(level.iterations <= steps);
@@ -185,14 +185,14 @@ void reciprocity() {
         Asperities a = random_asperities(80, 0.03, 0.01, 1e-3, 0.5, 400 + seed);
         const double Z0 = -0.015, h = 2e-7;
         const auto press = [&](const Asperities& set, double* energy) {
-            Contact contact(set, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+            AsperityContact contact(set, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
             const Level level = contact.at_separation(Z0);
             if (energy) *energy = contact.energy();
             std::vector<double> F(set.size(), 0.0);
             for (std::size_t c = 0; c < level.f.size(); ++c) F[at(level.asperity[c])] = level.f[c];
             return F;
         };
-        const Level level = Contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct)).at_separation(Z0);
+        const Level level = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct)).at_separation(Z0);
         std::vector<std::size_t> chosen;
         for (std::size_t c = 0; c < level.f.size() && chosen.size() < 6; ++c) {
             if (level.u[c] > 1e-3) chosen.push_back(at(level.asperity[c]));
@@ -234,7 +234,7 @@ void energy_is_minimal() {
         const bool overlapping = seed % 2 == 1;
         const Asperities a = random_asperities(60, overlapping ? 0.004 : 0.03, 0.01, overlapping ? 0.2 : 1e-3, 0.5, 500 + seed);
         const double Z0 = -0.01;
-        Contact contact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct));
+        AsperityContact contact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct));
         const Level level = contact.at_separation(Z0);
         CHECK(level.status != LevelStatus::not_converged);
         const std::size_t n = a.size();

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "random_asperities.hpp"
 
 using namespace rsc;
@@ -81,9 +81,9 @@ void methods_agree() {
             const Asperities a =
                 random_asperities(family.n, family.spacing, family.sigma, family.radius, family.spread, 100u + static_cast<unsigned>(seed));
             const Indenter indenter{kE, family.R, 0.5, 0.5};
-            const Level direct = Contact(a, indenter, options(Method::direct)).at_separation(family.separation);
-            const Level dgesv = Contact(a, indenter, options(Method::dgesv)).at_separation(family.separation);
-            const Level mesh = Contact(a, indenter, options(Method::mesh)).at_separation(family.separation);
+            const Level direct = AsperityContact(a, indenter, options(Method::direct)).at_separation(family.separation);
+            const Level dgesv = AsperityContact(a, indenter, options(Method::dgesv)).at_separation(family.separation);
+            const Level mesh = AsperityContact(a, indenter, options(Method::mesh)).at_separation(family.separation);
             CHECK(mesh.status == direct.status);
             CHECK_CLOSE(mesh.force, direct.force, kTolerance * direct.force);
             CHECK_CLOSE(mesh.area, direct.area, kTolerance * direct.area);
@@ -113,12 +113,12 @@ void levels_do_not_remember() {
         const Indenter indenter{kE, 2.5, 0.5, 0.5};
         constexpr int levels = 30;
         const auto separation = [](int k) { return 0.03 - 0.001 * k; };
-        Contact down(a, indenter, options(Method::direct)), up(a, indenter, options(Method::direct));
+        AsperityContact down(a, indenter, options(Method::direct)), up(a, indenter, options(Method::direct));
         std::vector<double> forward(levels), backward(levels);
         for (int k = 0; k < levels; ++k) forward[static_cast<std::size_t>(k)] = down.at_separation(separation(k)).force;
         for (int k = levels - 1; k >= 0; --k) backward[static_cast<std::size_t>(k)] = up.at_separation(separation(k)).force;
         for (int k = 0; k < levels; ++k) {
-            const double alone = Contact(a, indenter, options(Method::direct)).at_separation(separation(k)).force;
+            const double alone = AsperityContact(a, indenter, options(Method::direct)).at_separation(separation(k)).force;
             CHECK_CLOSE(forward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
             CHECK_CLOSE(backward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
         }
@@ -132,7 +132,7 @@ void saddle_is_left() {
     Asperities a;
     a.x = {0.5 - d / 2, 0.5 + d / 2}, a.y = {0.5, 0.5}, a.z = {g, g}, a.radius = {r, r};
     for (Method method : {Method::dgesv, Method::direct}) {
-        const Level level = Contact(a, {kE, 1e9, 0.5, 0.5}, options(method)).at_separation(0.0);
+        const Level level = AsperityContact(a, {kE, 1e9, 0.5, 0.5}, options(method)).at_separation(0.0);
         CHECK(level.status == LevelStatus::not_unique);
         CHECK(level.residual <= 1e-10);
         // Of the two only one carries: the other's summit is pulled below the sphere.

@@ -44,10 +44,8 @@ inline std::vector<Level> levels(const Asperities& a) {
             const double rho2 = (a.x[i] - 0.5) * (a.x[i] - 0.5) + (a.y[i] - 0.5) * (a.y[i] - 0.5);
             const double g = a.z[i] + std::sqrt(kSphere * kSphere - rho2) - kSphere - level.separation;
             if (!(g > 0)) continue;
-            level.asperity.push_back(static_cast<int>(i));
-            level.u.push_back(g);
-            level.a.push_back(std::sqrt(a.radius[i] * g));
-            level.f.push_back(4.0 / 3.0 * kEStar * std::sqrt(a.radius[i]) * g * std::sqrt(g));
+            level.add_contact(static_cast<int>(i), a.x[i], a.y[i], 4.0 / 3.0 * kEStar * std::sqrt(a.radius[i]) * g * std::sqrt(g),
+                              std::sqrt(a.radius[i] * g), g);
             level.force += level.f.back();
             level.area += std::numbers::pi * level.a.back() * level.a.back();
         }
@@ -89,7 +87,7 @@ inline Result result(int realizations) {
         last = levels(a);
         SurfaceStatistics surface;
         surface.sigma = kSigma, surface.m2 = 0.02 + 0.001 * k, surface.m4 = theory.m4, surface.summits = kAsperities, surface.saddles = k;
-        sums.add(observe(options, k, surface, a, last));  // m2_grid, m4_grid and the mean curvatures stay absent
+        sums.add(observe(options, k, surface, last));  // m2_grid, m4_grid and the mean curvatures stay absent
     }
     Result r = make_result(c, "&run title='A made-up result' /\n", indenter, kSigma, theory, sums.finish());
     if (realizations == 1) {

@@ -10,7 +10,7 @@
 #include "../physics/random_asperities.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/asperity_contact.hpp"
 #include "rsc.h"
 #include "version.h"
 
@@ -215,7 +215,7 @@ void test_many() {
     OK(rsc_contact_create(&c, a, 9e4, 20, 0.5, 0.5, options));
     rsc::SolverOptions core_options;
     core_options.tolerance = 1e-11;
-    rsc::Contact core(asperities, {9e4, 20.0, 0.5, 0.5}, core_options);
+    rsc::AsperityContact core(asperities, {9e4, 20.0, 0.5, 0.5}, core_options);
     for (const double Z0 : {0.03, 0.02, 0.01, 0.005}) {
         double N = 0, k = 0, W = 0;
         OK(rsc_contact_indent(c, Z0, &N));

@@ -126,10 +126,7 @@ void test_messages() {
     CHECK_CONTAINS(complaint("&run title = 'abc /\n"), "case.nml:1:14: &run: the text that begins here is not closed");
     CHECK_CONTAINS(complaint(""), "case.nml: no namelist group found; expected at least one of &run, &solids");
     CHECK_CONTAINS(complaint("nothing to see here\n"), "no namelist group found");
-    // Among the refusals of today; the line goes when the choice comes.
-    for (const Unavailable& u : unavailable())
-        CHECK_CONTAINS(complaint("&" + std::string(u.group) + " " + u.name + " = '" + u.choice + "' /"),
-                       "&" + std::string(u.group) + ": " + u.name + " = '" + u.choice + "' is not available yet");
+    CHECK_CONTAINS(complaint("&solver interaction = 'hertz' /"), "'hertz' is none of 'point', 'none'");
     // All at once, in the order of the text.
     const std::string all = complaint("&surface simga = 1\n hurst = 2\n n = 'x' /\n&solvr /\n&run seed = 1 seed = 2 /");
     std::size_t last = 0;
@@ -396,7 +393,6 @@ void test_study() {
         CHECK_CONTAINS(error.what(), "member 2 (surface%n=512)");
     }
     CHECK_TEXT(member_file("a.b/result", 12, 2000), "a.b/result_0012");
-    if (!kStudiesAvailable) CHECK_CONTAINS(complaint("&study surface%hurst = 0.5, 0.6 /"), "&study is not available yet");
 }
 
 void test_options() {

@@ -174,10 +174,9 @@ Sample random_sample(unsigned seed, int steps) {
         level.separation = 4.0 - k;
         for (int i = 0; i < 400; ++i) {
             if (uniform() > 0.1 * (k + 1)) continue;
-            level.asperity.push_back(i);
-            level.a.push_back(0.01 * uniform());
-            level.f.push_back(2.5 * pi * level.a.back() * level.a.back() * (0.05 + uniform()));
-            level.u.push_back(0);
+            const double a = 0.01 * uniform(), f = 2.5 * pi * a * a * (0.05 + uniform());
+            const auto p = static_cast<std::size_t>(i);
+            level.add_contact(i, s.asperities.x[p], s.asperities.y[p], f, a, 0);
             level.force += level.f.back();
             level.area += pi * level.a.back() * level.a.back();
         }
@@ -199,7 +198,7 @@ ObserveOptions sample_options() {
 void test_maps_conserve() {
     const ObserveOptions options = sample_options();
     Sample s = random_sample(7, 4);
-    const RealizationRecord record = observe(options, 1, {}, s.asperities, s.levels);
+    const RealizationRecord record = observe(options, 1, {}, s.levels);
     for (std::size_t k = 0; k < 4; ++k) {
         double area = 0, force = 0, area_outside = 0, force_outside = 0;
         int outside = 0;
@@ -217,28 +216,27 @@ void test_maps_conserve() {
     }
     // One contact of known place and size: A' = pi a^2 / w^2, p = f / w^2.
     Sample one;
-    one.asperities.x = {0.37}, one.asperities.y = {0.81}, one.asperities.z = {0}, one.asperities.radius = {1};
     Level level;
-    level.asperity = {0}, level.a = {0.0251}, level.f = {3}, level.u = {0};  // pi a^2/w^2 = 0.1979 > pi/16
+    level.add_contact(0, 0.37, 0.81, 3, 0.0251, 0);  // pi a^2/w^2 = 0.1979 > pi/16
     level.force = 3, level.area = pi * 0.0251 * 0.0251;
     one.levels = {level};
     Accumulators sums(options, 1);
-    const RealizationRecord r = observe(options, 5, {}, one.asperities, one.levels);
+    const RealizationRecord r = observe(options, 5, {}, one.levels);
     CHECK(r.levels[0].crowded_cells == 1);
     sums.add(r);
     const Observations o = sums.finish();
     CHECK_RELATIVE(o.map_area_fraction[83], pi * 0.0251 * 0.0251 / 0.01, 1e-14);
     CHECK_RELATIVE(o.map_pressure[83], 300.0, 1e-14);
     one.levels[0].a[0] = 0.0249;  // 0.1948 < pi/16
-    CHECK(observe(options, 5, {}, one.asperities, one.levels).levels[0].crowded_cells == 0);
+    CHECK(observe(options, 5, {}, one.levels).levels[0].crowded_cells == 0);
     one.levels[0].f[0] = std::nan("");
-    CHECK_THROWS(observe(options, 5, {}, one.asperities, one.levels), Error);
+    CHECK_THROWS(observe(options, 5, {}, one.levels), Error);
 }
 
 void test_histograms() {
     const ObserveOptions options = sample_options();
     const Sample s = random_sample(3, 4);
-    const RealizationRecord record = observe(options, 1, {}, s.asperities, s.levels);
+    const RealizationRecord record = observe(options, 1, {}, s.levels);
     CHECK(record.distributions[0].step == 2);  // separation 2 is nearest to 2.1
     CHECK(record.distributions[1].step == 3);  // the deepest is nearest to -5
     for (const Distributions& d : record.distributions) {
@@ -377,7 +375,7 @@ void test_accumulation() {
         const Sample s = random_sample(k, 4);
         SurfaceStatistics surface;
         surface.m2 = 0.1 * k;
-        records.push_back(observe(options, k, surface, s.asperities, s.levels));
+        records.push_back(observe(options, k, surface, s.levels));
         sums.add(records.back());
     }
     const Observations o = sums.finish();
@@ -385,8 +383,8 @@ void test_accumulation() {
     // Means of the file are the means of the singles.
     const double f0 = records[0].levels[2].force, f1 = records[1].levels[2].force, f2 = records[2].levels[2].force;
     const double mean = (f0 + f1 + f2) / 3;
-    CHECK_RELATIVE(o.force_mean[2], mean, 1e-15);
-    CHECK_RELATIVE(o.force_std[2], std::sqrt(((f0 - mean) * (f0 - mean) + (f1 - mean) * (f1 - mean) + (f2 - mean) * (f2 - mean)) / 2),
+    CHECK_RELATIVE(o.force.mean[2], mean, 1e-15);
+    CHECK_RELATIVE(o.force.deviation[2], std::sqrt(((f0 - mean) * (f0 - mean) + (f1 - mean) * (f1 - mean) + (f2 - mean) * (f2 - mean)) / 2),
                    1e-14);
     std::vector<double> radial(o.radii.size());
     std::int64_t contacts = 0;
@@ -394,7 +392,7 @@ void test_accumulation() {
         Accumulators single(options, 4);
         single.add(r);
         const Observations s = single.finish();
-        CHECK(std::isnan(s.force_std[0]));  // no scatter from one
+        CHECK(std::isnan(s.force.deviation[0]));  // no scatter from one
         for (std::size_t b = 0; b < radial.size(); ++b) radial[b] += s.radial_pressure[3 * radial.size() + b] / 3;
         contacts += r.levels[2].contacts;
     }

@@ -264,7 +264,7 @@ void test_many_realizations(const Folder& folder) {
     test_conventions(file);
     CHECK(!file.has("asperity_x") && !file.has("contact_start") && !file.has("height"));
     CHECK(file.values("realization") == (std::vector<double>{1, 2, 3}));
-    CHECK(file.values("force_std") == r.observations.force_std);
+    CHECK(file.values("force_std") == r.observations.force.deviation);
     // Counts of the distributions are the contacts of all realizations at that level.
     const auto contacts = file.values("contacts"), step = file.values("pdf_step"), counts = file.values("pressure_mean_count");
     const auto overflow = file.numbers("pressure_mean_count", "overflow");
@@ -314,7 +314,7 @@ void test_edges(const Folder& folder) {
     flat.E_star = 1, flat.R = Case::kInfinity, flat.x0 = 3;
     const ObserveOptions options = observe_options(c, {0, 0, 1, 0.5}, flat, 0, 0);
     Accumulators sums(options, 2);
-    sums.add(observe(options, 1, {}, {}, {Level{}, Level{}}));
+    sums.add(observe(options, 1, {}, {Level{}, Level{}}));
     Result r = make_result(c, "", flat, 0, std::nullopt, sums.finish());
     keep_contacts(r, {Level{}, Level{}}, Contacts::all);
     write_result(r, folder / "empty.nc", {});

@@ -131,7 +131,7 @@ void told_only_where_it_is_so() {
         for (const Vector& v : minima) {
             Vector force(n), slope(n), work(n);
             law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(), work.data());
-            const bool one = has_one_solution(*law, E_star, all, p.x, p.y, v, force, slope);
+            const bool one = has_one_solution(*law, *make_kernel(Interaction::point, E_star), all, p.x, p.y, v, force, slope);
             CHECK(!one || minima.size() == 1);
             told += one;
         }

@@ -1,10 +1,11 @@
-// Products with the interaction matrix B, B_ij = 1/(pi E* d_ij), B_ii = 0 (paper, section 4), without the matrix.
+// Products with the interaction matrix B (kernel.hpp; paper, section 4), without the matrix.
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "contact/indentation.hpp"
+#include "contact/interaction/kernel.hpp"
 
 namespace rsc {
 
@@ -32,7 +33,7 @@ public:
     // phi = B f at every point of the working set, in full accuracy; f over the active list.
     virtual void full(const double* f, double* phi) = 0;
 
-    double modulus() const { return E_star_; }  // Infinity: B = 0
+    const Kernel& kernel() const { return *kernel_; }
 
     // Relative error (2-norm) of full products.
     virtual double full_error() const = 0;
@@ -42,18 +43,18 @@ public:
     long count() const { return count_; }  // products taken so far, a full one counting as one
 
 protected:
-    explicit Products(double E_star) : E_star_(E_star) {}
+    explicit Products(std::shared_ptr<const Kernel> kernel) : kernel_(std::move(kernel)) {}
     // Fills passive_ with the positions below n that are not in active_.
     void complement(int n);
     std::vector<int> active_, passive_;
-    double E_star_;
+    std::shared_ptr<const Kernel> kernel_;
     std::vector<double> part_;
     long count_ = 0;
 };
 
-// Direct sums over pairs. E_star = Infinity makes B = 0 (no interaction).
-std::unique_ptr<Products> make_direct_products(double E_star);
+// Direct sums over pairs.
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel);
 // Particle-mesh sums; relative errors of full and inner products (2-norm).
-std::unique_ptr<Products> make_mesh_products(double E_star, double full_error, double inner_error);
+std::unique_ptr<Products> make_mesh_products(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error);
 
 }  // namespace rsc

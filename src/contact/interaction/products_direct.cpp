@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "contact/interaction/pairs.hpp"
 #include "contact/interaction/products.hpp"
@@ -10,7 +9,7 @@ namespace {
 
 class Direct final : public Products {
 public:
-    explicit Direct(double E_star) : Products(E_star), scale_(std::isinf(E_star) ? 0.0 : 1.0 / (std::numbers::pi * E_star)) {}
+    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), scale_(kernel_->near()) {}
 
     void set_points(int n, const double* x, const double* y) override {
         x_.assign(x, x + n);
@@ -103,7 +102,7 @@ private:
         for (std::size_t k = 0; k < active_.size(); ++k) phi[k] *= scale_;
     }
 
-    double scale_;  // 1/(pi E*); 0: no interaction
+    double scale_;  // of sums of f/d; 0: no interaction
     bool precise_ = false;
     bool fresh_ = true;  // the active list belongs to earlier points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
@@ -132,6 +131,6 @@ void Products::complement(int n) {
     }
 }
 
-std::unique_ptr<Products> make_direct_products(double E_star) { return std::make_unique<Direct>(E_star); }
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel) { return std::make_unique<Direct>(std::move(kernel)); }
 
 }  // namespace rsc

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "contact/interaction/mesh.hpp"
@@ -12,8 +11,8 @@ namespace {
 // Every product is taken over the whole working set, with zero forces on its passive points.
 class Mesh final : public Products {
 public:
-    Mesh(double E_star, double full_error, double inner_error)
-        : Products(E_star), scale_(1 / (std::numbers::pi * E_star)), full_error_(full_error), inner_error_(inner_error) {}
+    Mesh(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error)
+        : Products(std::move(kernel)), scale_(kernel_->near()), full_error_(full_error), inner_error_(inner_error) {}
 
     void set_points(int n, const double* x, const double* y) override {
         const auto size = static_cast<std::size_t>(n);
@@ -90,8 +89,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Products> make_mesh_products(double E_star, double full_error, double inner_error) {
-    return std::make_unique<Mesh>(E_star, full_error, inner_error);
+std::unique_ptr<Products> make_mesh_products(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error) {
+    return std::make_unique<Mesh>(std::move(kernel), full_error, inner_error);
 }
 
 }  // namespace rsc

@@ -127,20 +127,34 @@ private:
 
 }  // namespace
 
+const LawTraits& traits(LawKind kind) {
+    //                                       curvatures  biharmonic  between points  elliptic spots
+    static constexpr LawTraits table[] = {
+        {kLawNames[0], false, false, false, false},
+        {kLawNames[1], true, false, true, true},
+        {kLawNames[2], true, true, true, true},
+    };
+    return table[static_cast<int>(kind)];
+}
+
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star) {
-    if (kind == LawKind::hertz) return std::make_unique<Hertz>(asperities, E_star);
-    const char* name = kind == LawKind::elliptic ? "elliptic" : "fourth_order";
-    if (asperities.size() > 0 && asperities.kappa1.size() != asperities.size()) {
-        throw Error(Failure::bad_input, std::string("asperities%law = '") + name +
+    const LawTraits& law = traits(kind);
+    if (law.needs_curvatures && asperities.size() > 0 && asperities.kappa1.size() != asperities.size()) {
+        throw Error(Failure::bad_input, std::string("asperities%law = '") + law.name +
                                             "' needs the principal curvatures of every asperity; these were given without: only 'hertz' is "
                                             "possible");
     }
-    if (kind == LawKind::fourth_order && asperities.size() > 0 && asperities.biharmonic.size() != asperities.size()) {
+    if (law.needs_biharmonic && asperities.size() > 0 && asperities.biharmonic.size() != asperities.size()) {
         throw Error(Failure::bad_input,
                     "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
                     "were given without: 'hertz' and 'elliptic' are possible");
     }
-    return std::make_unique<FourthOrder>(asperities, E_star, kind == LawKind::fourth_order);
+    switch (kind) {
+        case LawKind::hertz: return std::make_unique<Hertz>(asperities, E_star);
+        case LawKind::elliptic: return std::make_unique<FourthOrder>(asperities, E_star, false);
+        case LawKind::fourth_order: return std::make_unique<FourthOrder>(asperities, E_star, true);
+    }
+    throw Error(Failure::internal, "unknown law");
 }
 
 }  // namespace rsc

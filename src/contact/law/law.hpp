@@ -8,11 +8,31 @@
 
 namespace rsc {
 
-// A law is convex and increasing in the penetration u > 0, with force 0 and slope 0 at u = 0. Asperities are named by their
-// index in the Asperities the law was made from, which must outlive it.
+// What a kind of law needs and what it is, for those who prepare asperities for it and those who use it.
+struct LawTraits {
+    const char* name;       // as &asperities law spells it
+    bool needs_curvatures;  // kappa1, kappa2 and angle of every asperity
+    bool needs_biharmonic;  // nabla^4 z at every summit
+    bool between_points;    // wants the summits between the points of the grid, not the highest points (rough/summits.hpp)
+    bool elliptic_spots;    // spots are ellipses, and the contact area that of their union; otherwise circles whose areas add up
+};
+const LawTraits& traits(LawKind kind);
+
+// A law is increasing in the penetration u > 0, with force 0 and slope 0 for u <= 0. Asperities are named by their index in the
+// Asperities the law was made from, which must outlive it.
+//
+// A law may remember what each asperity has been through. respond(), force() and area() answer from what is remembered and never
+// change it, so that any number of trial solutions may be looked at; commit() alone tells the law that a level was accepted.
 class Law {
 public:
     virtual ~Law() = default;
+
+    // Whether the force is a convex function of the penetration: uniqueness is proved for such laws only.
+    virtual bool convex() const { return true; }
+    // Whether commit() changes answers: a level then depends on those before it.
+    virtual bool path_dependent() const { return false; }
+    // The level with penetrations u[k] of asperity[k] (all others are out of contact) is accepted.
+    virtual void commit(int n, const int* asperity, const double* u) { (void)n, (void)asperity, (void)u; }
 
     // Works out what the law needs of these asperities; must come before anything is asked of them.
     virtual void prepare(std::span<const int> asperities) = 0;

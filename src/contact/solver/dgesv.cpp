@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <new>
-#include <numbers>
 
 #include "contact/interaction/pairs.hpp"
 #include "contact/solver/lapack.hpp"
@@ -25,22 +24,22 @@ std::unique_ptr<double[]> allocate_matrix(std::size_t n) {
     }
 }
 
-// K = I + diag(weight) B, column-major; B_ij = 1/(pi E* d_ij), B_ii = 0.
-void build_matrix(const WorkingSet& set, double E_star, const Vector& weight, double* K) {
+// K = I + diag(weight) B, column-major.
+void build_matrix(const WorkingSet& set, const Kernel& kernel, const Vector& weight, double* K) {
     const std::size_t n = weight.size();
     for (std::size_t j = 0; j < n; ++j) {
         double* column = K + j * n;
         for (std::size_t i = 0; i < n; ++i) {
-            const double dx = set.x[i] - set.x[j], dy = set.y[i] - set.y[j];
-            column[i] = weight[i] / (std::numbers::pi * E_star * std::sqrt(dx * dx + dy * dy));
+            if (i != j) column[i] = weight[i] * kernel.at(set.x[i] - set.x[j], set.y[i] - set.y[j]);
         }
-        column[j] = 1;
+        column[j] = 1 + weight[j] * kernel.self();
     }
 }
 
 }  // namespace
 
-PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set, const PaperMethod& method, Vector& v, Vector& force) {
+PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set, const PaperMethod& method, Vector& v,
+                            Vector& force) {
     const int n = set.size();
     const std::size_t size = static_cast<std::size_t>(n);
     const auto K = allocate_matrix(size);
@@ -51,8 +50,7 @@ PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set
     Vector m(size), slope(size), rate(size), regular(size), dF(size), work(size), target(size);
     const auto penetrations = [&] {  // v = g0 - B F
         pairs.apply(force.data(), v.data());
-        const double scale = std::isinf(E_star) ? 0.0 : 1 / (std::numbers::pi * E_star);
-        for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - scale * v[i];
+        for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - kernel.near() * v[i];
     };
     const auto residual = [&] {
         law.respond(n, set.asperity.data(), v.data(), target.data(), slope.data(), work.data());
@@ -80,7 +78,7 @@ PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set
             dF[i] = regular[i] - force[i];
             force2 += force[i] * force[i];
         }
-        build_matrix(set, E_star, rate, K.get());
+        build_matrix(set, kernel, rate, K.get());
         ++outcome.iterations;
         if (!lapack::solve(n, K.get(), dF.data(), pivots)) break;
         for (std::size_t i = 0; i < size; ++i) {

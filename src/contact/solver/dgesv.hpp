@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "contact/interaction/kernel.hpp"
 #include "contact/law/law.hpp"
 #include "contact/solver/newton.hpp"
 
@@ -23,7 +24,7 @@ struct PaperOutcome {
 
 // Forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F. Needs 8 n^2 bytes: throws
 // Error(no_memory) when they are refused.
-PaperOutcome solve_by_dgesv(const Law& law, double E_star, const WorkingSet& set, const PaperMethod& method, std::vector<double>& v,
+PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set, const PaperMethod& method, std::vector<double>& v,
                             std::vector<double>& force);
 
 }  // namespace rsc

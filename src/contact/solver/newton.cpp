@@ -229,8 +229,8 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
         y.push_back(set.y[at(k)]);
         reach.push_back(state.slope[at(k)]);
     }
-    const double E_star = products_->modulus();
-    if (std::isinf(E_star)) return true;
+    if (products_->kernel().none()) return true;
+    const double E_star = products_->kernel().modulus();
     for (double& s : reach) s /= 2 * E_star;
     if (positive_definite_by_shells(x, y, reach)) return true;
     products_->set_active(state.active);

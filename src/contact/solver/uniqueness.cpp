@@ -236,9 +236,10 @@ bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector&
     return true;
 }
 
-bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v,
-                      const Vector& force, const Vector& slope) {
-    if (std::isinf(E_star) || v.empty()) return true;
+bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y,
+                      const Vector& v, const Vector& force, const Vector& slope) {
+    if (kernel.none() || v.empty()) return true;
+    const double E_star = kernel.modulus();
     const std::size_t n = v.size();
     // Partners beyond `near` contact radii cannot be the other half of a second solution: there S B S < 0.16.
     constexpr double near = 2.0;
@@ -254,7 +255,7 @@ bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asp
     std::vector<Coupling> close;
     for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) {
         told_apart = told_apart && d > nearest;
-        if (d > 0) close.push_back({i, j, 1 / (std::numbers::pi * E_star * d)});
+        if (d > 0) close.push_back({i, j, kernel.at(d, 0)});
     });
     if (!told_apart) return false;
 

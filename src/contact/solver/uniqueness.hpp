@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "contact/interaction/kernel.hpp"
 #include "contact/law/law.hpp"
 
 namespace rsc {
@@ -24,7 +25,7 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
 // does not, the box of the penetrations a doubtful cluster may have is bisected, each part narrowed by the equation until it is empty
 // or passes the test with its own, smaller secants. The field of what lies further away is taken as that of the given solution, give
 // or take a tenth of what the cluster's own may change.
-bool has_one_solution(const Law& law, double E_star, const std::vector<int>& asperity, const std::vector<double>& x,
+bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const std::vector<double>& x,
                       const std::vector<double>& y, const std::vector<double>& v, const std::vector<double>& force,
                       const std::vector<double>& slope);
 

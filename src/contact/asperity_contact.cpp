@@ -1,0 +1,240 @@
+#include "contact/asperity_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact/candidates.hpp"
+#include "contact/interaction/mesh.hpp"
+#include "contact/interaction/products.hpp"
+#include "contact/ranking.hpp"
+#include "contact/solver/dgesv.hpp"
+#include "contact/solver/uniqueness.hpp"
+#include "contact/spots.hpp"
+#include "contact/start.hpp"
+#include "contact/working_set.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+// `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures. The dense method is never the cheapest.
+Method choose_method(const SolverOptions& options, const Kernel& kernel, int candidates) {
+    if (kernel.none()) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
+    if (options.method != Method::automatic) return options.method;
+    // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
+    constexpr double contacts_per_candidate = 0.4, pairs_per_second = 6e9, mesh_overhead = 4;
+    const double contacts = contacts_per_candidate * static_cast<double>(candidates);
+    const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates), 1e-3);
+    return contacts * contacts / pairs_per_second > mesh_cost ? Method::mesh : Method::direct;
+}
+
+}  // namespace
+
+struct AsperityContact::Impl {
+    const Asperities& asperities;
+    Indenter indenter;
+    SolverOptions options;
+    std::shared_ptr<const Kernel> kernel;
+    std::unique_ptr<Law> law;
+    Ranking ranking;
+
+    // The level at hand and its answer.
+    Candidates candidates;
+    Solution solution;
+    Method method = Method::direct;
+
+    EarlierLevels earlier;
+    std::unique_ptr<Products> direct, mesh;  // mesh: made when first wanted
+    Products* products = nullptr;            // the one in use
+    Newton newton;
+
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_)
+        : asperities(asperities_),
+          indenter(indenter_),
+          options(options_),
+          kernel(make_kernel(options_.interaction, indenter_.E_star)),
+          law(make_law(options_.law, asperities_, indenter_.E_star)),
+          direct(make_direct_products(kernel)),
+          newton(*law) {
+        use(Method::direct);
+        if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) {
+            throw Error(Failure::bad_input, "E* must be positive and finite");
+        }
+        if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
+        ranking.assign(asperities, indenter);
+    }
+
+    long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
+    void use(Method how);
+    NewtonOutcome solve_from(const Vector& start, bool rough_start);
+    NewtonOutcome solve_by_paper();
+    bool one_solution() const {
+        const auto& [v, force, slope] = solution;
+        return has_one_solution(*law, *kernel, candidates.set.asperity, candidates.set.x, candidates.set.y, v, force, slope);
+    }
+    Level report(double Z0) const;
+    std::vector<Spot> spots(const Level& level) const;
+};
+
+void AsperityContact::Impl::use(Method how) {
+    method = how;
+    if (how == Method::mesh && !mesh) {
+        // Full products judge the residual and must be finer than the tolerance; inner ones only make steps.
+        mesh = make_mesh_products(kernel, std::min(1e-4, 0.1 * options.tolerance), 1e-3);
+    }
+    products = how == Method::mesh ? mesh.get() : direct.get();
+    newton.use(*products);
+}
+
+NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_start) {
+    return solve_candidates(candidates.set, newton, *products,
+                            {options.tolerance, options.max_iterations, method == Method::mesh, rough_start}, start, solution);
+}
+
+NewtonOutcome AsperityContact::Impl::solve_by_paper() {
+    const WorkingSet& set = candidates.set;
+    auto& [v, force, slope] = solution;
+    const PaperMethod paper{options.delta0 * options.sigma, options.delta_cut, options.tolerance, options.max_iterations};
+    const auto outcome = solve_by_dgesv(*law, *kernel, set, paper, v, force);
+    slope.resize(v.size());
+    Vector target(v.size()), work(v.size());
+    law->respond(set.size(), set.asperity.data(), v.data(), target.data(), slope.data(), work.data());
+    NewtonOutcome result;
+    result.converged = outcome.converged;
+    result.iterations = outcome.iterations;
+    result.residual = outcome.residual;
+    return result;
+}
+
+// The contacts of a level as they lie on the surface: their long axes are those of the smaller curvature.
+std::vector<Spot> AsperityContact::Impl::spots(const Level& level) const {
+    std::vector<Spot> spots;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        const double root = std::sqrt(law->axes(level.asperity[k]));
+        spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root, asperities.angle[at(level.asperity[k])]});
+    }
+    return spots;
+}
+
+Level AsperityContact::Impl::report(double Z0) const {
+    const WorkingSet& set = candidates.set;
+    const auto& [v, force, slope] = solution;
+    Level level;
+    level.separation = Z0;
+    level.candidates = candidates.size();
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        if (force[k] > 0) order.push_back(k);
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return set.asperity[a] < set.asperity[b]; });
+    for (std::size_t k : order) {
+        const double area = law->area(set.asperity[k], v[k]);
+        level.add_contact(set.asperity[k], set.x[k], set.y[k], force[k], std::sqrt(area / std::numbers::pi), v[k]);
+        level.force += force[k];
+        level.area += area;
+        level.beyond_law += law->beyond(set.asperity[k], v[k]);
+        level.large_contacts += options.mean_spacing > 0 && level.a.back() > options.mean_spacing / 4;
+    }
+    if (traits(options.law).elliptic_spots)
+        level.area = union_area(spots(level), &level.overlapping_pairs);
+    else
+        level.overlapping_pairs = count_overlapping(level.x, level.y, level.a);
+    if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
+    if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
+    return level;
+}
+
+AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
+AsperityContact::~AsperityContact() = default;
+AsperityContact::AsperityContact(AsperityContact&&) noexcept = default;
+
+Level AsperityContact::solve(double Z0) {
+    Impl& my = *impl_;
+    my.candidates = select_candidates(my.ranking, my.asperities, my.indenter, my.options, *my.law, Z0);
+    if (my.candidates.size() == 0) {
+        my.solution.clear();
+        my.earlier.remember(Z0, my.candidates, my.solution.v, true);
+        return my.report(Z0);
+    }
+    const long products_before = my.products_taken();
+    NewtonOutcome outcome;
+    int iterations = 0;
+    bool unique = false;
+    const Method method = choose_method(my.options, *my.kernel, my.candidates.size());
+    const bool dense = method == Method::dgesv;
+    my.use(dense ? Method::direct : method);
+    if (dense) {
+        outcome = my.solve_by_paper();
+        iterations = outcome.iterations;
+        unique = outcome.converged && my.one_solution();
+        my.products->set_points(my.candidates.size(), my.candidates.set.x.data(), my.candidates.set.y.data());
+        my.newton.take(my.candidates.set, my.solution.v);
+    } else {
+        Vector start;
+        if (my.earlier.predict(Z0, my.candidates, start)) {
+            outcome = my.solve_from(start, false);
+            iterations = outcome.iterations;
+            unique = outcome.converged && my.one_solution();
+        }
+    }
+    if (!unique) {  // the rule that defines the answer: from the no-interaction start, downhill to a minimum
+        outcome = my.solve_from(cold_start(*my.law, *my.products, my.candidates.set), true);
+        iterations += outcome.iterations;
+        unique = outcome.converged && my.one_solution();
+    }
+    my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
+    Level level = my.report(Z0);
+    level.iterations = iterations;
+    level.products = my.products_taken() - products_before;
+    level.residual = outcome.residual;
+    level.method = method;
+    if (!unique) level.status = LevelStatus::not_unique;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    return level;
+}
+
+void AsperityContact::accept() {
+    const WorkingSet& set = impl_->candidates.set;
+    if (impl_->law->path_dependent()) impl_->law->commit(set.size(), set.asperity.data(), impl_->solution.v.data());
+}
+
+bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
+
+double AsperityContact::tolerance() const { return impl_->options.tolerance; }
+
+double AsperityContact::first_place_force(double depth) {
+    const int highest = impl_->ranking.highest_asperity();
+    impl_->law->prepare({&highest, 1});
+    return impl_->law->force(highest, depth);
+}
+
+std::optional<double> AsperityContact::likely_separation() const {
+    if (impl_->solution.force.empty()) return std::nullopt;
+    return impl_->earlier.likely_separation(first_touch());
+}
+
+std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.size(); }
+
+double AsperityContact::stiffness() { return impl_->solution.v.empty() ? 0.0 : impl_->newton.stiffness(1e-10); }
+
+double AsperityContact::energy() const { return impl_->solution.v.empty() ? 0.0 : 0.0 - impl_->newton.energy(); }
+
+void AsperityContact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+    impl_->earlier.carry(impl_->candidates, impl_->solution.v, impl_->asperities.size());
+    impl_->indenter.x0 = x0;
+    impl_->indenter.y0 = y0;
+    impl_->ranking.move(x0, y0);
+}
+
+double AsperityContact::first_touch() const { return impl_->ranking.highest(); }
+
+const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
+
+}  // namespace rsc

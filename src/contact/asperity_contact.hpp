@@ -1,0 +1,46 @@
+// The asperities of a rough surface pressed by a sphere: the deterministic multi-asperity model (paper, section 4).
+#pragma once
+
+#include <memory>
+
+#include "contact/contact.hpp"
+#include "rough/asperities.hpp"
+
+namespace rsc {
+
+class AsperityContact final : public Contact {
+public:
+    // The asperities must outlive the contact. Throws Error(bad_input) for moduli, radii or options out of range.
+    AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options);
+    ~AsperityContact() override;
+    AsperityContact(AsperityContact&&) noexcept;
+
+    double stiffness() override;
+
+    // W = sum W_i(u_i) + F'BF/2 with the work W_i = int_0^u f du of the asperities and the interaction energy: since u + B F = g0,
+    // dW/dZ0 = F'dg0/dZ0 = -N, the contact is conservative. Evaluated as -E(F) of solver/newton.hpp, which equals W at the solution
+    // and is in error only by the square of the residual.
+    double energy() const override;
+
+    // The last level goes on as a start for the next where the solution is proved unique.
+    void move_tip(double x0, double y0) override;
+    double first_touch() const override;
+    const Indenter& indenter() const override;
+    bool path_dependent() const override;
+
+protected:
+    // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is
+    // proved unique, and not otherwise.
+    Level solve(double Z0) override;
+    void accept() override;
+    double tolerance() const override;
+    double first_place_force(double depth) override;
+    std::optional<double> likely_separation() const override;
+    std::size_t levels_since_move() const override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,58 @@
+// The answer at one separation: what a contact model gives and observations, files and libraries take from it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "contact/indentation.hpp"
+
+namespace rsc {
+
+// How a level ended; the larger is the more serious and hides the smaller. Values are those of `status` in the result file.
+enum class LevelStatus : std::int32_t { converged = 0, out_of_validity = 1, overlapping = 2, not_unique = 3, not_converged = 4 };
+inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping", "not_unique", "not_converged"};
+
+inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
+
+// The scalars of a level. A plain record: checkpoints hold it as it is. Each is declared to files, screen and libraries by one row
+// of the table in observe/quantities.cpp.
+struct LevelValues {
+    double separation = 0;               // Z0 [length]
+    double force = 0;                    // N = sum f [force]
+    double area = 0;                     // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
+    double residual = 0;                 // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    double stiffness = kNotComputed;     // dN/dZ0, negative [force/length]
+    std::int64_t products = 0;           // products with B (matrix-free methods), solves (dgesv)
+    std::int64_t overlapping_pairs = 0;  // pairs with d < a_i + a_j
+    std::int64_t beyond_law = 0;         // contacts past the range in which the law's profile describes a summit
+    std::int32_t contacts = 0;
+    std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
+    std::int32_t iterations = 0;  // Newton steps
+    LevelStatus status = LevelStatus::converged;
+    Method method = Method::direct;   // the one used
+    std::int32_t large_contacts = 0;  // contacts with a > <d>/4
+    // Of the coarse map (observe/map.hpp):
+    std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
+    std::int32_t outside_map = 0;    // contacts outside the map
+};
+
+// A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
+struct Level : LevelValues {
+    std::vector<int> asperity;  // index of the asperity (0-based), or of the spot's pixel that carries the most
+    std::vector<double> x, y;   // place: the summit, or the centroid of the pressure [length]
+    std::vector<double> f;      // force [force]
+    std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
+    std::vector<double> u;      // penetration with interaction [length]
+
+    void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
+        asperity.push_back(index);
+        x.push_back(x_), y.push_back(y_);
+        f.push_back(force_), a.push_back(radius), u.push_back(penetration);
+        ++contacts;
+    }
+};
+
+}  // namespace rsc

@@ -1,0 +1,121 @@
+#include "contact/start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v, bool unique) {
+    unique_ = unique;
+    const auto& rank = candidates.rank;
+    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown)};
+    for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
+    past_.push_front(std::move(level));
+    if (past_.size() > 4) past_.pop_back();
+}
+
+void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities) {
+    if (past_.empty()) return;  // moved twice in a row: what was carried stays
+    carried_.phi.clear();
+    if (unique_ && v.size() == at(candidates.size())) {
+        carried_.separation = past_.front().separation;
+        carried_.phi.assign(asperities, kUnknown);
+        for (std::size_t k = 0; k < v.size(); ++k) carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
+    }
+    past_.clear();
+    unique_ = true;
+}
+
+bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& start) const {
+    const auto& rank = candidates.rank;
+    const Vector& g0 = candidates.set.g0;
+    if (past_.empty() && !carried_.phi.empty()) {
+        start.resize(rank.size());
+        bool any = false;
+        for (std::size_t k = 0; k < rank.size(); ++k) {
+            const double phi = carried_.phi[at(candidates.set.asperity[k])];
+            start[k] = std::isfinite(phi) ? g0[k] - phi : -kInfinity;
+            any = any || start[k] > 0;
+        }
+        return any;
+    }
+    if (past_.empty() || !unique_) return false;
+    std::size_t used = 1;
+    while (used < past_.size() && used < 4) {
+        const double gap = std::abs(past_[used - 1].separation - past_[used].separation);
+        if (!(gap > 0) || std::abs(Z0 - past_[0].separation) > 2.5 * gap) break;
+        ++used;
+    }
+    double weight[4];
+    for (std::size_t a = 0; a < used; ++a) {
+        weight[a] = 1;
+        for (std::size_t b = 0; b < used; ++b) {
+            if (b != a) weight[a] *= (Z0 - past_[b].separation) / (past_[a].separation - past_[b].separation);
+        }
+    }
+    start.resize(rank.size());
+    bool any = false;
+    for (std::size_t k = 0; k < rank.size(); ++k) {
+        double phi = 0;
+        bool known = true;
+        for (std::size_t a = 0; a < used && known; ++a) {
+            known = rank[k] < past_[a].phi.size();
+            if (known) phi += weight[a] * past_[a].phi[rank[k]];
+        }
+        if (!known && rank[k] < past_[0].phi.size()) {
+            phi = past_[0].phi[rank[k]];
+            known = true;
+        }
+        start[k] = known && std::isfinite(phi) ? g0[k] - phi : -kInfinity;
+        any = any || start[k] > 0;
+    }
+    return any;
+}
+
+std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
+    if (!past_.empty()) return past_.front().separation;
+    if (!carried_.phi.empty() && carried_.separation < first_touch) return carried_.separation;
+    return std::nullopt;
+}
+
+Vector cold_start(const Law& law, Products& products, const WorkingSet& candidates) {
+    const int n = candidates.size();
+    Vector start(at(n)), F(at(n)), D(at(n)), W(at(n)), active_F, phi(at(n));
+    std::vector<int> active;
+    products.set_points(n, candidates.x.data(), candidates.y.data());
+    double low = 0, high = candidates.g0.front();
+    for (double g : candidates.g0) high = std::max(high, g);
+    constexpr int bisections = 6;
+    for (int i = 0; i < bisections; ++i) {
+        const double s = 0.5 * (low + high);
+        for (std::size_t k = 0; k < at(n); ++k) start[k] = candidates.g0[k] - s;
+        law.respond(n, candidates.asperity.data(), start.data(), F.data(), D.data(), W.data());
+        active.clear();
+        active_F.clear();
+        double total = 0, weighted = 0;
+        for (int k = 0; k < n; ++k) {
+            if (!(F[at(k)] > 0)) continue;
+            active.push_back(k);
+            active_F.push_back(F[at(k)]);
+            total += F[at(k)];
+        }
+        products.set_active(active);
+        products.inner(active_F.data(), phi.data());
+        for (std::size_t k = 0; k < active.size(); ++k) weighted += active_F[k] * phi[k];
+        (weighted > s * total ? low : high) = s;
+    }
+    for (std::size_t k = 0; k < at(n); ++k) start[k] = candidates.g0[k] - low;
+    return start;
+}
+
+}  // namespace rsc

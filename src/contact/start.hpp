@@ -1,0 +1,49 @@
+// Where the solution of a level begins: from earlier levels where that is a safe shortcut, otherwise from the rule that defines the
+// answer.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "contact/interaction/products.hpp"
+
+namespace rsc {
+
+// Earlier levels, from which B F of the next is extrapolated.
+class EarlierLevels {
+public:
+    // The level at Z0 with penetrations v over the candidates. `unique`: it is proved to be the only solution.
+    void remember(double Z0, const Candidates& candidates, const std::vector<double>& v, bool unique);
+
+    // The tip moves: ranks lose their meaning, the last level is kept by asperity as the start of the first level after the move.
+    void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities);
+
+    // Penetrations to start from at Z0; candidates without a past are taken not to touch (they are checked at the end). False: none.
+    bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
+
+    // Where force control may begin, if below `first_touch`.
+    std::optional<double> likely_separation(double first_touch) const;
+    std::size_t size() const { return past_.size(); }
+
+private:
+    struct Past {
+        double separation;
+        std::vector<double> phi;  // B F by rank; NaN: not known
+    };
+    std::deque<Past> past_;
+    bool unique_ = true;
+
+    struct Carried {
+        double separation = 0;
+        std::vector<double> phi;  // B F by asperity; NaN: not known; empty: none
+    } carried_;
+};
+
+// The no-interaction forces F = f(<g0 - s>) of a sphere held higher by s, where s is the mean of B F over those forces: the mean field
+// of the interaction. Found by bisection, with a fixed number of products. Returns the penetrations g0 - s.
+std::vector<double> cold_start(const Law& law, Products& products, const WorkingSet& candidates);
+
+}  // namespace rsc

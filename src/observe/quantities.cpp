@@ -1,0 +1,64 @@
+#include "observe/quantities.hpp"
+
+#include <type_traits>
+
+namespace rsc {
+namespace {
+
+using V = LevelValues;
+
+// clang-format off
+constexpr LevelQuantity kQuantities[] = {
+    {.name = "force", .member = &V::force, .force_power = 1, .meaning = "normal force on the sphere, N",
+     .comment = "N = sum of the forces f of the contacts", .statistics = true, .plain = "force", .heading = "N", .width = 14, .digits = 8},
+    {.name = "contact_area", .member = &V::area, .length_power = 2, .meaning = "true contact area, A",
+     .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area of the union of their elliptic spots",
+     .statistics = true, .plain = "contact area", .heading = "A", .width = 14, .digits = 8},
+    {.name = "contacts", .member = &V::contacts, .meaning = "number of asperities in contact",
+     .heading = "contacts", .width = 9},
+    {.name = "candidates", .member = &V::candidates, .meaning = "number of asperities given to the solver", .heading = "candidates", .width = 10},
+    {.name = "iterations", .member = &V::iterations, .meaning = "Newton iterations",
+     .heading = "steps", .width = 5},
+    {.name = "residual", .member = &V::residual,
+     .meaning = "relative residual of F - C<G0 - B F>^(3/2)",
+     .comment = "unregularised, over all candidates: it says whether the forces are right", .heading = "residual", .width = 9},
+    {.name = "status", .member = &V::status, .meaning = "how the level ended",
+     .comment = "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local "
+                "minimum of the energy, perhaps not the only one; 4: do not use. The larger is the more serious and hides the smaller",
+     .heading = "status", .width = 0},
+    {.name = "method", .member = &V::method, .meaning = "solver used"},
+    {.name = "products", .member = &V::products,
+     .meaning = "products with the interaction matrix B (direct, mesh) or solves (dgesv)"},
+    {.name = "overlapping_pairs", .member = &V::overlapping_pairs,
+     .meaning = "pairs of contacts with d < a_i + a_j"},
+    {.name = "large_contacts", .member = &V::large_contacts, .meaning = "contacts with a > <d>/4",
+     .comment = "<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"},
+    {.name = "beyond_law", .member = &V::beyond_law, .meaning = "contacts past the range in which the law describes a summit",
+     .comment = "asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
+                "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its radius stays "
+                "and the stiffness with it; 0 for the other laws"},
+    {.name = "crowded_cells", .member = &V::crowded_cells,
+     .meaning = "cells of the map with an area fraction above pi/16",
+     .comment = "19.6 %: beyond it point forces do not describe the interaction well"},
+    {.name = "contacts_outside_map", .member = &V::outside_map,
+     .meaning = "contacts outside the map: in force and contact_area, in no cell"},
+    {.name = "stiffness", .member = &V::stiffness, .length_power = -1, .force_power = 1,
+     .meaning = "derivative of the force by the separation, dN/dZ0", .always = false},
+};
+// clang-format on
+
+}  // namespace
+
+double LevelQuantity::of(const LevelValues& level) const {
+    return std::visit([&](auto m) { return static_cast<double>(level.*m); }, member);
+}
+
+std::span<const LevelQuantity> level_quantities() { return kQuantities; }
+
+const LevelQuantity* find_quantity(std::string_view name) {
+    for (const LevelQuantity& q : kQuantities)
+        if (name == q.name) return &q;
+    return nullptr;
+}
+
+}  // namespace rsc

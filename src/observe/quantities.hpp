@@ -1,0 +1,39 @@
+// The scalars of a level as the world sees them. One row here, and one member of LevelValues (contact/level.hpp), is all a quantity
+// needs: result files, checkpoints, the screen, campaigns' means and the libraries' calls by name follow from it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "contact/level.hpp"
+
+namespace rsc {
+
+struct LevelQuantity {
+    using Member = std::variant<double LevelValues::*, std::int32_t LevelValues::*, std::int64_t LevelValues::*, LevelStatus LevelValues::*,
+                                Method LevelValues::*>;
+    const char* name;                       // of the variable in the file, and in calls by name
+    Member member;                          // doubles may be NaN: not computed
+    int length_power = 0, force_power = 0;  // of its unit
+    const char* meaning = "";               // long_name
+    const char* comment = "";
+    bool always = true;       // false: files hold it only if some level has it
+    bool statistics = false;  // files have name_mean and name_std over realizations, too: of the `plain` name
+    const char* plain = "";
+    const char* heading = nullptr;  // of its column on the screen; none: not shown
+    int width = 0, digits = 0;      // of that column; significant digits of a double, 0 for "%.1e"
+
+    // Its value as a number, NaN if it was not computed.
+    double of(const LevelValues& level) const;
+    bool integer() const { return !std::holds_alternative<double LevelValues::*>(member); }
+};
+
+// In the order of files and screen.
+std::span<const LevelQuantity> level_quantities();
+
+// Null if there is none of that name.
+const LevelQuantity* find_quantity(std::string_view name);
+
+}  // namespace rsc
