@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "check.hpp"
+#include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/lateral.hpp"
 #include "random_asperities.hpp"
@@ -22,7 +23,7 @@ SolverOptions tight() {
 }
 
 struct Slid {
-    Contact one, other;
+    AsperityContact one, other;
     ContactCurve curve{one, other};
     Slid(const Asperities& a, const Indenter& indenter, const SolverOptions& options)
         : one(a, indenter, options), other(a, indenter, options) {}
@@ -67,7 +68,7 @@ void spots_against_slip_problem() {
     for (const Asperities& a : {two, five}) {
         Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
         const double delta = 0.0;
-        const Level level = Contact(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
+        const Level level = AsperityContact(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
         CHECK(level.asperity.size() == a.size());
         const double full = full_slip(slid.curve, kFriction, delta);
         for (double part : {0.05, 0.3, 0.6, 0.9, 0.99}) {
@@ -120,11 +121,11 @@ double conductance_of_spots(const Asperities& a, const Level& level) {
 void conductance() {
     Asperities lone;
     lone.x = {0.5}, lone.y = {0.5}, lone.z = {0.01}, lone.radius = {3e-4};
-    Contact holm(lone, {kE, kFlat, 0.5, 0.5}, tight());
+    AsperityContact holm(lone, {kE, kFlat, 0.5, 0.5}, tight());
     const Level spot = holm.at_separation(0.004);
     CHECK_RELATIVE(-2 * holm.stiffness() / kE, 4 * spot.a[0], 1e-12);
     const Asperities a = random_asperities(400, 0.02, 0.01, 5e-4, 0.3, 3);
-    Contact contact(a, {kE, 2.5, 0.5, 0.5}, tight());
+    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, tight());
     for (double Z0 : {0.005, 0.0, -0.01}) {
         const Level level = contact.at_separation(Z0);
         CHECK(level.asperity.size() > 5);

@@ -333,7 +333,7 @@ void once_each() {
                 ++tried;
             }
     }
-    CHECK(tried > 500 && moved >= 0.99 * static_cast<double>(tried));  // four points a wave miss one in 200
+    CHECK(tried > 500 && static_cast<double>(moved) >= 0.99 * static_cast<double>(tried));  // four points a wave miss one in 200
 }
 
 }  // namespace
