@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""A contact law for finite elements from a result file of rsc.
+
+    python3 output/export/law.py RESULT.nc --calculix           for an input deck of CalculiX, to standard output or -o FILE
+    python3 output/export/law.py RESULT.nc --abaqus             the same for Abaqus
+    python3 output/export/law.py RESULT.nc --table              columns, with the scatter over realizations; modules/example/uinter.f90 reads it
+
+A sphere becomes a nonlinear spring, force against approach; two flats (boundary='periodic') pressure against overclosure. The law is the mean
+over realizations and increases from level to level; levels that did not converge, and those that would make it fall, are left out and
+counted. Approach and overclosure begin where the first asperity touches; a comment says at which separation that is. Needs numpy and
+netCDF4 (Debian: python3-numpy python3-netcdf4).
+"""
+
+import argparse
+import os
+import re
+import sys
+
+try:
+    import netCDF4
+    import numpy as np
+except ImportError as missing:
+    sys.exit(f"law.py: the Python module {missing.name!r} is missing; on Debian: apt install python3-numpy python3-netcdf4")
+
+NOT_CONVERGED = 4  # of the variable status
+
+
+class Refused(Exception):
+    """The file holds no law; the message says why."""
+
+
+class Law:
+    """approach (from 0), load and load_std (force, or pressure of flats), area and area_std (contact area, or area fraction), arrays over the points; origin: the
+    separation where the approach is 0; what was left out."""
+
+    def __init__(self, path):
+        try:
+            file = netCDF4.Dataset(path)
+        except OSError as error:
+            raise Refused(f"cannot read {path!r}: {error.strerror or error}") from None
+        with file:
+            self.path, self.title, self.source = path, getattr(file, "title", ""), getattr(file, "source", "")
+            variables = file.variables
+            for name in ("separation", "force", "status"):
+                if name not in variables:
+                    raise Refused(f"{path!r} is no result of indentation: it lacks the variable {name!r}")
+            self.flats = "pressure" in variables
+            case = re.search(r"boundary\s*=\s*'(\w+)'", getattr(file, "case", ""))
+            if not self.flats and not _finite(variables, "r_star"):
+                raise Refused(f"{path!r} presses flat on flat within a border ({'boundary = ' + repr(case[1]) if case else 'no boundary'}): a law of an interface needs "
+                              "&indentation boundary='periodic'")
+            load, area = ("pressure", "area_fraction") if self.flats else ("force", "contact_area")
+            self.realizations = len(file.dimensions["realization"])
+            self.units = {"approach": _unit(variables["separation"]), "load": _unit(variables[load]), "area": _unit(variables[area]) if area in variables else "1"}
+            meanings = [word.replace("_", " ") for word in variables["status"].flag_meanings.split()]
+            table = {name: self._by_realization(variables[name]) for name in {"separation", load, area, "status"} & set(variables)}
+        z, n = table["separation"], table[load]
+        a = table.get(area, np.full_like(n, np.nan))
+        bad = (table["status"] == NOT_CONVERGED).any(axis=0)
+        self.unconverged = int(bad.sum())
+        worst = table["status"].max(axis=0).astype(int)[~bad & (n.mean(axis=0) > 0)]
+        self.statuses = ", ".join(f"{(worst == k).sum()} {word}" for k, word in enumerate(meanings) if (worst == k).any())
+        self._points(z[:, ~bad], n[:, ~bad], a[:, ~bad])
+
+    def _by_realization(self, variable):
+        """(realization, step), the same row for all where a variable is of steps only."""
+        values = np.ma.filled(variable[:].astype(float), np.nan)
+        return np.broadcast_to(values, (self.realizations, values.shape[-1])).copy() if values.ndim == 1 else values
+
+    def _points(self, z, n, a):
+        """The mean curve: loads at given separations, or separations at given loads, whichever the run prescribed."""
+        spread = [np.std(v, axis=0, ddof=1) if np.any(np.ptp(v, axis=0) > 0) else np.zeros(v.shape[1]) for v in (z, n, a)]
+        self.prescribed = "separation" if not np.any(spread[0] > 0) else "load"
+        depth, load, area = (v.mean(axis=0) for v in (-z, n, a))
+        order = np.argsort(depth, kind="stable")
+        depth, load, area, std = depth[order], load[order], area[order], [s[order] for s in spread]
+        touching = load > 0
+        if touching.sum() < 2:
+            raise Refused(f"{self.path!r} has {touching.sum()} levels with contact: two at least make a law")
+        first = int(np.argmax(touching))
+        keep = []
+        for k in range(first, depth.size):
+            if load[k] > 0 and (not keep or load[k] > load[keep[-1]] and depth[k] > depth[keep[-1]]):
+                keep.append(k)
+        self.not_increasing = int(touching.sum()) - len(keep)
+        if len(keep) < 2:
+            raise Refused(f"{self.path!r}: the load does not increase with the approach")
+        self.extrapolated = first == 0
+        if first > 0:
+            start = depth[first - 1]  # the last level without contact
+        else:  # the first level carries load already: back to zero as Hertz's law does
+            ratio = (load[keep[1]] / load[keep[0]]) ** (2 / 3)
+            start = depth[keep[0]] - (depth[keep[1]] - depth[keep[0]]) / (ratio - 1)
+        self.origin = -start
+        self.approach, self.load = np.append(0.0, depth[keep] - start), np.append(0.0, load[keep])
+        self.load_std, self.area = np.append(0.0, std[1][keep]), np.append(0.0, area[keep])
+        self.area_std, self.separation_std = np.append(0.0, std[2][keep]), np.append(0.0, std[0][keep])
+
+    def comment(self):
+        """What a reader of the deck has to know."""
+        many = f"mean over {self.realizations} realizations" if self.realizations > 1 else "one realization"
+        load, approach = ("pressure", "overclosure") if self.flats else ("force", "approach")
+        lines = [f"{self.title or os.path.basename(self.path)}: {load} against {approach}, {many}", f"units: {load} {self.units['load']}, {approach} {self.units['approach']}",
+                 f"{approach} = {self.origin:.9g} - separation of the {'mean planes' if self.flats else 'tip from the mean plane'}"
+                 + (f" (no level without contact: continued to zero {load} by its 2/3 power)" if self.extrapolated else f" (the last level without contact)"),
+                 f"{self.approach.size} points, {load} increasing; left out: {self.unconverged} levels not converged, {self.not_increasing} not increasing",
+                 f"status of the levels, the worst of the realizations: {self.statuses}",
+                 f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was computed: most programs keep the {load} constant there"]
+        if self.realizations > 1:
+            relative = self.load_std[-1] / self.load[-1] if self.prescribed == "separation" else self.separation_std[-1] / self.approach[-1]
+            lines.append(f"scatter over realizations at the last point: {100 * relative:.2g} % of the {load if self.prescribed == 'separation' else approach} (standard deviation); "
+                         "all of it with --table")
+        return lines + [f"from {os.path.basename(self.path)}, {self.source}"]
+
+
+def _finite(variables, name):
+    return name in variables and not np.ma.is_masked(variables[name][...]) and bool(np.isfinite(variables[name][...]))
+
+
+def _unit(variable):
+    return getattr(variable, "units", "1")
+
+
+def _deck(law, name, comment):
+    """CalculiX and Abaqus agree in these keywords."""
+    lines = [f"** {line}" for line in comment]
+    if law.flats:
+        lines += [f"*SURFACE INTERACTION, NAME={name}", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR"]
+        lines += [f"{p:.10g}, {c:.10g}" for c, p in zip(law.approach, law.load)]
+    else:
+        # Pressing makes a spring shorter: elongation and force are negative, and the table goes by increasing elongation.
+        lines += ["** a spring between the tip and the plane (element type SPRINGA), longer than the whole approach; it carries no tension",
+                  f"*SPRING, ELSET={name}, NONLINEAR", ""]
+        lines += [f"{0.0 - n:.10g}, {0.0 - d:.10g}" for d, n in zip(law.approach[::-1], law.load[::-1])]
+        lines += [f"0., {law.approach[-1]:.10g}"]
+    return lines
+
+
+def calculix(law, name):
+    return _deck(law, name, law.comment())
+
+
+def abaqus(law, name):
+    lines = _deck(law, name, law.comment())
+    if law.flats:
+        pairs = [f"{v:.10g}" for point in zip(law.approach, law.load) for v in point]
+        lines += ["** the same for modules/example/uinter.f90, pairs of overclosure and pressure:", f"** *SURFACE INTERACTION, NAME={name}, USER, PROPERTIES={len(pairs) + 1}, UNSYMM"]
+        values = ["0."] + pairs  # the first property: 0, a table follows
+        lines += ["** " + ", ".join(values[k : k + 8]) for k in range(0, len(values), 8)]
+    return lines
+
+
+def table(law, name):
+    load, area = ("pressure", "area_fraction") if law.flats else ("force", "contact_area")
+    approach = "overclosure" if law.flats else "approach"
+    header = [f"{approach} [{law.units['approach']}]", f"{load} [{law.units['load']}]", f"{load}_std", f"{area} [{law.units['area']}]", f"{area}_std", f"{approach}_std"]
+    rows = zip(law.approach, law.load, law.load_std, law.area, law.area_std, law.separation_std)
+    return [f"# {line}" for line in law.comment()] + ["# " + "  ".join(header)] + ["  ".join(f"{v:.12e}" for v in row) for row in rows]
+
+
+def main(words=None):
+    parser = argparse.ArgumentParser(description="A contact law for finite elements from a result file of rsc: a sphere as a nonlinear spring, flats as pressure against overclosure.")
+    parser.add_argument("result", help="result file (NetCDF)")
+    kind = parser.add_mutually_exclusive_group(required=True)
+    kind.add_argument("--calculix", dest="write", action="store_const", const=calculix, help="keywords for a deck of CalculiX")
+    kind.add_argument("--abaqus", dest="write", action="store_const", const=abaqus, help="keywords for a deck of Abaqus")
+    kind.add_argument("--table", dest="write", action="store_const", const=table, help="columns: approach or overclosure, load, its scatter, area, its scatter")
+    parser.add_argument("-o", "--output", metavar="FILE", help="file to write (default: standard output)")
+    parser.add_argument("--name", default="ROUGH", help="name of the interaction or of the element set (default ROUGH)")
+    arguments = parser.parse_args(words)
+    try:
+        lines = arguments.write(Law(arguments.result), arguments.name)
+        if arguments.output:
+            with open(arguments.output, "w", encoding="utf-8") as out:
+                out.write("\n".join(lines) + "\n")
+            print(arguments.output)
+        else:
+            print("\n".join(lines))
+    except Refused as reason:
+        sys.exit(f"law.py: {reason}")
+    except OSError as error:
+        sys.exit(f"law.py: cannot write: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,203 @@
+"""Laws for finite elements: the points of law.py are those of the file, the law increases, bad files are refused; uinter.f90 evaluates the table and rsc alike.
+
+usage: test_law.py FOLDER_OF_EXPORT UINTER_PROGRAM        (RSC_PROGRAM in the environment)
+"""
+import contextlib
+import io
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import netCDF4
+import numpy as np
+
+sys.path.insert(0, sys.argv.pop(1))
+import law  # noqa: E402
+import rsc  # noqa: E402
+
+UINTER = sys.argv.pop(1)
+SURFACE = "&surface n=256 L_lambda_l=8 L_lambda_s=64 sigma=0.01 /"
+CASES = {
+    "sphere": SURFACE + "&run title='A rough sphere' / &indentation start=5.0 stop=1.0 steps=33 /",
+    "campaign": SURFACE + "&run realizations=5 / &indentation start=5.0 stop=1.0 steps=17 /",
+    "touching": SURFACE + "&indentation start=2.0 stop=1.0 steps=11 /",
+    "far": SURFACE + "&indentation start=9.0 stop=8.0 steps=3 /",
+    "flat": SURFACE + "&solids R=Infinity,Infinity / &indentation steps=3 /",
+    "failed": SURFACE + "&indentation start=3.0 stop=0.0 steps=13 / &solver tolerance=1.0e-9 max_iterations=4 /",
+}
+
+
+def setUpModule():
+    global FOLDER
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    FOLDER = folder.name
+    for name, case in CASES.items():
+        done = subprocess.run([os.environ["RSC_PROGRAM"], "-q", "-o", path(name)], input=case, text=True, capture_output=True)
+        assert done.returncode == (1 if name == "failed" else 0), done.stderr
+
+
+def path(name):
+    return os.path.join(FOLDER, name + ".nc")
+
+
+def flats_file(name, z, pressure, fall=None):
+    """A result of two flats, as interface.md names its variables: pressure of several realizations at the separations z."""
+    pressure = np.atleast_2d(pressure)
+    if fall is not None:
+        pressure[:, fall] = pressure[:, fall - 1] * 0.9
+    with netCDF4.Dataset(path(name), "w") as file:
+        file.createDimension("realization", pressure.shape[0])
+        file.createDimension("step", pressure.shape[1])
+        for variable, kind, values, units in (("separation", ("step",), z, "mm"), ("pressure", ("realization", "step"), pressure, "N mm-2"),
+                                              ("force", ("realization", "step"), pressure, "N"), ("area_fraction", ("realization", "step"), pressure / 1e4, "1")):
+            file.createVariable(variable, "f8", kind)[:] = values
+            file[variable].units = units
+        file.createVariable("status", "i4", ("realization", "step"))[:] = 0
+        file["status"].flag_meanings = "converged out_of_validity overlapping not_unique not_converged"
+        file.title, file.source = "Two flats", "rsc"
+    return path(name)
+
+
+def run(*words):
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        try:
+            law.main(list(words))
+        except SystemExit as stop:
+            return str(stop.code)
+    return out.getvalue()
+
+
+def points(text):
+    return np.array([[float(v) for v in line.rstrip(",").split(",")] for line in text.splitlines() if line and line[0] in "-0123456789"])
+
+
+def uinter(props, k, displacements):
+    """What uinter_main prints: overclosure, pressure, slope, iterations, a row a displacement."""
+    words = [len(props), *props, k, len(displacements), *displacements]
+    out = subprocess.run([UINTER], input="\n".join(repr(float(w)) if i not in (0, len(props) + 2) else str(w) for i, w in enumerate(words)), text=True, capture_output=True, cwd=FOLDER)
+    assert out.returncode == 0, out.stderr
+    return np.array([[float(v) for v in line.split()] for line in out.stdout.splitlines()])
+
+
+class Springs(unittest.TestCase):
+    def test_points(self):
+        """Every level with contact is a point; the origin is the last level without."""
+        data = rsc.read(path("sphere"), xarray=False)
+        force, z = data["force_mean"], data["separation"]
+        first = np.flatnonzero(force > 0)[0]
+        self.assertGreater(first, 0)
+        for flag in ("--calculix", "--abaqus"):
+            text = run(path("sphere"), flag, "--name", "MINE")
+            self.assertIn("*SPRING, ELSET=MINE, NONLINEAR\n\n", text)
+            rows = points(text)
+            self.assertTrue(np.all(np.diff(rows[:, 1]) > 0) and np.all(np.diff(rows[:, 0])[:-1] > 0))  # elongation and force increase
+            self.assertTrue(np.array_equal(rows[-2], [0, 0]) and rows[-1, 0] == 0 < rows[-1, 1])  # no tension
+            self.assertTrue(np.allclose(-rows[-2::-1, 0], np.append(0, force[first:]), rtol=1e-9, atol=0))
+            self.assertTrue(np.allclose(-rows[-2::-1, 1], z[first - 1] - z[first - 1 :], rtol=1e-9, atol=1e-15))
+            self.assertIn("units: force N, approach mm", text)
+            self.assertIn(f"approach = {z[first - 1]:.9g} - separation", text)
+
+    def test_scatter(self):
+        data = rsc.read(path("campaign"), xarray=False)
+        rows = np.array([[float(v) for v in line.split()] for line in run(path("campaign"), "--table").splitlines() if not line.startswith("#")])
+        last = data["force"][:, -1]
+        self.assertTrue(np.allclose(rows[-1, 1:3], (last.mean(), last.std(ddof=1)), rtol=1e-9))
+        self.assertTrue(np.allclose(rows[-1, 3:5], (data["contact_area"][:, -1].mean(), data["contact_area"][:, -1].std(ddof=1)), rtol=1e-9))
+        self.assertTrue(np.all(np.diff(rows[:, :2], axis=0) > 0))
+        text = run(path("campaign"), "--calculix")
+        self.assertIn("mean over 5 realizations", text)
+        self.assertIn(f"{100 * last.std(ddof=1) / last.mean():.2g} % of the force", text)
+
+    def test_origin_beyond_the_levels(self):
+        """A run that begins in contact: by Hertz's power the law begins where the first asperity touches, or a little before (it is not alone)."""
+        found = law.Law(path("touching"))
+        self.assertTrue(found.extrapolated)
+        self.assertIn("no level without contact", run(path("touching"), "--table"))
+        n, d = found.load[1:3], found.approach[1:3]
+        self.assertAlmostEqual((n[1] / n[0]) / (d[1] / d[0]) ** 1.5, 1, delta=1e-12)
+
+    def test_refused(self):
+        for name, words in (("far", "0 levels with contact"), ("flat", "boundary='periodic'"), ("nothing", "cannot read")):
+            self.assertIn(words, run(path(name), "--table"))
+
+    def test_levels_that_failed(self):
+        status = rsc.read(path("failed"), xarray=False)["status"][0]
+        self.assertTrue(0 < (status == 4).sum() < status.size - 2, status)
+        found = law.Law(path("failed"))
+        self.assertEqual(found.unconverged, (status == 4).sum())
+        self.assertIn(f"{found.unconverged} levels not converged", run(path("failed"), "--calculix"))
+
+
+class Flats(unittest.TestCase):
+    Z = np.linspace(0.04, 0.0, 21)
+
+    def test_points(self):
+        p = np.outer([0.9, 1.0, 1.1], np.where(self.Z < 0.0395, 1e4 * np.exp(-self.Z / 0.008), 0))
+        file = flats_file("flats", self.Z, p)
+        text = run(file, "--calculix")
+        self.assertIn("*SURFACE INTERACTION, NAME=ROUGH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n0, 0\n", text)
+        rows = points(text)
+        self.assertTrue(np.allclose(rows[:, 0], p.mean(axis=0), rtol=1e-9) and np.allclose(rows[:, 1], 0.04 - self.Z, rtol=1e-9, atol=1e-15))
+        self.assertIn("10 % of the pressure", text)
+        self.assertIn("units: pressure N mm-2, overclosure mm", text)
+
+    def test_falling_level(self):
+        file = flats_file("falling", self.Z, 1e4 * np.exp(-self.Z / 0.008), fall=10)
+        found = law.Law(file)
+        self.assertEqual((found.not_increasing, found.approach.size), (1, 21))  # 20 levels and the origin
+        self.assertTrue(np.all(np.diff(found.load) > 0) and np.all(np.diff(found.approach) > 0))
+
+    def test_pressure_control(self):
+        """Loads prescribed: separations are averaged at equal pressure, and scatter."""
+        z = np.array([0.9, 1.1])[:, None] * self.Z[None, :-1]
+        file = flats_file("pressed", self.Z[:-1], np.broadcast_to(1e4 * np.exp(-self.Z[:-1] / 0.008), z.shape).copy())
+        with netCDF4.Dataset(file, "a") as data:
+            data.renameVariable("separation", "gone")
+            data.createVariable("separation", "f8", ("realization", "step"))[:] = z
+            data["separation"].units = "mm"
+        found = law.Law(file)
+        self.assertEqual(found.prescribed, "load")
+        self.assertTrue(np.allclose(found.separation_std[1:], z.std(axis=0, ddof=1)))
+        self.assertTrue(np.allclose(np.diff(found.approach)[1:], -np.diff(z.mean(axis=0))))
+
+
+class Uinter(unittest.TestCase):
+    def test_table(self):
+        """The properties that --abaqus writes, in series with a spring: against the same by numpy, on and between the points and beyond the last."""
+        file = flats_file("flats", Flats.Z, np.where(Flats.Z < 0.0395, 1e4 * np.exp(-Flats.Z / 0.008), 0))
+        found = law.Law(file)
+        text = run(file, "--abaqus")
+        line = text[text.index("USER, PROPERTIES=") :].splitlines()
+        props = [float(v) for row in line[1:] if row.startswith("** ") for v in row[3:].split(",") if v.strip()]
+        self.assertEqual(len(props), int(line[0].split("=")[1].split(",")[0]))
+        k = 2.0e5
+        c = np.concatenate([[-0.01, 0.0, 1e-9], np.linspace(0.0005, 0.039, 37), [0.045]])
+        slope = np.diff(found.load) / np.diff(found.approach)
+        p = np.where(c > found.approach[-1], found.load[-1] + slope[-1] * (c - found.approach[-1]), np.interp(c, found.approach, found.load))
+        rows = uinter(props, k, c + p / k)
+        self.assertTrue(np.allclose(rows[:, 0], c, rtol=1e-7, atol=1e-10), abs(rows[:, 0] - c).max())
+        self.assertTrue(np.allclose(rows[:, 1], p, rtol=1e-6, atol=1e-3))
+        self.assertLess(rows[:, 3].max(), 40)
+
+    def test_rsc(self):
+        """Calling rsc: the pressure is that of the library from Python; Newton's method converges as with a right slope."""
+        case = rsc.Case(SURFACE + "&solids R=Infinity,Infinity / &solver tolerance=1.0e-11 /")
+        with open(os.path.join(FOLDER, "rsc.nml"), "w", encoding="utf-8") as out:
+            out.write(str(case))
+        contact = rsc.Contact.from_case(rsc.Asperities.make(case), case)
+        z0, area, k = contact.first_touch(), 1.0, 1.0e5
+        rows = uinter([1.0, area, z0], k, [-0.01, 0.005, 0.01, 0.02])
+        self.assertEqual(rows[0, 1], 0)
+        for c, p, slope, iterations in rows[1:]:
+            self.assertAlmostEqual(contact.indent(z0 - c) / area / p, 1, delta=1e-9)
+            self.assertAlmostEqual(-contact.stiffness() / area / slope, 1, delta=1e-6)
+            self.assertLess(iterations, 12)
+        self.assertTrue(np.all(np.diff(rows[:, 1]) > 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
