@@ -36,8 +36,8 @@ import threading
 
 import numpy as np
 
-__all__ = ["Case", "Surface", "Asperities", "Contact", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
-           "Level", "Spots", "LEVELS", "read", "study", "version", "keys"]
+__all__ = ["Case", "Surface", "Asperities", "Contact", "Friction", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
+           "Level", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "version", "keys"]
 
 # ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
 # One row a function, as rsc.h declares it (all return int32_t); a test compares them. From a row follow the ctypes, the checks of
@@ -88,6 +88,20 @@ rsc_contact_energy(const rsc_contact* contact, double* energy)
 rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration)
 rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration)
 rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection)
+rsc_tangential_ratio(const double* E, const double* nu, double* ratio)
+rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio)
+rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case)
+rsc_friction_copy(rsc_friction** friction, const rsc_friction* original)
+rsc_friction_destroy(rsc_friction** friction)
+rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x, double* force_y, double* lost)
+rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy)
+rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x, double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation)
+rsc_friction_commit(rsc_friction* friction)
+rsc_friction_rollback(rsc_friction* friction)
+rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide, double* force, double* stick_separation)
+rsc_friction_slide(rsc_friction* friction, double force, double* slide)
+rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force)
+rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius, double* stick_radius, double* force_x, double* force_y)
 """
 
 # Status codes and what is to be said about a level: rsc.h, RSC_STATUS_LIST and RSC_LEVEL_LIST; the same test compares them.
@@ -402,6 +416,8 @@ Level = _record("Level", "status candidates iterations overlapping_pairs residua
                 "asperities the sphere would penetrate without interaction; iterations; overlapping pairs of spots; relative residual [1].")
 Spots = _record("Spots", "asperity force radius penetration", "Contacts: indices of the asperities from 0 (int32; None where all asperities are meant), force [force], "
                 "contact radius a, the area being pi a^2 [length], and penetration [length]; arrays of shape (n,).")
+FrictionState = _record("FrictionState", "separation x y force force_x force_y energy tangential_energy lost stick_separation", "Where the path of a Friction has led: separation Z0 and slide x, y [length]; force N, tangential force Q as force_x, force_y [force]; elastic energy of the normal problem and of the slide, work lost to friction since the path began [force length]; the separation whose spots stick [length].")
+SpotSlip = _record("SpotSlip", "asperity radius stick_radius force_x force_y", "Arrays, a value a spot: index of the asperity, contact radius, radius of the part that sticks [length], share of the tangential force [force].")
 _Result = collections.namedtuple("_Result", "separation force area contacts")
 _Tip = collections.namedtuple("_Tip", "x0 y0")
 
@@ -759,6 +775,85 @@ class Contact(_Object):
         deflection = np.empty(x.shape)
         _call("rsc_contact_deflection", self, x.size, x, y, deflection)
         return deflection if deflection.ndim else float(deflection)
+
+
+# ---- friction ------------------------------------------------------------------------------------------------------------------
+class Friction(_Object):
+    """A contact with friction, led along any path of separations and slides (x, y). What is assumed: rsc.h, section friction.
+
+    Friction(contact, mu, ratio): contact: a Contact, whose asperities, sphere, tip and options are taken; mu: coefficient of friction >= 0;
+    ratio: m = 4 G*/E*, see stiffness_ratio. Raises ArgumentError naming what is wrong, Error (no memory). Friction.from_case takes mu and m
+    from a case. copy() copies the path, too."""
+
+    _kind = "friction"
+
+    def __init__(self, contact, mu, ratio):
+        self._handle, self._lock = ctypes.c_void_p(), _Lock()
+        _call("rsc_friction_create", ctypes.byref(self._handle), _given("contact", contact), mu, ratio)
+
+    @classmethod
+    def from_case(cls, contact, case=None):
+        """Friction with mu from solids%friction and m from solids%E and solids%nu. contact: a Contact; case: a Case, None for the defaults.
+        Raises ArgumentError for keys that are refused, Error (no memory)."""
+        return cls._make("rsc_friction_create_from_case", _given("contact", contact), case)
+
+    def update(self, separation, x=0.0, y=0.0):
+        """Leads the contact on a straight path to (separation, x, y) and returns (N, Q_x, Q_y, work lost on the way). The first call says where
+        the path begins. separation: Z0; x, y: slide, of which differences count [length]. Q points along the slide at first: the sphere is
+        pushed by -Q. Raises ArgumentError if a number is not finite, NotConverged (the state is that of the last iterates), Error."""
+        outputs = [ctypes.c_double() for _ in range(4)]
+        _call("rsc_friction_update", self, separation, x, y, *outputs)
+        return tuple(o.value for o in outputs)
+
+    def state(self):
+        """Where the path has led, FrictionState. Raises Error (no result) before the first update."""
+        return _numbers("rsc_friction_state", self, FrictionState)
+
+    def stiffness(self):
+        """dQ/d(x, y) of a further slide the way that slips now, an array of shape (2, 2) [force/length]. Raises NotConverged, Error."""
+        return np.array(_numbers("rsc_friction_stiffness", self, lambda *k: k)).reshape(2, 2)
+
+    def commit(self):
+        """Keeps the state for rollback(). Raises Error (no memory)."""
+        _call("rsc_friction_commit", self)
+
+    def rollback(self):
+        """Goes back to the last commit. Raises Error (no memory)."""
+        _call("rsc_friction_rollback", self)
+
+    def first_loading(self, slide):
+        """Q of a contact pressed to the last separation at rest and then slid [force], in the shape of slide; the path is not touched. slide: >= 0,
+        float64, shape (n,) [length]. Raises ArgumentError for a slide that is negative or not finite, NotConverged, Error (no result without
+        contact)."""
+        slide = _array("slide", slide, (None,))
+        force = np.empty(slide.shape)
+        _call("rsc_friction_first_loading", self, slide.size, slide, force, None)
+        return force
+
+    def slide(self, force):
+        """The slide that takes the force Q on first loading [length]. force: 0 <= Q <= mu N [force]. Raises ArgumentError out of range,
+        NotConverged, Error (no result without contact)."""
+        return _number("rsc_friction_slide", self, force)
+
+    def full_slip(self):
+        """The slide at which all slips on first loading [length] and the force mu N [force]. Raises Error (no result without contact)."""
+        return _numbers("rsc_friction_full_slip", self, lambda *values: values)
+
+    def spots(self):
+        """Friction at the spots of the last update by increasing index of asperity, SpotSlip. Raises NotConverged, Error (no result)."""
+        count = ctypes.c_int64()
+        with contextlib.suppress(ArgumentError):  # asks for the number only
+            _call("rsc_friction_spots", self, 0, count, None, None, None, None, None)
+        n = count.value
+        spots = SpotSlip(np.empty(n, np.int32), *np.empty((4, n)))
+        _call("rsc_friction_spots", self, n, count, *spots)
+        return spots
+
+
+def stiffness_ratio(E, nu):
+    """m = 4 G*/E* of two bodies, the tangential over the normal stiffness of any of their contacts. E: two Young's moduli, inf: rigid
+    [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError naming what is wrong."""
+    return _number("rsc_tangential_ratio", _array("E", E, (2,)), _array("nu", nu, (2,)))
 
 
 def _given(name, value):

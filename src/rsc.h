@@ -84,6 +84,7 @@ typedef struct rsc_case rsc_case;             /* options: every key of the namel
 typedef struct rsc_surface rsc_surface;       /* heights on a regular grid */
 typedef struct rsc_asperities rsc_asperities; /* summits: positions and radii */
 typedef struct rsc_contact rsc_contact;       /* a rigid sphere on asperities, and the last level computed */
+typedef struct rsc_friction rsc_friction;     /* a contact with friction, and the path it was led along */
 
 /* ---- version and messages ------------------------------------------------------------------------------------------------- */
 
@@ -327,6 +328,92 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or not finite; -5 null with n > 0;
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
+
+/* ---- friction
+ * ------------------------------------------------------------------------------------------------------------------
+ * A contact led along any path of separation Z0 and slide (x, y): the displacement of the sphere's body sideways against that of the
+ * surface's, without what a turning of the sphere takes away at the place of contact (rolling is no slide). Partial slip is the normal
+ * problem twice (Ciavarella 1998; Jaeger 1998): everything follows from N(Z0), and the memory of the contact is a list of separations,
+ * which a larger reversal shortens. The friction is that of Coulomb at every point, mu times the pressure. Left out: the coupling of
+ * normal and tangential forces by unlike bodies, the direction of slip within a spot, and that a tip which moves over the surface finds
+ * other asperities: the contact keeps its place. In two directions all that slips at a time pulls in one direction (circular disc rule for
+ * the sum); slides along one line are exact. Elastic contacts only.
+ * Energy: int Q dx over any path is the change of tangential_energy plus what is lost. */
+
+/* m = 4 G star / E star, 1/G star = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the tangential over the normal stiffness of any
+ * contact of two bodies; 2 (1 - nu)/(2 - nu) for like ones. E, nu: two values each; ratio (out). Errors: -1 null, a modulus not positive
+ * (Infinity: rigid), or two rigid bodies; -2 null, or outside [-1, 0.5]; -3 null. */
+RSC_API int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio);
+
+/* Friction for the asperities, sphere, tip and options of a contact. No path yet.
+ * friction (out): the handle; contact: copied, may be destroyed at once; mu: coefficient of friction >= 0, finite; ratio: m > 0, finite
+ * (rsc_tangential_ratio). Errors: -1, -2 null; -2 not elastic; -3, -4 out of range; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio);
+
+/* The same with mu = solids%friction and the ratio from solids%E and solids%nu.
+ * friction (out): the handle; contact: as above; a_case: the case, null for the defaults (mu = 0). Errors: -1, -2 null; -2 not elastic; -3
+ * keys that are refused; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case);
+
+/* A copy that is independent of the original, with its path. friction (out): the handle; original: the friction.
+ * Errors: -1, -2 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original);
+
+/* Releases friction and nulls the handle. Errors: -1 null address. */
+RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
+
+/* Leads the contact on a straight path to (separation, x, y) and tells the forces there: one level at the new separation, one more where
+ * something slips. The first call says where the path begins: the contact there, if any, is pressed and not slid. Only differences of x and
+ * y count; a slide without contact leaves no trace.
+ * friction: the friction; separation: Z0; x, y: slide [length]; force (out, may be null): N [force]; force_x, force_y (out, may be
+ * null): tangential force Q [force], along the slide at first: it is what resists, so that the sphere is pushed by -Q; lost (out, may be
+ * null): work lost to friction on this step, >= 0 [force length]. Errors: -1 null; -2, -3, -4 not finite; RSC_NOT_CONVERGED, outputs then
+ * being those of the last iterates; RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged. */
+RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x,
+                                    double* force_y, double* lost);
+
+/* dQ/d(x, y) of a further slide at this separation in the direction of what slips now (S m in all directions where nothing slips, and for a
+ * slide back, S being -dN/dZ0). Costs up to one level. All outputs may be null. friction: the friction; xx, xy, yx, yy: dQ_x/dx, dQ_x/dy,
+ * dQ_y/dx, dQ_y/dy [force/length], 0 without contact. Errors: -1 null; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy);
+
+/* Where the path has led. All outputs may be null. friction: the friction; separation, x, y: the last update's [length]; force: N;
+ * force_x, force_y: Q [force]; energy: elastic energy W of the normal problem; tangential_energy: elastic energy of the slide; lost: work
+ * lost to friction since the path began [force length]; stick_separation: the separation whose spots stick, the separation itself where
+ * all sticks, that of first touch where all slips [length]. Errors: -1 null; RSC_NO_RESULT before the first update. */
+RSC_API int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x,
+                                   double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation);
+
+/* Keeps the state as the one that rsc_friction_rollback goes back to. A new friction is committed without a path.
+ * friction: the friction. Errors: -1 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_commit(rsc_friction* friction);
+
+/* Goes back to the state of the last commit, for codes that try a step. friction: the friction. Errors: -1 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
+
+/* First loading at the separation of the last update: what a contact pressed there and then slid would answer; the path is not touched.
+ * Q = mu [N(Z0) - N(Z0')], slide = (mu/m) (Z0' - Z0). A level for each slide short of full slip.
+ * friction: the friction; n: length of the arrays, >= 0; slide: >= 0 [length]; force (out): Q [force]; stick_separation (out, may be
+ * null): Z0' [length]. Errors: -1 null; -2 negative; -3 null with n > 0, negative or not finite; -4 null with n > 0; RSC_NO_RESULT before
+ * the first update and without contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide, double* force, double* stick_separation);
+
+/* The same for a given force: the slide that takes Q. friction: the friction; force: 0 <= Q <= mu N [force]; slide (out) [length].
+ * Errors: -1 null; -2 out of range; -3 null; RSC_NO_RESULT before the first update and without contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide);
+
+/* Full slip after first loading at the separation of the last update. Both outputs may be null. friction: the friction; slide: the one
+ * that takes it [length]; force: mu N [force]. Errors: -1 null; RSC_NO_RESULT before the first update and without contact. */
+RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force);
+
+/* Friction at the spots of the last update, by increasing index of asperity. Costs a level for each reversal in memory. The number is
+ * written even if the arrays are too short.
+ * friction: the friction; n: length of each array; count (out, may be null): number of spots; asperity (out, may be null): indices; radius
+ * (out, may be null): contact radius [length]; stick_radius (out, may be null): of the part that sticks, 0 where all of it slips [length];
+ * force_x, force_y (out, may be null): the spot's share of Q [force]. Errors: -1 null; -2 too short; RSC_NO_RESULT before the first update;
+ * RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius, double* stick_radius,
+                                   double* force_x, double* force_y);
 
 #ifdef __cplusplus
 }

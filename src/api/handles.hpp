@@ -8,6 +8,8 @@
 
 #include "case/case.hpp"
 #include "contact/asperity_contact.hpp"
+#include "contact/contact_curve.hpp"
+#include "contact/friction.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
 
@@ -31,6 +33,17 @@ struct rsc_contact {
     rsc::AsperityContact contact;
     std::optional<rsc::Level> level;
     double energy = 0;
+};
+
+struct rsc_friction {
+    rsc_friction(const rsc_contact& like, const rsc::Friction& friction)
+        : outer(like.on, like.contact.indenter(), like.options),
+          inner(like.on, like.contact.indenter(), like.options),
+          curve(outer.contact, inner.contact),
+          history(friction) {}
+    rsc_contact outer, inner;  // two ends of the path's memory
+    rsc::ContactCurve curve;
+    rsc::FrictionHistory history;
 };
 
 namespace rsc::api {

@@ -12,6 +12,7 @@ namespace {
 constexpr double kNoLimit = Case::kInfinity;
 constexpr Bounds kAny{};
 constexpr Bounds kPositive{0, kNoLimit, true, false};
+constexpr Bounds kNotNegative{0, kNoLimit, false, false};
 constexpr Bounds kPositiveOrInfinite{0, kNoLimit, true, true};
 constexpr Bounds between(double low, double high) { return {low, high, false, false}; }
 constexpr Bounds above(double low, double high) { return {low, high, true, false}; }
@@ -75,6 +76,12 @@ std::vector<Key> make_registry() {
               "Young's modulus of body 1 (rough, deforms) and of body 2 (the sphere); Infinity is rigid", RSC_FIRST(solids.E)),
         array("solids", "nu", 2, "1", above(-1, 0.5), "Poisson's ratio of the two bodies", RSC_FIRST(solids.nu)),
         array("solids", "R", 2, "length", kPositiveOrInfinite, "radius of the two bodies; Infinity is flat", RSC_FIRST(solids.R)),
+        array("solids", "resistivity", 2, "resistance*length", kNotNegative,
+              "electrical or thermal resistivity of the two bodies, for the constriction resistance of the contact",
+              RSC_FIRST(solids.resistivity)),
+        scalar("solids", "friction", real, "1", kNotNegative,
+               "coefficient of friction mu at every point of contact; above 0, one realization: the tangential force at each level",
+               RSC_SLOT(solids.friction)),
 
         one_of("surface", "source", names(kSourceNames), "make a surface, read a height map from `file`, or read asperities from `file`",
                RSC_CHOICE(surface.source)),

@@ -29,6 +29,8 @@ Slide between(const Node& begin, const Node& end, double s) { return begin.defle
 
 Node node_at(LoadCurve& curve, double s, Slide u) {
     const auto load = curve.load(s);
+    if (!std::isfinite(load.force) || !std::isfinite(load.energy))
+        throw Error(Failure::not_converged, "the load is beyond the range of numbers: other units may help");
     return {s, load.force, load.energy, u};
 }
 

@@ -116,12 +116,14 @@ contains
   end subroutine
 
   subroutine read_solids()
-    real(real64) :: e(2), nu(2), r(2)
+    real(real64) :: e(2), nu(2), r(2), resistivity(2), friction
     integer :: ios, k
-    namelist /solids/ e, nu, r
+    namelist /solids/ e, nu, r, resistivity, friction
     e = [78.0e3_real64, infinity]
     nu = [0.42_real64, 0.0_real64]
     r = [infinity, 2.5_real64]
+    resistivity = 0
+    friction = 0
     read (unit_in, nml=solids, iostat=ios)
     call status('solids', ios)
     do k = 1, 2
@@ -133,6 +135,10 @@ contains
     do k = 1, 2
       call put_real('solids%R', r(k), k)
     end do
+    do k = 1, 2
+      call put_real('solids%resistivity', resistivity(k), k)
+    end do
+    call put_real('solids%friction', friction)
   end subroutine
 
   subroutine read_surface()

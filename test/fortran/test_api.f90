@@ -10,6 +10,7 @@ program test_api
   call one_asperity()
   call many_asperities()
   call surfaces()
+  call friction()
   call misuse()
   call lifetimes()
   print '(i0,a,i0,a)', checks, ' checks, ', failures, ' failed'
@@ -168,6 +169,60 @@ contains
     call contact%create_from_case(found, options)
     call contact%indent(0.02_dp, N)
     call check(N > 0, 'contact from a case')
+  end subroutine
+
+  ! Mindlin's sphere: first loading, full slip, the path of a copy, spots; failures told.
+  subroutine friction()
+    type(rsc_asperities) :: asperities
+    type(rsc_contact) :: contact
+    type(rsc_friction) :: path, other
+    real(dp), parameter :: r = 2.0e-3_dp, mu = 0.3_dp, z = 0.01_dp
+    real(dp) :: N, Q(2), m, slide, most, force(3), stick(3), k(2, 2), lost, energies(2), before
+    real(dp), allocatable :: radius(:), inner(:), share(:)
+    integer, allocatable :: which(:)
+    integer :: stat
+    character(100) :: errmsg
+    m = rsc_stiffness_ratio([E, E], [0.2_dp, 0.2_dp])
+    call close_to(m, 2 * (1 - 0.2_dp) / (2 - 0.2_dp), 1e-14_dp, 'ratio of like bodies')
+    call asperities%take([0.5_dp], [0.5_dp], [z], [r])
+    call contact%create(asperities, E_star=E, R=2.5_dp, x0=0.5_dp, y0=0.5_dp)
+    call path%create(contact, mu, m)
+    call path%full_slip(slide, stat=stat)
+    call check(stat == rsc_no_result, 'no path yet')
+    call path%update(z - u, 0.0_dp, 0.0_dp, force=N)
+    call close_to(N, 4 / 3.0_dp * E * sqrt(r) * u**1.5_dp, 1e-10_dp, 'Hertz')
+    call path%full_slip(slide, most)
+    call close_to(slide, mu / m * u, 1e-10_dp, 'full slip')
+    call close_to(most, mu * N, 1e-12_dp, 'most')
+    call path%first_loading([0.0_dp, 0.5_dp, 2.0_dp] * slide, force, stick)
+    call close_to(force(2), mu * N * (1 - 0.5_dp**1.5_dp), 1e-9_dp, 'Mindlin')
+    call close_to(force(3), mu * N, 1e-12_dp, 'slipping')
+    call close_to(path%slide(force(2)), 0.5_dp * slide, 1e-7_dp, 'slide at a force')
+    call path%commit()
+    call path%update(z - u, 0.3_dp * slide, 0.4_dp * slide, force_x=Q(1), force_y=Q(2), lost=lost)
+    call close_to(Q(1), 0.6_dp * force(2), 1e-9_dp, 'force along x')
+    call close_to(Q(2), 0.8_dp * force(2), 1e-9_dp, 'force along y')
+    k = path%stiffness()
+    call close_to(0.6_dp * k(1, 1) + 0.8_dp * k(1, 2), 0.6_dp * m * 2 * E * sqrt(r * u / 2), 1e-5_dp, 'stiffness along the slide')
+    call path%spots(which, radius, inner, share)
+    call check(size(which) == 1 .and. which(1) == 1, 'one spot')
+    call close_to(inner(1), radius(1) * sqrt(0.5_dp), 1e-6_dp, 'stick radius')
+    call close_to(share(1), Q(1), 1e-9_dp, 'its share')
+    other = path
+    call other%update(z - u, 0.0_dp, 0.0_dp)
+    call path%state(force_x=before, energy=energies(1), tangential_energy=energies(2))
+    call check(before >= Q(1) .and. before <= Q(1), 'a copy goes its own way')
+    call close_to(energies(1), 0.4_dp * N * u, 1e-9_dp, 'energy')
+    call check(energies(2) > 0 .and. lost > 0, 'stored and lost')
+    call path%rollback()
+    call path%state(force_x=before)
+    call check(abs(before) <= 0, 'rolled back')
+    call path%create(contact, -mu, m, stat, errmsg)
+    call check(stat == -3 .and. index(errmsg, 'mu') > 0, 'negative friction')
+    call path%update(0.0_dp, 0.0_dp, 0.0_dp, stat=stat)
+    call check(stat == -1, 'nothing created')
+    call other%first_loading([1.0_dp, 2.0_dp], force, stat=stat, errmsg=errmsg)
+    call check(stat < 0 .and. index(errmsg, 'size') > 0, 'sizes')
   end subroutine
 
   subroutine misuse()

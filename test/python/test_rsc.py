@@ -379,5 +379,50 @@ class Documentation(unittest.TestCase):
             self.assertRegex(inspect.getdoc(getattr(rsc.Contact, member)), r"\[(force|length)", member)
 
 
+class TestFriction(unittest.TestCase):
+    """Mindlin's sphere through Python, and what is refused."""
+
+    def test_mindlin(self):
+        asperities = rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3])
+        contact = rsc.Contact(asperities, 2e5, 2.5, 0.5, 0.5)
+        m = rsc.stiffness_ratio([2e5, 2e5], [0.2, 0.2])
+        self.assertAlmostEqual(m, 2 * 0.8 / 1.8, places=14)
+        friction = rsc.Friction(contact, 0.3, m)
+        with self.assertRaises(rsc.Error) as told:
+            friction.full_slip()
+        self.assertEqual(told.exception.status, rsc.NO_RESULT)
+        N, *_ = friction.update(0.009)
+        slide, most = friction.full_slip()
+        np.testing.assert_allclose([slide, most], [0.3 / m * 1e-3, 0.3 * N], rtol=1e-9)
+        x = np.linspace(0, 1.5, 7) * slide
+        mindlin = most * (1 - np.clip(1 - x / slide, 0, None) ** 1.5)
+        np.testing.assert_allclose(friction.first_loading(x), mindlin, rtol=1e-9)
+        self.assertAlmostEqual(friction.slide(mindlin[2]) / x[2], 1, places=7)
+        friction.commit()
+        _, Qx, Qy, lost = friction.update(0.009, x=x[2])
+        self.assertAlmostEqual(Qx / mindlin[2], 1, places=9)
+        self.assertTrue(Qy == 0 and lost > 0)
+        np.testing.assert_allclose(friction.stiffness()[0, 0], m * 2 * 2e5 * np.sqrt(2e-3 * (1e-3 - m / 0.3 * x[2])), rtol=1e-6)
+        spots = friction.spots()
+        self.assertEqual(spots.asperity.tolist(), [0])
+        np.testing.assert_allclose(spots.stick_radius / spots.radius, np.sqrt(1 - x[2] / slide), rtol=1e-6)
+        copy = friction.copy()
+        friction.rollback()
+        self.assertEqual((friction.state().force_x, copy.state().force_x), (0, Qx))
+
+    def test_refused(self):
+        contact = rsc.Contact(rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3]), 2e5, 2.5, 0.5, 0.5)
+        with self.assertRaisesRegex(rsc.ArgumentError, "mu"):
+            rsc.Friction(contact, -1, 0.8)
+        with self.assertRaisesRegex(rsc.ArgumentError, "contact"):
+            rsc.Friction(None, 0.3, 0.8)
+        case = rsc.Case({"solids": {"friction": 0.25}})
+        friction = rsc.Friction.from_case(contact, case)
+        N, *_ = friction.update(0.005)
+        self.assertAlmostEqual(friction.full_slip()[1] / N, 0.25, places=14)
+        with self.assertRaisesRegex(rsc.ArgumentError, "slide"):
+            friction.first_loading([-1.0])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,224 @@
+// Friction: a contact along a path of separations and slides.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "api/guard.hpp"
+#include "api/handles.hpp"
+#include "contact/equivalent.hpp"
+#include "rough/magnitude.hpp"
+
+namespace rsc::api {
+namespace {
+
+constexpr const char* kNoPath = "the friction has no path yet: update first";
+
+void require_usable(double value, int argument, const char* name) {
+    if (!usable(value)) refuse(argument, name, kNumberBounds);
+}
+
+const FrictionHistory& path_of(const rsc_friction* friction) {
+    require(friction, 1, "friction");
+    if (!friction->history.state().begun) throw Outcome{RSC_NO_RESULT, kNoPath};
+    return friction->history;
+}
+
+const FrictionHistory& contact_of(const rsc_friction* friction) {
+    const FrictionHistory& history = path_of(friction);
+    if (history.state().nodes.empty()) throw Outcome{RSC_NO_RESULT, "friction: there is no contact yet that could be slid"};
+    return history;
+}
+
+void require_elastic(const rsc_contact& contact) {
+    if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction needs one load for one separation");
+}
+
+// Runs what asks for levels, then tells whether all of them converged.
+template <class Ask>
+void with_levels(rsc_friction& friction, Ask&& ask) {
+    const long failed = friction.curve.failed();
+    ask();
+    if (friction.curve.failed() > failed) {
+        throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterates"};
+    }
+}
+
+}  // namespace
+}  // namespace rsc::api
+
+using namespace rsc::api;
+
+extern "C" {
+
+int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) {
+    return guarded(1, [&] {
+        require(E, 1, "E");
+        require(nu, 2, "nu");
+        require(ratio, 3, "ratio");
+        for (int i = 0; i < 2; ++i)
+            if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse(2, "nu", "must be between -1 and 0.5");
+        const double moduli[2] = {E[0], E[1]}, ratios[2] = {nu[0], nu[1]};
+        put(ratio, rsc::tangential_ratio(moduli, ratios));
+    });
+}
+
+int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio) {
+    return guarded(3, [&] {
+        construct(friction, "friction", [&] {
+            require(contact, 2, "contact");
+            require_elastic(*contact);
+            if (!(mu >= 0) || !rsc::usable(mu)) refuse(3, "mu", "must be zero or positive, and at most 1e50");
+            if (!rsc::usable_positive(ratio)) refuse(4, "ratio", rsc::kPositiveBounds);
+            return new rsc_friction(*contact, {mu, ratio});
+        });
+    });
+}
+
+int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case) {
+    return guarded(3, [&] {
+        construct(friction, "friction", [&] {
+            require(contact, 2, "contact");
+            require_elastic(*contact);
+            const rsc::Case& settings = settings_of(a_case);
+            require_sound(settings, {"solids"});
+            return new rsc_friction(*contact, {settings.solids.friction, rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
+        });
+    });
+}
+
+int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original) {
+    return guarded(0, [&] {
+        construct(friction, "friction", [&] {
+            require(original, 2, "original");
+            auto made = std::make_unique<rsc_friction>(original->outer, original->history.friction());
+            made->history = original->history;
+            return made.release();
+        });
+    });
+}
+
+int32_t rsc_friction_destroy(rsc_friction** friction) {
+    return guarded(0, [&] { destroy(friction, "friction"); });
+}
+
+int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x, double* force_y,
+                            double* lost) {
+    return guarded(2, [&] {
+        require(friction, 1, "friction");
+        require_usable(separation, 2, "separation");
+        require_usable(x, 3, "x");
+        require_usable(y, 4, "y");
+        with_levels(*friction, [&] {
+            rsc::FrictionHistory& history = friction->history;
+            history.go_to(friction->curve, -separation, {x, y});
+            const rsc::Slide Q = history.tangential_force();
+            put(force, history.force());
+            put(force_x, Q.x);
+            put(force_y, Q.y);
+            put(lost, history.step_lost());
+        });
+    });
+}
+
+int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy) {
+    return guarded(0, [&] {
+        require(friction, 1, "friction");
+        with_levels(*friction, [&] {
+            const auto tangent = friction->history.stiffness(friction->curve);
+            put(xx, tangent.xx);
+            put(xy, tangent.xy);
+            put(yx, tangent.yx);
+            put(yy, tangent.yy);
+        });
+    });
+}
+
+int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x,
+                           double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation) {
+    return guarded(0, [&] {
+        const rsc::FrictionHistory& history = path_of(friction);
+        const rsc::Slide Q = history.tangential_force();
+        put(separation, -history.approach());
+        put(x, history.slide().x);
+        put(y, history.slide().y);
+        put(force, history.force());
+        put(force_x, Q.x);
+        put(force_y, Q.y);
+        put(energy, history.normal_energy());
+        put(tangential_energy, history.tangential_energy());
+        put(lost, history.work_lost());
+        put(stick_separation, -history.stick_approach());
+    });
+}
+
+int32_t rsc_friction_commit(rsc_friction* friction) {
+    return guarded(0, [&] {
+        require(friction, 1, "friction");
+        friction->history.commit();
+    });
+}
+
+int32_t rsc_friction_rollback(rsc_friction* friction) {
+    return guarded(0, [&] {
+        require(friction, 1, "friction");
+        friction->history.rollback();
+    });
+}
+
+int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide, double* force, double* stick_separation) {
+    return guarded(3, [&] {
+        const rsc::FrictionHistory& history = contact_of(friction);
+        if (n < 0) refuse(2, "n", "must not be negative");
+        if (n == 0) return;
+        require_finite(slide, n, 3, "slide");
+        require(force, 4, "force");
+        with_levels(*friction, [&] {
+            const auto points = rsc::slide_to(friction->curve, history.friction(), history.approach(), {slide, slide + n});
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                force[k] = points[k].force;
+                if (stick_separation) stick_separation[k] = -points[k].stick_approach;
+            }
+        });
+    });
+}
+
+int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide) {
+    return guarded(2, [&] {
+        const rsc::FrictionHistory& history = contact_of(friction);
+        require_finite(force, 2, "force");
+        require(slide, 3, "slide");
+        with_levels(*friction,
+                    [&] { put(slide, rsc::slide_at_force(friction->curve, history.friction(), history.approach(), force).displacement); });
+    });
+}
+
+int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force) {
+    return guarded(0, [&] {
+        const rsc::FrictionHistory& history = contact_of(friction);
+        put(slide, rsc::full_slip(friction->curve, history.friction(), history.approach()));
+        put(force, history.friction().coefficient * history.force());
+    });
+}
+
+int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius, double* stick_radius,
+                           double* force_x, double* force_y) {
+    return guarded(0, [&] {
+        const rsc::FrictionHistory& history = path_of(friction);
+        with_levels(*friction, [&] {
+            const auto spots = rsc::slip_of_spots(friction->curve, history);
+            put(count, spots.size());
+            if (n < static_cast<int64_t>(spots.size()))
+                refuse(2, "n", ("must be at least the number of spots, " + std::to_string(spots.size())).c_str());
+            for (std::size_t k = 0; k < spots.size(); ++k) {
+                if (asperity) asperity[k] = spots[k].asperity;
+                if (radius) radius[k] = spots[k].radius;
+                if (stick_radius) stick_radius[k] = spots[k].stick_radius;
+                if (force_x) force_x[k] = spots[k].force.x;
+                if (force_y) force_y[k] = spots[k].force.y;
+            }
+        });
+    });
+}
+
+}  // extern "C"
