@@ -1,5 +1,6 @@
 #include "case/units.hpp"
 
+#include <cctype>
 #include <clocale>
 #include <cstdio>
 #include <cstdlib>
@@ -110,6 +111,24 @@ double length_factor(const std::string& from, const std::string& to, int power) 
     const double factor = unit && raised ? factor_between(unit, raised) : 0;
     if (factor == 0) throw Error(Failure::bad_input, "'" + a + "' where a unit like (" + b + ")" + std::to_string(power) + " is expected");
     return factor;
+}
+
+std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit, int force_power) {
+    std::string text;
+    const auto factor = [&text](const std::string& unit, int power) {
+        if (power == 0 || unit.empty() || unit == "1") return;
+        bool plain = true;
+        for (char c : unit)
+            plain = plain && (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || static_cast<unsigned char>(c) >= 0x80);
+        if (!text.empty()) text += ' ';
+        text += plain ? unit : "(" + unit + ")";
+        if (power != 1) text += std::to_string(power);
+    };
+    // A positive power comes first: "N mm-2", "mm2 N-1".
+    if (force_power > 0) factor(force_unit, force_power);
+    factor(length_unit, length_power);
+    if (force_power < 0) factor(force_unit, force_power);
+    return text.empty() ? "1" : text;
 }
 
 }  // namespace rsc

@@ -16,4 +16,8 @@ std::string unit_problem(const std::string& text, Quantity quantity);
 // Error(bad_input) saying which of the two is wrong; it names no file: the caller does.
 double length_factor(const std::string& from, const std::string& to, int power = 1);
 
+// A unit in the spelling of UDUNITS: powers of a length and a force unit, unit_of("mm", -2, "N", 1) is "N mm-2"; "1" if both
+// powers are 0. A unit that is more than a plain name is put in parentheses.
+std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit = "", int force_power = 0);
+
 }  // namespace rsc

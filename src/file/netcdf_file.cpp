@@ -236,11 +236,6 @@ fs::path existing_ancestor(fs::path folder) {
 
 }  // namespace
 
-std::mutex& netcdf_mutex() {
-    static std::mutex mutex;
-    return mutex;
-}
-
 void NetcdfFile::dimension(const std::string& name, std::size_t length) { dimensions_.emplace_back(name, length); }
 
 bool NetcdfFile::has_dimension(const std::string& name) const {

@@ -3,18 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "case/case.hpp"
+#include "read/netcdf_library.hpp"
 
 namespace rsc {
-
-// NetCDF and HDF5 are not safe to call from several threads: whoever calls them holds this.
-std::mutex& netcdf_mutex();
 
 using NetcdfAttribute = std::variant<std::string, std::vector<double>, std::vector<std::int32_t>>;
 using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;

@@ -185,18 +185,11 @@ void ResultTable::asperities() {
     const Asperities& a = r_.asperities;
     if (a.size() == 0) return;
     file_.dimension("asperity", a.size());
-    const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
-                            const std::vector<double>& values) {
-        if (!values.empty()) add(name, {"asperity"}, units, long_name, values);
-    };
-    column("asperity_x", unit(1), "x of the summit", a.x);
-    column("asperity_y", unit(1), "y of the summit", a.y);
-    column("asperity_z", unit(1), "height of the summit", a.z);
-    column("asperity_radius", unit(1), "radius of the asperity", a.radius);
-    column("asperity_kappa1", unit(-1), "larger principal curvature, positive for a peak", a.kappa1);
-    column("asperity_kappa2", unit(-1), "smaller principal curvature, positive for a peak", a.kappa2);
-    column("asperity_angle", "radian", "direction of the axis of kappa2, the long axis of the contact ellipse, from x", a.angle);
-    column("asperity_biharmonic", unit(-3), "biharmonic of the height at the summit, nabla^4 z", a.biharmonic);
+    for (const AsperityColumn& column : kAsperityColumns) {
+        const std::vector<double>& values = a.*column.values;
+        const std::string units = column.length_power == 0 ? "radian" : unit(column.length_power);
+        if (!values.empty()) add("asperity_" + std::string(column.name), {"asperity"}, units, column.meaning, values);
+    }
 }
 
 void ResultTable::contacts() {

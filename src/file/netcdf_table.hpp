@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "file/netcdf_writer.hpp"
+#include "case/units.hpp"
+#include "file/netcdf_file.hpp"
+#include "file/result.hpp"
 
 namespace rsc {
 

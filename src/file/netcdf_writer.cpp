@@ -1,6 +1,5 @@
 #include "file/netcdf_writer.hpp"
 
-#include <cctype>
 #include <cstdlib>
 #include <ctime>
 
@@ -25,24 +24,6 @@ std::string date() {
 }
 
 }  // namespace
-
-std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit, int force_power) {
-    std::string text;
-    const auto factor = [&text](const std::string& unit, int power) {
-        if (power == 0 || unit.empty() || unit == "1") return;
-        bool plain = true;
-        for (char c : unit)
-            plain = plain && (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || static_cast<unsigned char>(c) >= 0x80);
-        if (!text.empty()) text += ' ';
-        text += plain ? unit : "(" + unit + ")";
-        if (power != 1) text += std::to_string(power);
-    };
-    // A positive power comes first: "N mm-2", "mm2 N-1".
-    if (force_power > 0) factor(force_unit, force_power);
-    factor(length_unit, length_power);
-    if (force_power < 0) factor(force_unit, force_power);
-    return text.empty() ? "1" : text;
-}
 
 std::string history_text(const std::string& command) { return date() + " " + (command.empty() ? "rsc " RSC_VERSION : command); }
 

@@ -24,8 +24,4 @@ void write_result(const Result& result, const std::string& path, const WriteOpti
 // The attribute `history`: the date and the command, or the version where there is none.
 std::string history_text(const std::string& command);
 
-// A unit in the spelling of UDUNITS: powers of a length and a force unit, unit_of("mm", -2, "N", 1) is "N mm-2"; "1" if both
-// powers are 0. A unit that is more than a plain name is put in parentheses.
-std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit = "", int force_power = 0);
-
 }  // namespace rsc

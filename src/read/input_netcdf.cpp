@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "error.hpp"
-#include "file/netcdf_file.hpp"
 #include "read/input_classic.hpp"
+#include "read/netcdf_library.hpp"
 
 namespace rsc {
 namespace {

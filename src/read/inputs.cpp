@@ -264,7 +264,7 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
     const NetcdfInput file(path);
     Asperities a;
     std::optional<std::size_t> size;
-    const auto take = [&](const char* name, std::vector<double>& values, int power, bool required = true) {
+    const auto take = [&](const std::string& name, std::vector<double>& values, int power, bool required = true) {
         const auto v = file.find(name);
         if (!v && !required) return;
         if (!v) refuse(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
@@ -284,16 +284,13 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
         if (factor != 1)
             for (double& value : values) value *= factor;
     };
-    take("asperity_x", a.x, 1);
-    take("asperity_y", a.y, 1);
-    take("asperity_z", a.z, 1);
-    take("asperity_radius", a.radius, 1);
-    if (file.find("asperity_kappa1") && file.find("asperity_kappa2") && file.find("asperity_angle")) {
-        take("asperity_kappa1", a.kappa1, -1);
-        take("asperity_kappa2", a.kappa2, -1);
-        take("asperity_angle", a.angle, 0);
+    const bool curvatures = file.find("asperity_kappa1") && file.find("asperity_kappa2") && file.find("asperity_angle");
+    for (const AsperityColumn& column : kAsperityColumns) {
+        const bool of_curvatures =
+            column.values == &Asperities::kappa1 || column.values == &Asperities::kappa2 || column.values == &Asperities::angle;
+        if (of_curvatures && !curvatures) continue;
+        take("asperity_" + std::string(column.name), a.*column.values, column.length_power, column.required || of_curvatures);
     }
-    take("asperity_biharmonic", a.biharmonic, -3, false);
     if (a.size() == 0) refuse(path + ": there is no asperity in it");
     validate(a, [&](std::size_t i) { return path + ": asperity " + std::to_string(i) + ", counted from 0"; });
     return a;

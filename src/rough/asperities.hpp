@@ -1,14 +1,11 @@
-// Asperities: the summits of a height map with their curvatures (paper, section 3).
+// Asperities: summits with their curvatures (paper, section 3).
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
-
-#include "rough/surface.hpp"
 
 namespace rsc {
 
@@ -25,49 +22,28 @@ struct Asperities {
     std::size_t size() const { return x.size(); }
 };
 
+// The columns of Asperities, for whoever goes through all of them.
+struct AsperityColumn {
+    const char* name;
+    std::vector<double> Asperities::*values;
+    bool required;     // otherwise it may be empty
+    int length_power;  // of its unit; the angle is in radian
+    const char* meaning;
+};
+inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
+    {"x", &Asperities::x, true, 1, "x of the summit"},
+    {"y", &Asperities::y, true, 1, "y of the summit"},
+    {"z", &Asperities::z, true, 1, "height of the summit"},
+    {"radius", &Asperities::radius, true, 1, "radius of the asperity"},
+    {"kappa1", &Asperities::kappa1, false, -1, "larger principal curvature, positive for a peak"},
+    {"kappa2", &Asperities::kappa2, false, -1, "smaller principal curvature, positive for a peak"},
+    {"angle", &Asperities::angle, false, 0, "direction of the axis of kappa2, the long axis of the contact ellipse, from x"},
+    {"biharmonic", &Asperities::biharmonic, false, -3, "biharmonic of the height at the summit, nabla^4 z"},
+}};
+
 // Asperities that come from outside: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
 // one length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at
 // the same (x, y). `name(i)` says in the message which one is meant.
 void validate(const Asperities& asperities, const std::function<std::string(std::size_t)>& name);
-
-// What a summit is taken from.
-enum class Detail {
-    grid,     // the grid point and second differences (the paper): enough for Hertz asperities
-    subgrid,  // the summit between the points, its derivatives by long stencils, the biharmonic with them
-};
-
-// What was counted on the way.
-struct SummitCount {
-    long summits = 0;         // asperities kept
-    long saddles = 0;         // grid maxima that are no summits: saddles by their curvatures, or none in reach; not kept
-    long repeated = 0;        // Detail::subgrid: grid maxima that lead to a summit which another one leads to; not kept
-    double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
-    double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
-};
-
-// Summits: grid points strictly above their 8 neighbours. Curvatures from second differences. Periodic maps wrap around,
-// others give interior points only. Order: row by row (y, then x). x, y are those of the grid point; radius = 1/kappa_g or
-// 1/kappa_a. Neither the result nor the means depend on `threads`, to the last bit.
-//
-// Detail::subgrid: the summits of the surface that Newton's method reaches from those points and from those whose second differences
-// promise one within a step, in the order of these points; periodic x, y lie in the map. points_per_wave >= 4 says that the map
-// holds no wave shorter than so many grid steps (Error(bad_input) for less): errors are then some 1e-8 of the derivatives' rms
-// values, and a summit is the same on every grid that finds it; one beside a higher one may be missed (one in 170 with 4 points in
-// lambda_s, one in some thousands with 8). 0: nothing is known, as of a measured map; Lagrange polynomials through
-// kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
-// 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
-// on top. A map that is not periodic gives interior points only by as much as the stencil reaches.
-Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, double points_per_wave = 0);
-inline constexpr int kMeasuredReach = 6;
-
-// The asperities of a synthetic surface, found while it is being made: the very same as find_asperities(synthesize(...)), bit
-// for bit, in less time, and in half the memory of the surface, which is never stored. Errors as synthesize().
-// Detail::subgrid on fewer than 4 points in lambda_s works on the next multiple of n that has them: the surface is the same on
-// both. `differences` (optional) receives the moments that finite differences on the n x n grid give, exact sums over the modes:
-// those of grid_moments(synthesize(...)).
-Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                           Curvature curvature, SummitCount* count = nullptr, Moments* sampled = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, Moments* differences = nullptr);
 
 }  // namespace rsc

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "error.hpp"
+#include "rough/detection.hpp"
 
 namespace rsc {
 namespace {
@@ -187,11 +188,11 @@ void drop_near_filled(Asperities& a, SummitCount& count, const HeightMap& map, c
         if (near(a.x[k], a.y[k])) continue;
         sum_g += std::sqrt(a.kappa1[k] * a.kappa2[k]);
         sum_a += 0.5 * (a.kappa1[k] + a.kappa2[k]);
-        for (auto* values : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic}) move(*values, k);
+        for (const AsperityColumn& column : kAsperityColumns) move(a.*column.values, k);
         ++kept;
     }
-    for (auto* values : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic})
-        if (!values->empty()) values->resize(kept);
+    for (const AsperityColumn& column : kAsperityColumns)
+        if (!(a.*column.values).empty()) (a.*column.values).resize(kept);
     const double n = kept > 0 ? static_cast<double>(kept) : 1.0;
     count.summits = static_cast<long>(kept);
     count.mean_kappa_g = sum_g / n;

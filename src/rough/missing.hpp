@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rough/asperities.hpp"
+#include "rough/detection.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {

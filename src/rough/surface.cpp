@@ -6,10 +6,15 @@
 #include <string>
 
 #include "error.hpp"
-#include "rough/synthesis.hpp"
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace rsc {
 namespace {
+
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 // A mean over points of a map: sums over a row are added up, short partial sums lose little to rounding. NaN is left out.
 class Mean {
@@ -34,6 +39,26 @@ private:
 
 }  // namespace
 
+double* allocate_doubles(std::size_t n, const char* purpose) {
+    // The system may promise memory that it does not have; more than a pointer can span it cannot even promise.
+    constexpr std::size_t kMost = std::size_t{1} << 44;
+    void* p = nullptr;
+    if (n < kMost) {
+        const std::size_t bytes = std::max<std::size_t>(n, 1) * sizeof(double);
+        const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : 64;
+        p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+#if defined(__linux__)
+        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // advice only: failure costs time, nothing else
+#endif
+    }
+    if (!p) {
+        const double megabytes = static_cast<double>(n) * sizeof(double) / 1048576.0;
+        throw Error(Failure::no_memory,
+                    "no memory for " + std::string(purpose) + ": " + std::to_string(std::llround(megabytes)) + " MB asked for");
+    }
+    return static_cast<double*>(p);
+}
+
 void HeightMap::Free::operator()(double* p) const noexcept { std::free(p); }
 
 void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
@@ -46,26 +71,6 @@ void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
     nx = nx_;
     ny = ny_;
     stride = stride_;
-}
-
-HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, Moments* sampled,
-                     int threads) {
-    threads = std::max(threads, 1);
-    const RowSource source(spectrum, n, normalise, seed, realization, threads);
-    HeightMap map;
-    map.allocate(n, n, (n + 7) / 8 * 8 + 8);  // rows aligned to 64 bytes, and not a power of two apart
-    map.dx = map.dy = spectrum.L / n;
-    map.periodic = true;
-    std::vector<RowSource::Scratch> scratch;
-    for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-    for (int t = 0; t < threads; ++t) {
-        const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / threads); };
-        const int first = bound(t), last = bound(t + 1);
-        if (first < last) source.rows(first, last - first, map.row(first), map.stride, scratch[static_cast<std::size_t>(t)]);
-    }
-    if (sampled) *sampled = source.sampled();
-    return map;
 }
 
 Moments grid_moments(const HeightMap& map) {

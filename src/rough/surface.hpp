@@ -10,6 +10,9 @@
 
 namespace rsc {
 
+// Aligned memory for n doubles, in huge pages where the system has them; throws Error(no_memory) saying what it was for.
+double* allocate_doubles(std::size_t n, const char* purpose);
+
 // Heights on a regular rectangular grid: point (i, j) is at x = i dx, y = j dy (+ origin), value z(i, j) = data[j*stride + i].
 // A point is a cell: the map covers nx*dx by ny*dy. stride >= nx leaves room for the padding of an in-place transform.
 struct HeightMap {
@@ -34,14 +37,6 @@ struct HeightMap {
 
 enum class Normalise { sample, ensemble };
 inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
-
-// Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
-// integer wavevector) alone, so that the surface is the same on every grid that holds its modes: L_lambda_s <= n/2, or
-// Error(bad_input). The rms height is sigma: of this surface over its points (sample), or in expectation (ensemble).
-// `sampled` (optional) receives the isotropic moments summed exactly over the modes drawn. The bits do not depend on `threads`.
-// make_asperities() of asperities.hpp finds the summits of the same surface without ever storing it.
-HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                     Moments* sampled = nullptr, int threads = 1);
 
 // Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): beside the spectral ones they
 // say how well the grid resolves lambda_s. First differences between neighbours give m20, m02; second differences m40, m04, m22.

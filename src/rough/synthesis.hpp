@@ -14,9 +14,6 @@
 
 namespace rsc {
 
-// Aligned memory for n doubles, in huge pages where the system has them; throws Error(no_memory) saying what it was for.
-double* allocate_doubles(std::size_t n, const char* purpose);
-
 class RowSource {
 public:
     // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is sound, n even and
@@ -58,5 +55,13 @@ private:
     Moments sampled_, differences_;
     FftwPlan row_plan_;
 };
+
+// Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
+// integer wavevector) alone, so that the surface is the same on every grid that holds its modes: L_lambda_s <= n/2, or
+// Error(bad_input). The rms height is sigma: of this surface over its points (sample), or in expectation (ensemble).
+// `sampled` (optional) receives the isotropic moments summed exactly over the modes drawn. The bits do not depend on `threads`.
+// make_asperities() of asperities.hpp finds the summits of the same surface without ever storing it.
+HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
+                     Moments* sampled = nullptr, int threads = 1);
 
 }  // namespace rsc

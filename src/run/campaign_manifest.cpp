@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "case/registry.hpp"
+#include "case/units.hpp"
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
 #include "file/netcdf_writer.hpp"

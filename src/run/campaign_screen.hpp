@@ -6,7 +6,7 @@
 
 #include "observe/record.hpp"
 #include "run/job.hpp"
-#include "run/run.hpp"
+#include "run/run_options.hpp"
 
 namespace rsc {
 

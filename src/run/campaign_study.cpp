@@ -16,6 +16,7 @@
 #include "run/checkpoint.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "run/single.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;

@@ -10,7 +10,7 @@
 #include "case/study.hpp"
 #include "run/campaign_team.hpp"
 #include "run/campaign_work.hpp"
-#include "run/run.hpp"
+#include "run/run_options.hpp"
 
 namespace rsc {
 

@@ -6,6 +6,7 @@
 #include "error.hpp"
 #include "run/campaign_archive.hpp"
 #include "run/signals.hpp"
+#include "run/single.hpp"
 
 namespace rsc {
 

@@ -11,7 +11,7 @@
 #include "case/case.hpp"
 #include "run/campaign_team.hpp"
 #include "run/job.hpp"
-#include "run/run.hpp"
+#include "run/run_options.hpp"
 
 namespace rsc {
 

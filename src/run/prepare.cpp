@@ -8,6 +8,8 @@
 #include "contact/law/law.hpp"
 #include "error.hpp"
 #include "read/inputs.hpp"
+#include "rough/detection.hpp"
+#include "rough/synthesis.hpp"
 
 namespace rsc {
 namespace {

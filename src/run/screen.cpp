@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "file/netcdf_writer.hpp"
+#include "case/units.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 

@@ -18,7 +18,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/spots.hpp"
-#include "rough/asperities.hpp"
+#include "rough/detection.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 

@@ -15,6 +15,7 @@
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/equivalent.hpp"
+#include "rough/detection.hpp"
 
 using namespace rsc;
 

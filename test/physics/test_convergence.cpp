@@ -8,7 +8,7 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
-#include "rough/asperities.hpp"
+#include "rough/detection.hpp"
 
 using namespace rsc;
 

@@ -10,6 +10,7 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
+#include "rough/detection.hpp"
 
 using namespace rsc;
 

@@ -1,5 +1,6 @@
 // Summits against brute force and against the theory of Gaussian surfaces.
-#include "rough/asperities.hpp"
+#include "rough/detection.hpp"
+#include "rough/synthesis.hpp"
 
 #include <algorithm>
 #include <array>

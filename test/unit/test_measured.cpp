@@ -7,8 +7,10 @@
 
 #include "check.hpp"
 #include "error.hpp"
+#include "rough/detection.hpp"
 #include "rough/filter.hpp"
 #include "rough/missing.hpp"
+#include "rough/synthesis.hpp"
 
 using namespace rsc;
 

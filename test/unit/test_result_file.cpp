@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "case/units.hpp"
 #include "check.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"

@@ -9,8 +9,9 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "rough/asperities.hpp"
+#include "rough/detection.hpp"
 #include "rough/modes.hpp"
+#include "rough/synthesis.hpp"
 
 using namespace rsc;
 

@@ -1,5 +1,6 @@
 // Synthetic surfaces against a slow sum of cosines, and their invariances: grid, band, threads, normalisation.
 #include "rough/surface.hpp"
+#include "rough/synthesis.hpp"
 
 #include <complex>
 #include <cstring>

@@ -1,0 +1,11 @@
+// The NetCDF library as all of rsc uses it.
+#pragma once
+
+#include <mutex>
+
+namespace rsc {
+
+// NetCDF and HDF5 are not safe to call from several threads: whoever calls them holds this.
+std::mutex& netcdf_mutex();
+
+}  // namespace rsc

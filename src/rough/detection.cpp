@@ -1,0 +1,167 @@
+#include "rough/detection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <numeric>
+#include <tuple>
+
+#include "error.hpp"
+#include "rough/magnitude.hpp"
+#include "rough/subgrid.hpp"
+#include "rough/summits.hpp"
+#include "rough/synthesis.hpp"
+
+namespace rsc {
+namespace {
+
+// What one thread found in its rows; `found` or `refined`, as the detail is.
+struct Part {
+    Asperities found;
+    long saddles = 0;
+    RefinedSummits refined;
+};
+
+void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+// The means are summed over the whole, so that they do not depend on where it was cut.
+SummitCount counted(const Asperities& all, long saddles, long repeated) {
+    double sum_g = 0, sum_a = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        sum_g += std::sqrt(all.kappa1[i] * all.kappa2[i]);
+        sum_a += 0.5 * (all.kappa1[i] + all.kappa2[i]);
+    }
+    const double n = all.size() > 0 ? static_cast<double>(all.size()) : 1.0;
+    return {static_cast<long>(all.size()), saddles, repeated, sum_g / n, sum_a / n};
+}
+
+// The parts in order as one.
+Asperities join(std::vector<Part>& parts, SummitCount* count) {
+    Asperities all = std::move(parts[0].found);
+    long saddles = parts[0].saddles;
+    for (std::size_t t = 1; t < parts.size(); ++t) {
+        for (const AsperityColumn& column : kAsperityColumns) append(all.*column.values, parts[t].found.*column.values);
+        saddles += parts[t].saddles;
+    }
+    if (count) *count = counted(all, saddles, 0);
+    return all;
+}
+
+Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic, SummitCount* count) {
+    RefinedSummits all = std::move(parts[0].refined);
+    for (std::size_t t = 1; t < parts.size(); ++t) all.append(parts[t].refined);
+    const long repeated = drop_repeated(all, nx, ny, periodic);
+    if (count) *count = counted(all.found, all.saddles, repeated);
+    return std::move(all.found);
+}
+
+// Runs part(t, first, last) on each of `threads` shares of the rows 0 ... rows - 1; an exception of one comes out of here.
+void share_rows(int rows, int threads, const std::function<void(int, int, int)>& part) {
+    std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(threads));
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int t = 0; t < threads; ++t) {
+        const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / threads); };
+        try {
+            if (bound(t) < bound(t + 1)) part(t, bound(t), bound(t + 1));
+        } catch (...) {
+            thrown[static_cast<std::size_t>(t)] = std::current_exception();
+        }
+    }
+    for (const auto& e : thrown)
+        if (e) std::rethrow_exception(e);
+}
+
+// Makes the rows first - margin ... last - 1 + margin on the way and calls visit(j, z, stride) for the rows j = first ... last - 1,
+// z being the row: margin rows lie at either side of it, stride apart.
+template <class Visit>
+void visit_while_making(const RowSource& source, int margin, int rows_held, int first, int last, Visit visit) {
+    const int n = source.n();
+    const std::ptrdiff_t stride = (n + 7) / 8 * 8 + 8;
+    const std::unique_ptr<double[], HeightMap::Free> window(
+        allocate_doubles(static_cast<std::size_t>(rows_held * stride), "rows of a synthetic surface"));
+    RowSource::Scratch scratch(source);
+    int held = 0;               // rows in the window, of which the first is row next - held
+    int next = first - margin;  // the row to make next
+    while (next <= last - 1 + margin) {
+        const int made = std::min(rows_held - held, last + margin - next);
+        source.rows(next, made, window.get() + held * stride, stride, scratch);
+        next += made;
+        held += made;
+        for (int k = margin; k + margin < held; ++k) visit(next - held + k, window.get() + k * stride, stride);
+        const int kept = std::min(held, 2 * margin);
+        std::copy_n(window.get() + (held - kept) * stride, kept * stride, window.get());
+        held = kept;
+    }
+}
+
+}  // namespace
+
+Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
+                           double points_per_wave) {
+    const bool refined = detail == Detail::subgrid;
+    const Stencil stencil = refined && points_per_wave != 0 ? Stencil::band_limited(points_per_wave) : Stencil::polynomial(kMeasuredReach);
+    const int edge = map.periodic ? 0 : 1;
+    const int rows = map.ny - 2 * edge;
+    threads = std::clamp(threads, 1, std::max(rows, 1));
+    std::vector<Part> parts(static_cast<std::size_t>(threads));
+    share_rows(rows, threads, [&](int t, int first, int last) {
+        RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
+        Part& part = parts[static_cast<std::size_t>(t)];
+        SummitClimber climber(stencil, place, map.ny, map.y0, curvature);
+        for (int j = first + edge; j < last + edge; ++j) {
+            const auto row = [&](int d) -> const double* {
+                if (map.periodic) return map.row(((j + d) % map.ny + map.ny) % map.ny);
+                return j + d >= 0 && j + d < map.ny ? map.row(j + d) : nullptr;
+            };
+            if (refined) {
+                climber.climb(j, row, part.refined);
+                continue;
+            }
+            place.y = map.y0 + j * map.dy;
+            part.saddles += append_summits(place, row(-1), row(0), row(1), curvature, part.found);
+        }
+    });
+    return refined ? join_refined(parts, map.nx, map.ny, map.periodic, count) : join(parts, count);
+}
+
+Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
+                           Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences) {
+    threads = std::max(threads, 1);
+    const bool refined = detail == Detail::subgrid;
+    int fine = n;
+    // An n that is refused is refused by RowSource, in its words.
+    if (refined && n >= 2 && n % 2 == 0 && 2 * spectrum.L_lambda_s <= n)
+        while (fine < 4 * spectrum.L_lambda_s * (1 - 1e-12)) fine += n;
+    const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
+    threads = std::min(threads, fine);
+    std::vector<Part> parts(static_cast<std::size_t>(threads));
+    const double step = spectrum.L / fine;
+    if (sampled) *sampled = source.sampled();
+    if (differences) *differences = source.differences();
+    if (refined) {
+        const Stencil stencil = Stencil::band_limited(fine / spectrum.L_lambda_s);
+        share_rows(fine, threads, [&](int t, int first, int last) {
+            SummitClimber climber(stencil, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature);
+            // Twice the rows kept from one filling of the window to the next: moving them costs little then.
+            const int held = 4 * climber.margin() + RowSource::kBlock;
+            visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
+                climber.climb(
+                    j, [&](int d) { return z + d * stride; }, parts[static_cast<std::size_t>(t)].refined);
+            });
+        });
+        return join_refined(parts, fine, fine, true, count);
+    }
+    share_rows(n, threads, [&](int t, int first, int last) {
+        RowPlace place{n, 0.0, step, step, 0.0, true};
+        Part& part = parts[static_cast<std::size_t>(t)];
+        visit_while_making(source, 1, RowSource::kBlock + 2, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
+            place.y = j * step;
+            part.saddles += append_summits(place, z - stride, z, z + stride, curvature, part.found);
+        });
+    });
+    return join(parts, count);
+}
+
+}  // namespace rsc

@@ -1,0 +1,51 @@
+// Finding asperities: the summits of a height map with their curvatures (paper, section 3).
+#pragma once
+
+#include <cstdint>
+
+#include "rough/asperities.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+// What a summit is taken from.
+enum class Detail {
+    grid,     // the grid point and second differences (the paper): enough for Hertz asperities
+    subgrid,  // the summit between the points, its derivatives by long stencils, the biharmonic with them
+};
+
+// What was counted on the way.
+struct SummitCount {
+    long summits = 0;         // asperities kept
+    long saddles = 0;         // grid maxima that are no summits: saddles by their curvatures, or none in reach; not kept
+    long repeated = 0;        // Detail::subgrid: grid maxima that lead to a summit which another one leads to; not kept
+    double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
+    double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
+};
+
+// Summits: grid points strictly above their 8 neighbours. Curvatures from second differences. Periodic maps wrap around,
+// others give interior points only. Order: row by row (y, then x). x, y are those of the grid point; radius = 1/kappa_g or
+// 1/kappa_a. Neither the result nor the means depend on `threads`, to the last bit.
+//
+// Detail::subgrid: the summits of the surface that Newton's method reaches from those points and from those whose second differences
+// promise one within a step, in the order of these points; periodic x, y lie in the map. points_per_wave >= 4 says that the map
+// holds no wave shorter than so many grid steps (Error(bad_input) for less): errors are then some 1e-8 of the derivatives' rms
+// values, and a summit is the same on every grid that finds it; one beside a higher one may be missed (one in 170 with 4 points in
+// lambda_s, one in some thousands with 8). 0: nothing is known, as of a measured map; Lagrange polynomials through
+// kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
+// 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
+// on top. A map that is not periodic gives interior points only by as much as the stencil reaches.
+Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
+                           Detail detail = Detail::grid, double points_per_wave = 0);
+inline constexpr int kMeasuredReach = 6;
+
+// The asperities of a synthetic surface, found while it is being made: the very same as find_asperities(synthesize(...)), bit
+// for bit, in less time, and in half the memory of the surface, which is never stored. Errors as synthesize().
+// Detail::subgrid on fewer than 4 points in lambda_s works on the next multiple of n that has them: the surface is the same on
+// both. `differences` (optional) receives the moments that finite differences on the n x n grid give, exact sums over the modes:
+// those of grid_moments(synthesize(...)).
+Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
+                           Curvature curvature, SummitCount* count = nullptr, Moments* sampled = nullptr, int threads = 1,
+                           Detail detail = Detail::grid, Moments* differences = nullptr);
+
+}  // namespace rsc

@@ -1,0 +1,39 @@
+// What is common to every way of running a case: what the caller wants to see, and what a run comes to.
+#pragma once
+
+#include <atomic>
+#include <ostream>
+#include <string>
+
+#include "case/case.hpp"
+#include "case/options.hpp"
+
+namespace rsc {
+
+struct RunOptions {
+    std::string command;  // for the history attribute
+    Progress progress = Progress::never;
+    bool quiet = false;                            // no table; the summary's warnings and failures are still told on `messages`
+    bool resume = false;                           // a campaign: go on with what an interrupted run left
+    std::ostream* table = nullptr;                 // the level table and the summary; null: none
+    std::ostream* messages = nullptr;              // warnings, progress; null: none
+    const std::atomic<bool>* abandoned = nullptr;  // once true the run ends at the next level, with Interrupted
+};
+
+// What a run comes to.
+struct RunSummary {
+    long levels = 0, failed = 0;  // of all realizations; failed: did not converge
+    double separation = 0;        // of the last level; its means over the realizations:
+    double force = 0, area = 0;
+};
+
+// The effective namelist as it stands in a result file: that of the case but for run%threads, which touches nothing in the file.
+std::string case_text(const Case& settings);
+
+// Whether a progress line is wanted, and the stream for it or null.
+std::ostream* progress_stream(const RunOptions& options, bool& terminal);
+
+// Tells `messages` about levels that did not converge.
+void tell_failed(const RunOptions& options, const RunSummary& summary);
+
+}  // namespace rsc
