@@ -190,6 +190,130 @@ void stiffness_and_force_control() {
     }
 }
 
+// The paper's r0 = 1.5 sqrt(2 (4 sigma - Z0) R) to the digit: an asperity just inside is a candidate, one just outside is none.
+void selection_radius() {
+    SolverOptions o = options(Method::direct, 1e-12);
+    o.selection = Selection::paper;
+    for (double Z0 : {0.02, 0.0, -0.03}) {
+        const double r0 = 1.5 * std::sqrt(2 * (4 * o.sigma - Z0) * 2.5);
+        for (double turn : {0.0, 0.7, 2.0}) {
+            Asperities a;
+            for (double part : {1 - 1e-9, 1 + 1e-9}) {
+                a.x.push_back(0.5 + part * r0 * std::cos(turn)), a.y.push_back(0.5 + part * r0 * std::sin(turn));
+                a.z.push_back(1), a.radius.push_back(1e-3);
+            }
+            const Level level = press(a, Z0, o);
+            CHECK(level.candidates == 1);
+            CHECK(level.asperity == std::vector<int>{0});
+        }
+    }
+}
+
+// A contact whose tip was moved is the contact at that place, along x and along y.
+void moved_tip() {
+    const Asperities a = random_asperities(400, 0.012, 0.01, 5e-4, 0.5, 7);
+    const SolverOptions o = options(Method::direct, 1e-12);
+    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, o);
+    const double before = contact.at_separation(0.002).force;
+    for (const auto& [x0, y0] : {std::pair{0.43, 0.61}, {0.43, 0.39}, {0.62, 0.39}, {0.5, 0.5}}) {
+        contact.move_tip(x0, y0);
+        const Level there = press(a, 0.002, o, 2.5, x0, y0), moved = contact.at_separation(0.002);
+        CHECK_RELATIVE(moved.force, there.force, 1e-9);
+        CHECK(moved.asperity == there.asperity);
+        CHECK(contact.first_touch() == AsperityContact(a, {kE, 2.5, x0, y0}, o).first_touch());
+    }
+    CHECK_RELATIVE(contact.at_separation(0.002).force, before, 1e-9);
+    contact.move_tip(0.5, 0.61);
+    CHECK(std::abs(contact.at_separation(0.002).force / before - 1) > 1e-3);
+}
+
+// Contacts that are large, pairs that overlap, contacts beyond their law: counted one by one from what the level holds.
+void counts_are_counts() {
+    for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
+        Asperities a = random_asperities(500, 0.0, 0.01, 5e-2, 0.7, 8);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            const double stretch = 1 + static_cast<double>(i % 4);
+            a.kappa1.push_back(stretch / a.radius[i]);
+            a.kappa2.push_back(1 / (stretch * a.radius[i]));
+            a.angle.push_back(0.1 * static_cast<double>(i));
+            a.biharmonic.push_back(static_cast<double>(i % 3) * 3e4 * (a.kappa1[i] + a.kappa2[i]));
+        }
+        SolverOptions o = options(Method::direct, 1e-9);
+        o.law = law;
+        o.mean_spacing = 0.03;
+        const Level level = press(a, 0.002, o, 1e4);
+        long large = 0, pairs = 0;
+        for (std::size_t k = 0; k < level.a.size(); ++k) {
+            const auto i = static_cast<std::size_t>(level.asperity[k]);
+            large += level.a[k] > 0.03 / 4;
+            for (std::size_t l = 0; l < k; ++l) {
+                const auto j = static_cast<std::size_t>(level.asperity[l]);
+                pairs += std::hypot(a.x[i] - a.x[j], a.y[i] - a.y[j]) < level.a[k] + level.a[l];
+            }
+        }
+        CHECK(large > 0 && large < static_cast<long>(level.a.size()) && level.large_contacts == large);
+        CHECK(pairs > 0 && level.overlapping_pairs == pairs);
+        CHECK(level.status >= LevelStatus::overlapping);
+        CHECK((level.beyond_law > 0) == (law == LawKind::fourth_order));
+    }
+    // Alone on a flat: q a = pi at u = 2 A = 4/(R q^2) of a round summit; just before it the law holds, just after it is told.
+    const double R = 1e-3, q2 = 1e8, last = 4 / (R * q2);
+    Asperities one;
+    one.x = {0.5}, one.y = {0.5}, one.z = {0}, one.radius = {R}, one.kappa1 = {1 / R}, one.kappa2 = {1 / R}, one.angle = {0};
+    one.biharmonic = {2 * q2 / R};
+    SolverOptions o = options(Method::direct, 1e-12);
+    o.law = LawKind::fourth_order;
+    for (double part : {1 - 1e-9, 1 + 1e-9}) {
+        const Level level = press(one, -part * last, o, kFlat);
+        CHECK(level.beyond_law == (part > 1) && level.status == (part > 1 ? LevelStatus::out_of_validity : LevelStatus::converged));
+        CHECK_RELATIVE(level.a.at(0), std::numbers::pi / std::sqrt(q2), 1e-4);
+    }
+}
+
+// Two asperities so close that only one can carry: the one that the descending sphere meets first keeps the other out, whichever
+// would carry more. So it is from the first touch on, and so it is for a level alone.
+void of_two_the_first_met_carries() {
+    for (double lower : {0.7, 0.8, 0.9}) {
+        for (double larger : {0.3, 1.0, 4.0}) {
+            const double r = 1e-2, g = 0.01;
+            Asperities a;
+            a.x = {0.5, 0.5005}, a.y = {0.5, 0.5}, a.z = {lower * g, g}, a.radius = {larger * r, r};
+            for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
+                const Level level = press(a, 0.0, options(method, 1e-10), kFlat);
+                CHECK(level.status == LevelStatus::not_unique);
+                CHECK(level.asperity == std::vector<int>{1});
+                CHECK_RELATIVE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-9);
+            }
+        }
+    }
+}
+
+// The residual a level states is the true one, and within the tolerance, for the mesh with its approximate products, too.
+void stated_residuals_are_true() {
+    const Asperities a = random_asperities(5000, 0.004, 0.01, 2e-4, 0.5, 9);
+    const double Z0 = -0.005;
+    for (double tolerance : {1e-4, 1e-7}) {
+        const Level level = press(a, Z0, options(Method::mesh, tolerance), 1e4);
+        CHECK(level.method == Method::mesh && level.f.size() > 1000);
+        std::printf("mesh, tolerance %.0e: %zu contacts, residual %.2e\n", tolerance, level.f.size(), level.residual);
+        std::vector<double> F(a.size());
+        for (std::size_t k = 0; k < level.f.size(); ++k) F[static_cast<std::size_t>(level.asperity[k])] = level.f[k];
+        double error2 = 0, force2 = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            double g = height_under_sphere({kE, 1e4, 0.5, 0.5}, a.x[i], a.y[i], a.z[i]) - Z0;
+            if (!(g > 0)) continue;
+            for (int j : level.asperity) {
+                const auto k = static_cast<std::size_t>(j);
+                if (k != i) g -= F[k] / (std::numbers::pi * kE * std::hypot(a.x[i] - a.x[k], a.y[i] - a.y[k]));
+            }
+            const double f = g > 0 ? 4.0 / 3.0 * kE * std::sqrt(a.radius[i]) * std::pow(g, 1.5) : 0.0;
+            error2 += (f - F[i]) * (f - F[i]), force2 += F[i] * F[i];
+        }
+        CHECK(level.residual <= tolerance);
+        CHECK_CLOSE(std::sqrt(error2 / force2), level.residual, 0.5 * tolerance);  // products are good to a tenth of the tolerance
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -201,6 +325,11 @@ int main() {
     overlap_selection_loses_nothing();
     without_interaction();
     stiffness_and_force_control();
+    selection_radius();
+    moved_tip();
+    counts_are_counts();
+    of_two_the_first_met_carries();
+    stated_residuals_are_true();
     CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
     CHECK_THROWS(AsperityContact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);
     return check::summary();
