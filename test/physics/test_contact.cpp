@@ -6,6 +6,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/ranking.hpp"
 #include "contact/solver/newton.hpp"
+#include "contact/start.hpp"
 #include "error.hpp"
 #include "random_asperities.hpp"
 
@@ -225,6 +226,48 @@ void moved_tip() {
     CHECK_RELATIVE(contact.at_separation(0.002).force, before, 1e-9);
     contact.move_tip(0.5, 0.61);
     CHECK(std::abs(contact.at_separation(0.002).force / before - 1) > 1e-3);
+    // The paper's selection goes with the tip.
+    SolverOptions near = o;
+    near.selection = Selection::paper;
+    near.selection_factor = 0.2;
+    AsperityContact chosen(a, {kE, 2.5, 0.5, 0.5}, near);
+    chosen.move_tip(0.3, 0.65);
+    const Level moved = chosen.at_separation(-0.01), there = press(a, -0.01, near, 2.5, 0.3, 0.65);
+    CHECK(moved.candidates == there.candidates && moved.candidates > 0 && moved.asperity == there.asperity);
+}
+
+// The rule that defines the answer of a level starts from the mean field: F = f(<g0 - s>) with s the mean of B F over F, to a
+// hundredth of the largest g0; F'BF - s sum F falls as s grows.
+void start_is_the_mean_field() {
+    for (unsigned seed = 20; seed < 26; ++seed) {
+        const Asperities a = random_asperities(100, 0.01, 0.01, 1e-3, 0.5, seed);
+        WorkingSet set;
+        double highest = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            if (!(a.z[i] + 0.02 > 0)) continue;
+            set.asperity.push_back(static_cast<int>(i)), set.x.push_back(a.x[i]), set.y.push_back(a.y[i]), set.g0.push_back(a.z[i] + 0.02);
+            highest = std::max(highest, set.g0.back());
+        }
+        const auto law = make_law(LawKind::hertz, a, kE);
+        law->prepare(set.asperity);
+        const auto products = make_direct_products(make_kernel(Interaction::point, kE));
+        const std::vector<double> start = cold_start(*law, *products, set);
+        const double s = set.g0[0] - start[0];
+        CHECK(s > 0.1 * highest && s < highest);
+        const auto excess = [&](double t) {  // of the mean field over t, times the load
+            double sum = 0;
+            std::vector<double> F;
+            for (std::size_t i = 0; i < start.size(); ++i) F.push_back(law->force(set.asperity[i], set.g0[i] - t));
+            for (std::size_t i = 0; i < F.size(); ++i) {
+                sum -= t * F[i];
+                for (std::size_t j = 0; j < F.size(); ++j)
+                    if (i != j) sum += F[i] * F[j] / (std::numbers::pi * kE * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
+            }
+            return sum;
+        };
+        CHECK(excess(s - 0.01 * highest) > 0 && excess(s + 0.02 * highest) < 0);
+        for (std::size_t i = 0; i < start.size(); ++i) CHECK_CLOSE(start[i], set.g0[i] - s, 1e-15);
+    }
 }
 
 // Contacts that are large, pairs that overlap, contacts beyond their law: counted one by one from what the level holds.
@@ -329,6 +372,7 @@ int main() {
     selection_radius();
     moved_tip();
     counts_are_counts();
+    start_is_the_mean_field();
     of_two_the_first_met_carries();
     stated_residuals_are_true();
     CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
