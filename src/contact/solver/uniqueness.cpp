@@ -241,27 +241,52 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     if (kernel.none() || v.empty()) return true;
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
-    // Partners beyond `near` contact radii cannot be the other half of a second solution: there S B S < 0.16.
-    constexpr double near = 2.0;
+    // Partners beyond `near` contact radii cannot be the other half of a second solution with the radii they have: there S B S < 0.16.
+    // But a flat asperity, of radius r_j >> r_i, may grow a large spot where the spot of i lets it: of radius
+    // A_j = sqrt(r_j f_i G), so that (2/pi) sqrt(a_i A_j)/d > `far` up to d = `farthest` a_i (r_j/r_i)^(1/5).
+    constexpr double near = 2.0, far = 0.25;
+    const double farthest = std::pow(std::pow(2 / (std::numbers::pi * far), 2) * std::sqrt(4 / (3 * std::numbers::pi)), 0.4);
     constexpr double touch = 1e-300;  // passive points have no radius of their own but are found by the others' reach
-    Vector reach(n);
-    for (std::size_t i = 0; i < n; ++i) reach[i] = std::max(near * slope[i] / (2 * E_star), touch);
+    const double deepest = *std::max_element(v.begin(), v.end());
+    Vector radius(n), flatness(n), reach(n);  // a_i; r_i^(1/5)
+    double sharpest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        radius[i] = slope[i] / (2 * E_star);
+        flatness[i] = deepest > 0 ? std::pow(law.area(asperity[i], deepest) / (std::numbers::pi * deepest), 0.2) : 0;
+        if (radius[i] > 0) sharpest = std::max(sharpest, radius[i] / flatness[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) reach[i] = std::max({near * radius[i], farthest * sharpest * flatness[i], touch});
     // Penetrations of candidates far from touching come from single precision: partners that nearly coincide are beyond its judgement.
     constexpr double resolved = 1e-6, precision = 1e-4;
     const double nearest = resolved * std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
                                                *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
-    const double noise = precision * *std::max_element(v.begin(), v.end());
+    const double noise = precision * deepest;
     bool told_apart = true;
     std::vector<Coupling> close;
+    std::vector<Pair> distant;  // for all their radii say, but for what a flat one might become
     for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) {
-        told_apart = told_apart && d > nearest;
-        if (d > 0) close.push_back({i, j, kernel.at(d, 0)});
+        if (d < std::max(near * (radius[i] + radius[j]), 2 * touch)) {
+            told_apart = told_apart && d > nearest;
+            if (d > 0) close.push_back({i, j, kernel.at(d, 0)});
+        } else if (d * flatness[i] < farthest * radius[i] * flatness[j] || d * flatness[j] < farthest * radius[j] * flatness[i]) {
+            distant.push_back({i, j, d});
+        }
     });
     if (!told_apart) return false;
 
     // Bounds on the penetrations of any other solution: at most those with every close partner gone, hence at least ..., and so on.
     Vector alone(v), relief(n), high, low(n), f(n), a(n);
     couple(close, force, relief);
+    if (!distant.empty()) {
+        const auto rivals = [&](std::size_t i, std::size_t j, double d) {  // might j, let by i, be large enough?
+            const double A = std::sqrt(law.area(asperity[j], v[j] + relief[j] + force[i] * kernel.at(d, 0)) / std::numbers::pi);
+            return 2 / std::numbers::pi * std::sqrt(radius[i] * A) > far * d;
+        };
+        for (const Pair& p : distant) {
+            if (rivals(p.i, p.j, p.d) || rivals(p.j, p.i, p.d)) close.push_back({p.i, p.j, kernel.at(p.d, 0)});
+        }
+        couple(close, force, relief);
+    }
     for (std::size_t i = 0; i < n; ++i) alone[i] += relief[i];
     high = alone;
     const auto secants = [&] {
