@@ -16,7 +16,7 @@
 
 #include "rsc.h"
 
-enum kind { FREE, CASE, SURFACE, ASPERITIES, CONTACT };
+enum kind { FREE, CASE, SURFACE, ASPERITIES, CONTACT, FRICTION };
 struct entry {
     enum kind kind;
     void* object;
@@ -70,6 +70,7 @@ static void destroy(enum kind kind, void* object) {
         case SURFACE: rsc_surface_destroy((rsc_surface**)&object); break;
         case ASPERITIES: rsc_asperities_destroy((rsc_asperities**)&object); break;
         case CONTACT: rsc_contact_destroy((rsc_contact**)&object); break;
+        case FRICTION: rsc_friction_destroy((rsc_friction**)&object); break;
         case FREE: break;
     }
 }
@@ -174,6 +175,7 @@ RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
         case SURFACE: *ierr = rsc_surface_copy((rsc_surface**)&made, entry.object); break;
         case ASPERITIES: *ierr = rsc_asperities_copy((rsc_asperities**)&made, entry.object); break;
         case CONTACT: *ierr = rsc_contact_copy((rsc_contact**)&made, entry.object); break;
+        case FRICTION: *ierr = rsc_friction_copy((rsc_friction**)&made, entry.object); break;
         case FREE: *ierr = refuse(2, "not a handle, or one that was deleted"); return;
     }
     ENTER(entry.kind, made, handle)
@@ -412,4 +414,39 @@ RSC_API void rscdfl_(const int32_t* icon, const int32_t* n, const double* x, con
     BEGIN;
     FIND(const rsc_contact, contact, icon, CONTACT, 1)
     *ierr = rsc_contact_deflection(contact, *n, x, y, deflection);
+}
+
+/* ---- friction --------------------------------------------------------------------------------------------------------------- */
+
+RSC_API void rscfri_(int32_t* ifri, const int32_t* icon, const int32_t* icase, int32_t* ierr);
+RSC_API void rscfri_(int32_t* ifri, const int32_t* icon, const int32_t* icase, int32_t* ierr) {
+    BEGIN;
+    FIND(const rsc_contact, contact, icon, CONTACT, 2)
+    FIND_CASE(a_case, icase, 3)
+    rsc_friction* made = NULL;
+    *ierr = rsc_friction_create_from_case(&made, contact, a_case);
+    ENTER(FRICTION, made, ifri)
+}
+
+RSC_API void rscupd_(const int32_t* ifri, const double* separation, const double* x, const double* y, double* force, double* force_x,
+                     double* force_y, double* lost, int32_t* ierr);
+RSC_API void rscupd_(const int32_t* ifri, const double* separation, const double* x, const double* y, double* force, double* force_x,
+                     double* force_y, double* lost, int32_t* ierr) {
+    BEGIN;
+    FIND(rsc_friction, friction, ifri, FRICTION, 1)
+    *ierr = rsc_friction_update(friction, *separation, *x, *y, force, force_x, force_y, lost);
+}
+
+RSC_API void rsccmt_(const int32_t* ifri, int32_t* ierr);
+RSC_API void rsccmt_(const int32_t* ifri, int32_t* ierr) {
+    BEGIN;
+    FIND(rsc_friction, friction, ifri, FRICTION, 1)
+    *ierr = rsc_friction_commit(friction);
+}
+
+RSC_API void rscrbk_(const int32_t* ifri, int32_t* ierr);
+RSC_API void rscrbk_(const int32_t* ifri, int32_t* ierr) {
+    BEGIN;
+    FIND(rsc_friction, friction, ifri, FRICTION, 1)
+    *ierr = rsc_friction_rollback(friction);
 }

@@ -6,7 +6,7 @@ C     Hertz, what is wrong is told and changes nothing.
       INTEGER MAXSPT
       PARAMETER (MAXSPT = 5000)
       INTEGER ICASE, IASP, ICON, IERR, K, N, ISTAT, NCAND, NIT, NOVER
-      INTEGER LIST(MAXSPT)
+      INTEGER LIST(MAXSPT), IFRI
       DOUBLE PRECISION F(MAXSPT), A(MAXSPT), U(MAXSPT)
       DOUBLE PRECISION Z0, FORCE, AREA, STIFF, RES, TOTAL, ONE(1), W(1)
       CHARACTER*200 TEXT
@@ -78,6 +78,26 @@ C     One asperity, against Hertz.
       CALL RSCDFL(ICON, 1, ONE, ONE, W, IERR)
       IF (IERR .NE. 0 .OR. ABS(W(1) - 1.0D-3) .GT. 1D-12)
      1   CALL WRONG('deflection')
+C     Slid far beyond what sticks it pulls with mu N, and the way back
+C     from a trial leaves no trace.
+      CALL RSCSET(ICASE, 'solids%friction', '0.25', IERR)
+      CALL CHECK('RSCSET', IERR)
+      CALL RSCFRI(IFRI, ICON, ICASE, IERR)
+      CALL CHECK('RSCFRI', IERR)
+      CALL RSCUPD(IFRI, -1.0D-3, 0.0D0, 0.0D0, FORCE, U(1), U(2), RES,
+     1   IERR)
+      CALL CHECK('RSCUPD', IERR)
+      CALL RSCCMT(IFRI, IERR)
+      CALL RSCUPD(IFRI, -1.0D-3, 1.0D0, 0.0D0, FORCE, U(1), U(2), RES,
+     1   IERR)
+      CALL CHECK('RSCUPD', IERR)
+      IF (ABS(U(1) - 0.25D0 * FORCE) .GT. 1D-9 * FORCE) CALL WRONG('mu')
+      CALL RSCRBK(IFRI, IERR)
+      CALL CHECK('RSCRBK', IERR)
+      CALL RSCUPD(IFRI, -1.0D-3, 0.0D0, 0.0D0, FORCE, U(1), U(2), RES,
+     1   IERR)
+      IF (IERR .NE. 0 .OR. ABS(U(1)) .GT. 0) CALL WRONG('rollback')
+      CALL RSCDEL(IFRI, IERR)
       CALL RSCDEL(ICON, IERR)
       CALL RSCDEL(IASP, IERR)
       CALL RSCDEL(ICASE, IERR)

@@ -58,6 +58,13 @@ if(RSC_FORTRAN)
           DESTINATION ${rsc_fortran_folder})
 endif()
 
+# FORTRAN 77: subroutines with integer handles, in C, for any Fortran compiler.
+add_library(rsc_77 STATIC ${PROJECT_SOURCE_DIR}/modules/rsc77.c)
+set_target_properties(rsc_77 PROPERTIES OUTPUT_NAME rsc77 EXPORT_NAME rsc77 C_STANDARD 11)
+target_link_libraries(rsc_77 PUBLIC rsc_shared PRIVATE $<BUILD_INTERFACE:rsc_warnings>)
+add_library(rsc::rsc77 ALIAS rsc_77)
+install(TARGETS rsc_77 EXPORT rscTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+
 install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc.py]])")
 install(SCRIPT ${PROJECT_SOURCE_DIR}/modules/install_python.cmake)
 

@@ -59,7 +59,7 @@ def main():
                     failed += 1
                     break
     print(f"examples run: {count}; {failed} failed")
-    sys.exit(1 if failed or count.get("python", 0) < 7 else 0)
+    sys.exit(1 if failed or count.get("python", 0) < 8 else 0)
 
 
 main()
