@@ -1,0 +1,74 @@
+#!/bin/sh
+# What input/ offers, run as its comments say, smaller where it would take long: sh inputs.sh TEST RSC PROJECT FOLDER.
+# Exit status 0: passed, 77: something that is no part of rsc is missing, anything else: failed.
+set -u
+test=$1
+rsc=$2
+project=$3
+folder=$4
+rm -rf "$folder"
+mkdir -p "$folder/output"
+cp -r "$project/input" "$folder/input"
+cp "$rsc" "$folder/rsc"
+cd "$folder" || exit 1
+fail() {
+    echo "failed: $*"
+    exit 1
+}
+if python3 -c 'import numpy, matplotlib, netCDF4' 2> /dev/null; then python=python3; else python=/usr/bin/python3; fi
+draws() { "$python" -c 'import numpy, matplotlib, netCDF4' 2> /dev/null; }
+pictures() { find output -name '*.png' | wc -l; }
+small='-s indentation%steps=4 -s run%realizations=2'
+
+# Every case is taken as it stands; a study and a campaign run, and a picture is made of the latter.
+test_cases() {
+    for case in input/*.nml; do
+        ./rsc --check "$case" > said 2>&1 || fail "--check $case: $(cat said)"
+    done
+    ./rsc --list input/study.nml > said || fail "--list"
+    [ "$(wc -l < said)" -eq 6 ] || fail "six members were expected: $(cat said)"
+    ./rsc $small input/study.nml > said 2>&1 || fail "the study: $(cat said)"
+    for k in 1 2 3 4 5 6; do
+        [ -s output/study_00$k.nc ] || fail "member $k has left no file: $(ls output)"
+    done
+    [ "$(grep -c '^[1-6]	study_00[1-6]\.nc	' output/study_manifest.txt)" -eq 6 ] || fail "the manifest: $(cat output/study_manifest.txt)"
+    ./rsc --resume $small input/study.nml > said 2>&1 || fail "--resume: $(cat said)"
+    [ "$(grep -c 'is there and whole' said)" -eq 6 ] || fail "finished members are run again: $(cat said)"
+    ./rsc $small -s surface%n=512 -s surface%L_lambda_s=128 input/campaign.nml > said 2>&1 || fail "the campaign: $(cat said)"
+    [ -s output/campaign.nc ] || fail "the campaign has left no file"
+    draws || exit 77
+    "$python" "$project/output/plot/plot.py" output/campaign.nc > said 2>&1 || fail "plot.py: $(cat said)"
+    [ "$(pictures)" -ge 1 ] || fail "plot.py has made no picture: $(ls output)"
+}
+
+# The newcomer's script from end to end; what installs and builds is replaced by what only puts the program in place.
+test_first() {
+    draws || exit 77
+    rm rsc
+    mkdir -p output/plot
+    cp "$project"/output/plot/*.py output/plot/
+    cat > input/setup.sh << END
+#!/bin/sh
+[ "\$(pwd)" = "$(pwd)" ] || exit 1
+mkdir -p build && cp "$rsc" build/rsc && echo "\$@" > setup_was_called
+END
+    (cd / && sh "$folder/input/first.sh") > said 2>&1 || fail "first.sh: $(cat said)"
+    grep -q RSC_TESTS=OFF setup_was_called || fail "setup.sh was not called to build without tests"
+    [ -s output/first.nc ] || fail "no output/first.nc: $(ls output)"
+    grep -q '^  *100  ' said || fail "no table of 100 levels: $(cat said)"
+    [ "$(pictures)" -ge 1 ] || fail "no picture: $(ls output)"
+}
+
+# A study by GNU parallel leaves what a study in one go leaves.
+test_parallel() {
+    parallel --version 2> /dev/null | grep -q GNU || exit 77
+    export SOURCE_DATE_EPOCH=1700000000
+    sed 's/realizations = 20/realizations = 2/; s/steps = 50/steps = 4/' input/study.nml > small.nml
+    sh input/parallel.sh small.nml < /dev/null > said 2>&1 || fail "parallel.sh: $(cat said)"
+    mkdir one_go && cd one_go && ../rsc -q ../small.nml || fail "the study in one go"
+    for k in 1 2 3 4 5 6; do
+        cmp output/study_00$k.nc ../output/study_00$k.nc || fail "member $k differs"
+    done
+}
+
+"test_$test"
