@@ -12,9 +12,20 @@
 !> (a copied contact has the same asperities, sphere and options, and no result yet: one for another thread). Different
 !> objects may be used by different threads at the same time.
 !>
+!> In types of your own, and in parallel regions. An object knows its place; what a compiler copied bit by bit shows the original as long
+!> as that exists, gets its own (a copied contact without result) when it is changed, releases nothing that is not its own, and says so
+!> in errmsg when the original is gone. So these work: q = p and q = particle(1, x, contact) for types that hold objects, allocate with
+!> source=, functions that return such types, lists that grow element by element (longer(i) = list(i), then move_alloc), firstprivate
+!> and private. gfortran 12 leaves no way for whole arrays of such types: after list = [list, p] the elements may hold nothing (told in
+!> errmsg), and longer(1:n) = list crashes in code of its own; use loops there, or hold a pointer in the type:
+!>     type(rsc_contact), pointer :: contact => null()    ! allocate(p%contact); assignment copies the pointer; deallocate it once
+!> What private leaves behind is released when its place is used again. Arrays of objects themselves may be assigned with gfortran 12,
+!> too, where `use rsc` is without only.
+!>
 !> Every procedure takes stat and errmsg like the statements of the language: with stat, a failure is told there (negative: an argument
 !> is wrong; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
-!> with the message. Outputs are undefined after a failure, except with stat = rsc_not_converged. Asperities count from 1.
+!> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
+!> stat = rsc_not_converged. Asperities count from 1.
 module rsc
   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_int32_t, c_int64_t
   implicit none
@@ -38,7 +49,7 @@ module rsc
   !> Options by the names of the namelist, 'group%key'; all at their defaults to begin with.
   type :: rsc_case
     private
-    type(c_ptr) :: handle = c_null_ptr
+    integer(c_int64_t) :: ticket = 0
   contains
     !> set(name, value): value is a real, an integer, a logical, or text in namelist syntax (with its quotes where it is a text).
     generic :: set => set_text, set_real, set_integer, set_logical
@@ -58,7 +69,7 @@ module rsc
   !> Heights z(i,j) at x0 + (i-1) dx, y0 + (j-1) dy.
   type :: rsc_surface
     private
-    type(c_ptr) :: handle = c_null_ptr
+    integer(c_int64_t) :: ticket = 0
   contains
     procedure :: synthesize => surface_synthesize
     procedure :: take => surface_take
@@ -74,7 +85,7 @@ module rsc
   !> Summits: positions and radii.
   type :: rsc_asperities
     private
-    type(c_ptr) :: handle = c_null_ptr
+    integer(c_int64_t) :: ticket = 0
   contains
     procedure :: find => asperities_find
     procedure :: make => asperities_make
@@ -90,7 +101,7 @@ module rsc
   !> A sphere on asperities, and the last level computed.
   type :: rsc_contact
     private
-    type(c_ptr) :: handle = c_null_ptr
+    integer(c_int64_t) :: ticket = 0
     integer(c_int64_t) :: asperities = 0
   contains
     procedure :: create => contact_create
@@ -118,7 +129,7 @@ module rsc
   !> A contact with friction, led along any path of separations and slides. Assignment copies the path, too.
   type :: rsc_friction
     private
-    type(c_ptr) :: handle = c_null_ptr
+    integer(c_int64_t) :: ticket = 0
   contains
     procedure :: create => friction_create
     procedure :: create_from_case => friction_create_from_case
@@ -136,28 +147,43 @@ module rsc
     final :: friction_final
   end type
 
-  ! The functions of rsc.h, name by name and argument by argument; a test compares them with it.
+  !> What is behind a ticket (tickets.h).
+  integer(c_int32_t), parameter :: rsc_kind_case = 1
+  integer(c_int32_t), parameter :: rsc_kind_surface = 2
+  integer(c_int32_t), parameter :: rsc_kind_asperities = 3
+  integer(c_int32_t), parameter :: rsc_kind_contact = 4
+  integer(c_int32_t), parameter :: rsc_kind_friction = 5
+
+  !> Whole arrays of objects; a single one is assigned by its type.
+  interface assignment(=)
+    module procedure cases_set, cases_copy, surfaces_set, surfaces_copy
+    module procedure asperities_set, asperities_copy_each, contacts_set, contacts_copy, frictions_set, frictions_copy
+  end interface
+  public :: assignment(=)
+
+  ! The functions of rsc.h, name by name and argument by argument; a test compares them with it. What they give back keeps its value
+  ! when they fail: intent(inout), for after intent(out) a compiler may take it for lost.
   interface
     function rsc_version(buffer, size, length) bind(c) result(code)
       import :: c_char, c_int32_t, c_int64_t
-      character(kind=c_char), intent(out) :: buffer(*)
+      character(kind=c_char), intent(inout) :: buffer(*)
       integer(c_int64_t), value :: size
-      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int64_t), intent(inout), optional :: length
       integer(c_int32_t) :: code
     end function
     function rsc_message(buffer, size, length) bind(c) result(code)
       import :: c_char, c_int32_t, c_int64_t
-      character(kind=c_char), intent(out) :: buffer(*)
+      character(kind=c_char), intent(inout) :: buffer(*)
       integer(c_int64_t), value :: size
-      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int64_t), intent(inout), optional :: length
       integer(c_int32_t) :: code
     end function
     function rsc_status_text(status, buffer, size, length) bind(c) result(code)
       import :: c_char, c_int32_t, c_int64_t
       integer(c_int32_t), value :: status
-      character(kind=c_char), intent(out) :: buffer(*)
+      character(kind=c_char), intent(inout) :: buffer(*)
       integer(c_int64_t), value :: size
-      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int64_t), intent(inout), optional :: length
       integer(c_int32_t) :: code
     end function
     function rsc_case_create(new_case) bind(c) result(code)
@@ -192,36 +218,36 @@ module rsc
       import :: c_char, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: a_case
       character(kind=c_char), intent(in) :: name(*)
-      character(kind=c_char), intent(out) :: buffer(*)
+      character(kind=c_char), intent(inout) :: buffer(*)
       integer(c_int64_t), value :: size
-      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int64_t), intent(inout), optional :: length
       integer(c_int32_t) :: code
     end function
     function rsc_case_text(a_case, buffer, size, length) bind(c) result(code)
       import :: c_char, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: a_case
-      character(kind=c_char), intent(out) :: buffer(*)
+      character(kind=c_char), intent(inout) :: buffer(*)
       integer(c_int64_t), value :: size
-      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int64_t), intent(inout), optional :: length
       integer(c_int32_t) :: code
     end function
     function rsc_key_count(count) bind(c) result(code)
       import :: c_int32_t, c_int64_t
-      integer(c_int64_t), intent(out) :: count
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: code
     end function
     function rsc_key_name(key, buffer, size, length) bind(c) result(code)
       import :: c_char, c_int32_t, c_int64_t
       integer(c_int64_t), value :: key
-      character(kind=c_char), intent(out) :: buffer(*)
+      character(kind=c_char), intent(inout) :: buffer(*)
       integer(c_int64_t), value :: size
-      integer(c_int64_t), intent(out), optional :: length
+      integer(c_int64_t), intent(inout), optional :: length
       integer(c_int32_t) :: code
     end function
     function rsc_case_run(a_case, failed_levels) bind(c) result(code)
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: a_case
-      integer(c_int64_t), intent(out), optional :: failed_levels
+      integer(c_int64_t), intent(inout), optional :: failed_levels
       integer(c_int32_t) :: code
     end function
     function rsc_surface_synthesize(surface, a_case, realization) bind(c) result(code)
@@ -255,28 +281,28 @@ module rsc
       import :: c_char, c_double, c_int32_t, c_ptr
       type(c_ptr), value :: surface
       character(kind=c_char), intent(in) :: how(*)
-      real(c_double), intent(out), optional :: rms
+      real(c_double), intent(inout), optional :: rms
       integer(c_int32_t) :: code
     end function
     function rsc_surface_grid(surface, nx, ny, dx, dy, x0, y0, periodic) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: surface
-      integer(c_int64_t), intent(out), optional :: nx, ny
-      real(c_double), intent(out), optional :: dx, dy, x0, y0
-      integer(c_int32_t), intent(out), optional :: periodic
+      integer(c_int64_t), intent(inout), optional :: nx, ny
+      real(c_double), intent(inout), optional :: dx, dy, x0, y0
+      integer(c_int32_t), intent(inout), optional :: periodic
       integer(c_int32_t) :: code
     end function
     function rsc_surface_heights(surface, n, heights) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: surface
       integer(c_int64_t), value :: n
-      real(c_double), intent(out) :: heights(*)
+      real(c_double), intent(inout) :: heights(*)
       integer(c_int32_t) :: code
     end function
     function rsc_surface_moments(surface, m0, m2, m4) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: surface
-      real(c_double), intent(out), optional :: m0, m2, m4
+      real(c_double), intent(inout), optional :: m0, m2, m4
       integer(c_int32_t) :: code
     end function
     function rsc_asperities_find(asperities, surface, a_case) bind(c) result(code)
@@ -314,21 +340,21 @@ module rsc
     function rsc_asperities_count(asperities, n) bind(c) result(code)
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: asperities
-      integer(c_int64_t), intent(out) :: n
+      integer(c_int64_t), intent(inout) :: n
       integer(c_int32_t) :: code
     end function
     function rsc_asperities_get(asperities, n, x, y, z, radius) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: asperities
       integer(c_int64_t), value :: n
-      real(c_double), intent(out), optional :: x(*), y(*), z(*), radius(*)
+      real(c_double), intent(inout), optional :: x(*), y(*), z(*), radius(*)
       integer(c_int32_t) :: code
     end function
     function rsc_asperities_curvatures(asperities, n, kappa1, kappa2, angle) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: asperities
       integer(c_int64_t), value :: n
-      real(c_double), intent(out), optional :: kappa1(*), kappa2(*), angle(*)
+      real(c_double), intent(inout), optional :: kappa1(*), kappa2(*), angle(*)
       integer(c_int32_t) :: code
     end function
     function rsc_contact_create(contact, asperities, E_star, R, x0, y0, a_case) bind(c) result(code)
@@ -365,69 +391,69 @@ module rsc
     function rsc_contact_tip(contact, x0, y0) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: contact
-      real(c_double), intent(out), optional :: x0, y0
+      real(c_double), intent(inout), optional :: x0, y0
       integer(c_int32_t) :: code
     end function
     function rsc_contact_first_touch(contact, separation) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: contact
-      real(c_double), intent(out) :: separation
+      real(c_double), intent(inout) :: separation
       integer(c_int32_t) :: code
     end function
     function rsc_contact_indent(contact, separation, force) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: contact
       real(c_double), value :: separation
-      real(c_double), intent(out), optional :: force
+      real(c_double), intent(inout), optional :: force
       integer(c_int32_t) :: code
     end function
     function rsc_contact_press(contact, force, separation) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: contact
       real(c_double), value :: force
-      real(c_double), intent(out), optional :: separation
+      real(c_double), intent(inout), optional :: separation
       integer(c_int32_t) :: code
     end function
     function rsc_contact_result(contact, separation, force, area, contacts) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: contact
-      real(c_double), intent(out), optional :: separation, force, area
-      integer(c_int64_t), intent(out), optional :: contacts
+      real(c_double), intent(inout), optional :: separation, force, area
+      integer(c_int64_t), intent(inout), optional :: contacts
       integer(c_int32_t) :: code
     end function
     function rsc_contact_level(contact, level_status, candidates, iterations, overlapping_pairs, residual) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: contact
-      integer(c_int32_t), intent(out), optional :: level_status
-      integer(c_int64_t), intent(out), optional :: candidates, iterations, overlapping_pairs
-      real(c_double), intent(out), optional :: residual
+      integer(c_int32_t), intent(inout), optional :: level_status
+      integer(c_int64_t), intent(inout), optional :: candidates, iterations, overlapping_pairs
+      real(c_double), intent(inout), optional :: residual
       integer(c_int32_t) :: code
     end function
     function rsc_contact_stiffness(contact, stiffness) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: contact
-      real(c_double), intent(out) :: stiffness
+      real(c_double), intent(inout) :: stiffness
       integer(c_int32_t) :: code
     end function
     function rsc_contact_energy(contact, energy) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: contact
-      real(c_double), intent(out) :: energy
+      real(c_double), intent(inout) :: energy
       integer(c_int32_t) :: code
     end function
     function rsc_contact_spots(contact, n, asperity, force, radius, penetration) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: contact
       integer(c_int64_t), value :: n
-      integer(c_int32_t), intent(out), optional :: asperity(*)
-      real(c_double), intent(out), optional :: force(*), radius(*), penetration(*)
+      integer(c_int32_t), intent(inout), optional :: asperity(*)
+      real(c_double), intent(inout), optional :: force(*), radius(*), penetration(*)
       integer(c_int32_t) :: code
     end function
     function rsc_contact_per_asperity(contact, n, force, radius, penetration) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: contact
       integer(c_int64_t), value :: n
-      real(c_double), intent(out), optional :: force(*), radius(*), penetration(*)
+      real(c_double), intent(inout), optional :: force(*), radius(*), penetration(*)
       integer(c_int32_t) :: code
     end function
     function rsc_contact_deflection(contact, n, x, y, deflection) bind(c) result(code)
@@ -435,13 +461,44 @@ module rsc
       type(c_ptr), value :: contact
       integer(c_int64_t), value :: n
       real(c_double), intent(in) :: x(*), y(*)
-      real(c_double), intent(out) :: deflection(*)
+      real(c_double), intent(inout) :: deflection(*)
+      integer(c_int32_t) :: code
+    end function
+    ! Of tickets.h: what stands behind the tickets that the objects hold.
+    function rsc_ticket_issue(ticket, kind, handle) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      integer(c_int64_t), intent(inout) :: ticket
+      integer(c_int32_t), value :: kind
+      type(c_ptr), value :: handle
+      integer(c_int32_t) :: code
+    end function
+    function rsc_ticket_read(ticket, handle) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      integer(c_int64_t), intent(in) :: ticket
+      type(c_ptr), intent(inout) :: handle
+      integer(c_int32_t) :: code
+    end function
+    function rsc_ticket_change(ticket, handle) bind(c) result(code)
+      import :: c_int32_t, c_int64_t, c_ptr
+      integer(c_int64_t), intent(inout) :: ticket
+      type(c_ptr), intent(inout) :: handle
+      integer(c_int32_t) :: code
+    end function
+    function rsc_ticket_copy(ticket, original) bind(c) result(code)
+      import :: c_int32_t, c_int64_t
+      integer(c_int64_t), intent(inout) :: ticket
+      integer(c_int64_t), intent(in) :: original
+      integer(c_int32_t) :: code
+    end function
+    function rsc_ticket_release(ticket) bind(c) result(code)
+      import :: c_int32_t, c_int64_t
+      integer(c_int64_t), intent(inout) :: ticket
       integer(c_int32_t) :: code
     end function
     function rsc_tangential_ratio(E, nu, ratio) bind(c) result(code)
       import :: c_double, c_int32_t
       real(c_double), intent(in) :: E(*), nu(*)
-      real(c_double), intent(out) :: ratio
+      real(c_double), intent(inout) :: ratio
       integer(c_int32_t) :: code
     end function
     function rsc_friction_create(friction, contact, mu, ratio) bind(c) result(code)
@@ -472,20 +529,20 @@ module rsc
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: friction
       real(c_double), value :: separation, x, y
-      real(c_double), intent(out), optional :: force, force_x, force_y, lost
+      real(c_double), intent(inout), optional :: force, force_x, force_y, lost
       integer(c_int32_t) :: code
     end function
     function rsc_friction_stiffness(friction, xx, xy, yx, yy) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: friction
-      real(c_double), intent(out), optional :: xx, xy, yx, yy
+      real(c_double), intent(inout), optional :: xx, xy, yx, yy
       integer(c_int32_t) :: code
     end function
     function rsc_friction_state(friction, separation, x, y, force, force_x, force_y, energy, tangential_energy, lost, &
         & stick_separation) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: friction
-      real(c_double), intent(out), optional :: separation, x, y, force, force_x, force_y, energy, tangential_energy, lost, &
+      real(c_double), intent(inout), optional :: separation, x, y, force, force_x, force_y, energy, tangential_energy, lost, &
         & stick_separation
       integer(c_int32_t) :: code
     end function
@@ -504,30 +561,30 @@ module rsc
       type(c_ptr), value :: friction
       integer(c_int64_t), value :: n
       real(c_double), intent(in) :: slide(*)
-      real(c_double), intent(out) :: force(*)
-      real(c_double), intent(out), optional :: stick_separation(*)
+      real(c_double), intent(inout) :: force(*)
+      real(c_double), intent(inout), optional :: stick_separation(*)
       integer(c_int32_t) :: code
     end function
     function rsc_friction_slide(friction, force, slide) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: friction
       real(c_double), value :: force
-      real(c_double), intent(out) :: slide
+      real(c_double), intent(inout) :: slide
       integer(c_int32_t) :: code
     end function
     function rsc_friction_full_slip(friction, slide, force) bind(c) result(code)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: friction
-      real(c_double), intent(out), optional :: slide, force
+      real(c_double), intent(inout), optional :: slide, force
       integer(c_int32_t) :: code
     end function
     function rsc_friction_spots(friction, n, count, asperity, radius, stick_radius, force_x, force_y) bind(c) result(code)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: friction
       integer(c_int64_t), value :: n
-      integer(c_int64_t), intent(out), optional :: count
-      integer(c_int32_t), intent(out), optional :: asperity(*)
-      real(c_double), intent(out), optional :: radius(*), stick_radius(*), force_x(*), force_y(*)
+      integer(c_int64_t), intent(inout), optional :: count
+      integer(c_int32_t), intent(inout), optional :: asperity(*)
+      real(c_double), intent(inout), optional :: radius(*), stick_radius(*), force_x(*), force_y(*)
       integer(c_int32_t) :: code
     end function
   end interface
@@ -545,6 +602,10 @@ contains
     if (present(stat)) stat = int(status)
     if (status == rsc_success) return
     message = last_message()
+    if (status == rsc_no_memory) message = 'the machine refused memory'
+    if (index(message, 'must not be null') > 0) then
+      message = message // ': nothing was created in the object, or it is a bitwise copy of one that is gone (see rsc.f90)'
+    end if
     if (present(stat)) then
       if (present(errmsg)) errmsg = message
     else
@@ -563,6 +624,46 @@ contains
     else
       error stop 'rsc: ' // message
     end if
+  end subroutine
+
+  !> The handle behind a ticket, for reading; null if there is none.
+  function reading(ticket) result(handle)
+    integer(c_int64_t), intent(in) :: ticket
+    type(c_ptr) :: handle
+    integer(c_int32_t) :: status
+    handle = c_null_ptr
+    status = rsc_ticket_read(ticket, handle)
+  end function
+
+  !> For changing: an object that shows what another one owns gets its own.
+  function changing(ticket) result(handle)
+    integer(c_int64_t), intent(inout) :: ticket
+    type(c_ptr) :: handle
+    integer(c_int32_t) :: status
+    handle = c_null_ptr
+    status = rsc_ticket_change(ticket, handle)
+  end function
+
+  !> Room for n values; none after a failure, so that the array has a size.
+  subroutine make_room(array, n, status)
+    real(c_double), allocatable, intent(out) :: array(:)
+    integer(c_int64_t), intent(in) :: n
+    integer(c_int32_t), intent(inout) :: status
+    integer :: problem
+    if (status == rsc_success) then
+      allocate (array(n), stat=problem)
+      if (problem /= 0) status = rsc_no_memory
+    end if
+    if (.not. allocated(array)) allocate (array(0))
+  end subroutine
+
+  !> What a constructor made, if it did.
+  subroutine keep(ticket, kind, handle, status)
+    integer(c_int64_t), intent(inout) :: ticket
+    integer(c_int32_t), intent(in) :: kind
+    type(c_ptr), intent(in) :: handle
+    integer(c_int32_t), intent(inout) :: status
+    if (status == rsc_success) status = rsc_ticket_issue(ticket, kind, handle)
   end subroutine
 
   function last_message() result(text)
@@ -606,11 +707,30 @@ contains
 
   ! --- case ------------------------------------------------------------------------------------------------------------------------
 
-  subroutine case_ready(self, status)
+  !> The case to be changed, made if there is none yet.
+  subroutine case_ready(self, handle, status)
     class(rsc_case), intent(inout) :: self
+    type(c_ptr), intent(out) :: handle
     integer(c_int32_t), intent(out) :: status
     status = rsc_success
-    if (.not. c_associated(self%handle)) status = rsc_case_create(self%handle)
+    handle = changing(self%ticket)
+    if (c_associated(handle)) return
+    status = rsc_ticket_release(self%ticket)
+    status = rsc_case_create(handle)
+    call keep(self%ticket, rsc_kind_case, handle, status)
+  end subroutine
+
+  !> The case to be read; where nothing was set, one that stands for the defaults, to be destroyed afterwards.
+  subroutine case_as_is(self, handle, defaults, status)
+    class(rsc_case), intent(in) :: self
+    type(c_ptr), intent(out) :: handle, defaults
+    integer(c_int32_t), intent(out) :: status
+    status = rsc_success
+    defaults = c_null_ptr
+    handle = reading(self%ticket)
+    if (c_associated(handle)) return
+    status = rsc_case_create(defaults)
+    handle = defaults
   end subroutine
 
   subroutine case_set_text(self, name, value, stat, errmsg)
@@ -619,8 +739,9 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    call case_ready(self, status)
-    if (status == rsc_success) status = rsc_case_set(self%handle, terminated(trim(name)), terminated(value))
+    type(c_ptr) :: handle
+    call case_ready(self, handle, status)
+    if (status == rsc_success) status = rsc_case_set(handle, terminated(trim(name)), terminated(value))
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -657,19 +778,20 @@ contains
 
   !> The value of a key in namelist syntax, as set takes it; empty if the key is not set.
   function case_get(self, name, stat, errmsg) result(value)
-    class(rsc_case), intent(inout) :: self
+    class(rsc_case), intent(in) :: self
     character(*), intent(in) :: name
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     character(:), allocatable :: value
     character(kind=c_char), allocatable :: buffer(:)
     integer(c_int64_t) :: length
-    integer(c_int32_t) :: status
+    integer(c_int32_t) :: status, ignored
+    type(c_ptr) :: handle, defaults
     value = ''
     allocate (buffer(4096))
-    call case_ready(self, status)
+    call case_as_is(self, handle, defaults, status)
     do while (status == rsc_success)
-      status = rsc_case_get(self%handle, terminated(trim(name)), buffer, size(buffer, kind=c_int64_t), length)
+      status = rsc_case_get(handle, terminated(trim(name)), buffer, size(buffer, kind=c_int64_t), length)
       if (status /= rsc_success) exit
       if (length < size(buffer, kind=c_int64_t)) then
         value = joined(buffer, length)
@@ -678,6 +800,7 @@ contains
       deallocate (buffer)
       allocate (buffer(length + 1))
     end do
+    ignored = rsc_case_destroy(defaults)
     call finish(status, stat, errmsg)
   end function
 
@@ -688,25 +811,27 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    call case_ready(self, status)
-    if (status == rsc_success) status = rsc_case_read(self%handle, terminated(text))
+    type(c_ptr) :: handle
+    call case_ready(self, handle, status)
+    if (status == rsc_success) status = rsc_case_read(handle, terminated(text))
     call finish(status, stat, errmsg)
   end subroutine
 
   !> All keys as namelist text.
   function case_text(self, stat, errmsg) result(text)
-    class(rsc_case), intent(inout) :: self
+    class(rsc_case), intent(in) :: self
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     character(:), allocatable :: text
     character(kind=c_char), allocatable :: buffer(:)
     integer(c_int64_t) :: length
-    integer(c_int32_t) :: status
+    integer(c_int32_t) :: status, ignored
+    type(c_ptr) :: handle, defaults
     text = ''
     allocate (buffer(16384))
-    call case_ready(self, status)
+    call case_as_is(self, handle, defaults, status)
     do while (status == rsc_success)
-      status = rsc_case_text(self%handle, buffer, size(buffer, kind=c_int64_t), length)
+      status = rsc_case_text(handle, buffer, size(buffer, kind=c_int64_t), length)
       if (status /= rsc_success) exit
       if (length < size(buffer, kind=c_int64_t)) then
         text = joined(buffer, length)
@@ -715,46 +840,62 @@ contains
       deallocate (buffer)
       allocate (buffer(length + 1))
     end do
+    ignored = rsc_case_destroy(defaults)
     call finish(status, stat, errmsg)
   end function
 
   !> Runs the case as the program does and writes its result file.
   subroutine case_run(self, failed_levels, stat, errmsg)
-    class(rsc_case), intent(inout) :: self
+    class(rsc_case), intent(in) :: self
     integer, intent(out), optional :: failed_levels
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    integer(c_int32_t) :: status
+    integer(c_int32_t) :: status, ignored
+    type(c_ptr) :: handle, defaults
     integer(c_int64_t) :: failed
     failed = 0
-    call case_ready(self, status)
-    if (status == rsc_success) status = rsc_case_run(self%handle, failed)
+    call case_as_is(self, handle, defaults, status)
+    if (status == rsc_success) status = rsc_case_run(handle, failed)
     if (present(failed_levels)) failed_levels = int(failed)
+    ignored = rsc_case_destroy(defaults)
     call finish(status, stat, errmsg)
   end subroutine
 
-  impure elemental subroutine case_copy(self, original)
+  subroutine case_copy(self, original)
     class(rsc_case), intent(inout) :: self
     class(rsc_case), intent(in) :: original
-    integer(c_int32_t) :: status
-    if (c_associated(self%handle, original%handle)) return
-    status = rsc_case_destroy(self%handle)
-    if (.not. c_associated(original%handle)) return
-    status = rsc_case_copy(self%handle, original%handle)
-    call finish(status)
+    call finish(rsc_ticket_copy(self%ticket, original%ticket))
+  end subroutine
+
+  subroutine cases_set(self, original)
+    type(rsc_case), intent(inout) :: self(:)
+    type(rsc_case), intent(in) :: original
+    integer :: i
+    do i = 1, size(self)
+      call case_copy(self(i), original)
+    end do
+  end subroutine
+
+  subroutine cases_copy(self, original)
+    type(rsc_case), intent(inout) :: self(:)
+    type(rsc_case), intent(in) :: original(:)
+    integer :: i
+    do i = 1, size(self)
+      call case_copy(self(i), original(i))
+    end do
   end subroutine
 
   impure elemental subroutine case_final(self)
     type(rsc_case), intent(inout) :: self
     integer(c_int32_t) :: status
-    status = rsc_case_destroy(self%handle)
+    status = rsc_ticket_release(self%ticket)
   end subroutine
 
   function options_of(options) result(handle)
     class(rsc_case), intent(in), optional :: options
     type(c_ptr) :: handle
     handle = c_null_ptr  ! the defaults
-    if (present(options)) handle = options%handle
+    if (present(options)) handle = reading(options%ticket)
   end function
 
   ! --- surface -----------------------------------------------------------------------------------------------------------------------
@@ -767,11 +908,14 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
+    type(c_ptr) :: handle
     integer(c_int64_t) :: number
     number = 1
     if (present(realization)) number = realization
-    status = rsc_surface_destroy(self%handle)
-    status = rsc_surface_synthesize(self%handle, options_of(options), number)
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_surface_synthesize(handle, options_of(options), number)
+    call keep(self%ticket, rsc_kind_surface, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -785,6 +929,7 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status, wraps
+    type(c_ptr) :: handle
     real(c_double) :: step_y, first_x, first_y
     step_y = dx
     if (present(dy)) step_y = dy
@@ -794,8 +939,10 @@ contains
     if (present(y0)) first_y = y0
     wraps = 0
     if (present(periodic)) wraps = merge(1_c_int32_t, 0_c_int32_t, periodic)
-    status = rsc_surface_destroy(self%handle)
-    status = rsc_surface_take(self%handle, size(z, 1, c_int64_t), size(z, 2, c_int64_t), dx, step_y, first_x, first_y, wraps, z)
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_surface_take(handle, size(z, 1, c_int64_t), size(z, 2, c_int64_t), dx, step_y, first_x, first_y, wraps, z)
+    call keep(self%ticket, rsc_kind_surface, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -806,7 +953,7 @@ contains
     real(c_double), intent(out), optional :: rms
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_surface_detrend(self%handle, terminated(trim(how)), rms), stat, errmsg)
+    call finish(rsc_surface_detrend(changing(self%ticket), terminated(trim(how)), rms), stat, errmsg)
   end subroutine
 
   subroutine surface_grid(self, nx, ny, dx, dy, x0, y0, periodic, stat, errmsg)
@@ -820,7 +967,7 @@ contains
     integer(c_int32_t) :: status, wraps
     n = 0
     wraps = 0
-    status = rsc_surface_grid(self%handle, n(1), n(2), dx, dy, x0, y0, wraps)
+    status = rsc_surface_grid(reading(self%ticket), n(1), n(2), dx, dy, x0, y0, wraps)
     if (present(nx)) nx = int(n(1))
     if (present(ny)) ny = int(n(2))
     if (present(periodic)) periodic = wraps == 1
@@ -835,13 +982,13 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int64_t) :: nx, ny
     integer(c_int32_t) :: status
-    status = rsc_surface_grid(self%handle, nx, ny)
+    status = rsc_surface_grid(reading(self%ticket), nx, ny)
     if (status == rsc_success) then
       if (size(z, 1) /= nx .or. size(z, 2) /= ny) then
         call refuse('the shape of z is not that of the surface', stat, errmsg)
         return
       end if
-      status = rsc_surface_heights(self%handle, size(z, kind=c_int64_t), z)
+      status = rsc_surface_heights(reading(self%ticket), size(z, kind=c_int64_t), z)
     end if
     call finish(status, stat, errmsg)
   end subroutine
@@ -852,24 +999,37 @@ contains
     real(c_double), intent(out), optional :: m0, m2, m4
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_surface_moments(self%handle, m0, m2, m4), stat, errmsg)
+    call finish(rsc_surface_moments(reading(self%ticket), m0, m2, m4), stat, errmsg)
   end subroutine
 
-  impure elemental subroutine surface_copy(self, original)
+  subroutine surface_copy(self, original)
     class(rsc_surface), intent(inout) :: self
     class(rsc_surface), intent(in) :: original
-    integer(c_int32_t) :: status
-    if (c_associated(self%handle, original%handle)) return
-    status = rsc_surface_destroy(self%handle)
-    if (.not. c_associated(original%handle)) return
-    status = rsc_surface_copy(self%handle, original%handle)
-    call finish(status)
+    call finish(rsc_ticket_copy(self%ticket, original%ticket))
+  end subroutine
+
+  subroutine surfaces_set(self, original)
+    type(rsc_surface), intent(inout) :: self(:)
+    type(rsc_surface), intent(in) :: original
+    integer :: i
+    do i = 1, size(self)
+      call surface_copy(self(i), original)
+    end do
+  end subroutine
+
+  subroutine surfaces_copy(self, original)
+    type(rsc_surface), intent(inout) :: self(:)
+    type(rsc_surface), intent(in) :: original(:)
+    integer :: i
+    do i = 1, size(self)
+      call surface_copy(self(i), original(i))
+    end do
   end subroutine
 
   impure elemental subroutine surface_final(self)
     type(rsc_surface), intent(inout) :: self
     integer(c_int32_t) :: status
-    status = rsc_surface_destroy(self%handle)
+    status = rsc_ticket_release(self%ticket)
   end subroutine
 
   ! --- asperities ----------------------------------------------------------------------------------------------------------------------
@@ -882,8 +1042,11 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    status = rsc_asperities_destroy(self%handle)
-    status = rsc_asperities_find(self%handle, surface%handle, options_of(options))
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_asperities_find(handle, reading(surface%ticket), options_of(options))
+    call keep(self%ticket, rsc_kind_asperities, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -895,11 +1058,14 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
+    type(c_ptr) :: handle
     integer(c_int64_t) :: number
     number = 1
     if (present(realization)) number = realization
-    status = rsc_asperities_destroy(self%handle)
-    status = rsc_asperities_make(self%handle, options_of(options), number)
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_asperities_make(handle, options_of(options), number)
+    call keep(self%ticket, rsc_kind_asperities, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -911,18 +1077,21 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
+    type(c_ptr) :: handle
     logical :: same
     same = size(y) == size(x) .and. size(z) == size(x) .and. size(radius) == size(x)
     if (present(kappa1)) same = same .and. size(kappa1) == size(x)
     if (present(kappa2)) same = same .and. size(kappa2) == size(x)
     if (present(angle)) same = same .and. size(angle) == size(x)
     if (present(biharmonic)) same = same .and. size(biharmonic) == size(x)
-    status = rsc_asperities_destroy(self%handle)
+    status = rsc_ticket_release(self%ticket)
     if (.not. same) then
       call refuse('asperities%take: the arrays are not of one size', stat, errmsg)
       return
     end if
-    status = rsc_asperities_take(self%handle, size(x, kind=c_int64_t), x, y, z, radius, kappa1, kappa2, angle, biharmonic)
+    handle = c_null_ptr
+    status = rsc_asperities_take(handle, size(x, kind=c_int64_t), x, y, z, radius, kappa1, kappa2, angle, biharmonic)
+    call keep(self%ticket, rsc_kind_asperities, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -933,7 +1102,7 @@ contains
     integer :: n
     integer(c_int64_t) :: count
     count = 0
-    call finish(rsc_asperities_count(self%handle, count), stat, errmsg)
+    call finish(rsc_asperities_count(reading(self%ticket), count), stat, errmsg)
     n = int(count)
   end function
 
@@ -947,12 +1116,12 @@ contains
     ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
     real(c_double), allocatable :: x_(:), y_(:), z_(:), radius_(:)
     n = 0
-    status = rsc_asperities_count(self%handle, n)
-    if (present(x)) allocate (x_(n))
-    if (present(y)) allocate (y_(n))
-    if (present(z)) allocate (z_(n))
-    if (present(radius)) allocate (radius_(n))
-    if (status == rsc_success) status = rsc_asperities_get(self%handle, n, x_, y_, z_, radius_)
+    status = rsc_asperities_count(reading(self%ticket), n)
+    if (present(x)) call make_room(x_, n, status)
+    if (present(y)) call make_room(y_, n, status)
+    if (present(z)) call make_room(z_, n, status)
+    if (present(radius)) call make_room(radius_, n, status)
+    if (status == rsc_success) status = rsc_asperities_get(reading(self%ticket), n, x_, y_, z_, radius_)
     if (present(x)) call move_alloc(x_, x)
     if (present(y)) call move_alloc(y_, y)
     if (present(z)) call move_alloc(z_, z)
@@ -970,32 +1139,45 @@ contains
     ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
     real(c_double), allocatable :: kappa1_(:), kappa2_(:), angle_(:)
     n = 0
-    status = rsc_asperities_count(self%handle, n)
-    if (present(kappa1)) allocate (kappa1_(n))
-    if (present(kappa2)) allocate (kappa2_(n))
-    if (present(angle)) allocate (angle_(n))
-    if (status == rsc_success) status = rsc_asperities_curvatures(self%handle, n, kappa1_, kappa2_, angle_)
+    status = rsc_asperities_count(reading(self%ticket), n)
+    if (present(kappa1)) call make_room(kappa1_, n, status)
+    if (present(kappa2)) call make_room(kappa2_, n, status)
+    if (present(angle)) call make_room(angle_, n, status)
+    if (status == rsc_success) status = rsc_asperities_curvatures(reading(self%ticket), n, kappa1_, kappa2_, angle_)
     if (present(kappa1)) call move_alloc(kappa1_, kappa1)
     if (present(kappa2)) call move_alloc(kappa2_, kappa2)
     if (present(angle)) call move_alloc(angle_, angle)
     call finish(status, stat, errmsg)
   end subroutine
 
-  impure elemental subroutine asperities_copy(self, original)
+  subroutine asperities_copy(self, original)
     class(rsc_asperities), intent(inout) :: self
     class(rsc_asperities), intent(in) :: original
-    integer(c_int32_t) :: status
-    if (c_associated(self%handle, original%handle)) return
-    status = rsc_asperities_destroy(self%handle)
-    if (.not. c_associated(original%handle)) return
-    status = rsc_asperities_copy(self%handle, original%handle)
-    call finish(status)
+    call finish(rsc_ticket_copy(self%ticket, original%ticket))
+  end subroutine
+
+  subroutine asperities_set(self, original)
+    type(rsc_asperities), intent(inout) :: self(:)
+    type(rsc_asperities), intent(in) :: original
+    integer :: i
+    do i = 1, size(self)
+      call asperities_copy(self(i), original)
+    end do
+  end subroutine
+
+  subroutine asperities_copy_each(self, original)
+    type(rsc_asperities), intent(inout) :: self(:)
+    type(rsc_asperities), intent(in) :: original(:)
+    integer :: i
+    do i = 1, size(self)
+      call asperities_copy(self(i), original(i))
+    end do
   end subroutine
 
   impure elemental subroutine asperities_final(self)
     type(rsc_asperities), intent(inout) :: self
     integer(c_int32_t) :: status
-    status = rsc_asperities_destroy(self%handle)
+    status = rsc_ticket_release(self%ticket)
   end subroutine
 
   ! --- contact -------------------------------------------------------------------------------------------------------------------------
@@ -1009,9 +1191,12 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    status = rsc_contact_destroy(self%handle)
-    status = rsc_contact_create(self%handle, asperities%handle, E_star, R, x0, y0, options_of(options))
-    if (status == rsc_success) status = rsc_asperities_count(asperities%handle, self%asperities)
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_contact_create(handle, reading(asperities%ticket), E_star, R, x0, y0, options_of(options))
+    call keep(self%ticket, rsc_kind_contact, handle, status)
+    if (status == rsc_success) status = rsc_asperities_count(reading(asperities%ticket), self%asperities)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -1023,9 +1208,12 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    status = rsc_contact_destroy(self%handle)
-    status = rsc_contact_create_from_case(self%handle, asperities%handle, options_of(options))
-    if (status == rsc_success) status = rsc_asperities_count(asperities%handle, self%asperities)
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_contact_create_from_case(handle, reading(asperities%ticket), options_of(options))
+    call keep(self%ticket, rsc_kind_contact, handle, status)
+    if (status == rsc_success) status = rsc_asperities_count(reading(asperities%ticket), self%asperities)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -1034,7 +1222,7 @@ contains
     real(c_double), intent(in) :: x0, y0
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_contact_move_tip(self%handle, x0, y0), stat, errmsg)
+    call finish(rsc_contact_move_tip(changing(self%ticket), x0, y0), stat, errmsg)
   end subroutine
 
   subroutine contact_tip(self, x0, y0, stat, errmsg)
@@ -1042,7 +1230,7 @@ contains
     real(c_double), intent(out), optional :: x0, y0
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_contact_tip(self%handle, x0, y0), stat, errmsg)
+    call finish(rsc_contact_tip(reading(self%ticket), x0, y0), stat, errmsg)
   end subroutine
 
   !> Separation at which the sphere, coming down, touches its first asperity.
@@ -1052,7 +1240,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: separation
     separation = 0
-    call finish(rsc_contact_first_touch(self%handle, separation), stat, errmsg)
+    call finish(rsc_contact_first_touch(reading(self%ticket), separation), stat, errmsg)
   end function
 
   !> The contact at a separation.
@@ -1062,7 +1250,7 @@ contains
     real(c_double), intent(out), optional :: force
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_contact_indent(self%handle, separation, force), stat, errmsg)
+    call finish(rsc_contact_indent(changing(self%ticket), separation, force), stat, errmsg)
   end subroutine
 
   !> The contact under a force.
@@ -1072,7 +1260,7 @@ contains
     real(c_double), intent(out), optional :: separation
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_contact_press(self%handle, force, separation), stat, errmsg)
+    call finish(rsc_contact_press(changing(self%ticket), force, separation), stat, errmsg)
   end subroutine
 
   !> Z0 of the last level.
@@ -1082,7 +1270,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: separation
     separation = 0
-    call finish(rsc_contact_result(self%handle, separation=separation), stat, errmsg)
+    call finish(rsc_contact_result(reading(self%ticket), separation=separation), stat, errmsg)
   end function
 
   !> N of the last level.
@@ -1092,7 +1280,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: force
     force = 0
-    call finish(rsc_contact_result(self%handle, force=force), stat, errmsg)
+    call finish(rsc_contact_result(reading(self%ticket), force=force), stat, errmsg)
   end function
 
   !> A of the last level.
@@ -1102,7 +1290,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: area
     area = 0
-    call finish(rsc_contact_result(self%handle, area=area), stat, errmsg)
+    call finish(rsc_contact_result(reading(self%ticket), area=area), stat, errmsg)
   end function
 
   !> Number of asperities in contact.
@@ -1113,7 +1301,7 @@ contains
     integer :: n
     integer(c_int64_t) :: contacts
     contacts = 0
-    call finish(rsc_contact_result(self%handle, contacts=contacts), stat, errmsg)
+    call finish(rsc_contact_result(reading(self%ticket), contacts=contacts), stat, errmsg)
     n = int(contacts)
   end function
 
@@ -1124,7 +1312,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: stiffness
     stiffness = 0
-    call finish(rsc_contact_stiffness(self%handle, stiffness), stat, errmsg)
+    call finish(rsc_contact_stiffness(changing(self%ticket), stiffness), stat, errmsg)
   end function
 
   !> Elastic energy W of the last level, dW/dZ0 = -N.
@@ -1134,7 +1322,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: energy
     energy = 0
-    call finish(rsc_contact_energy(self%handle, energy), stat, errmsg)
+    call finish(rsc_contact_energy(reading(self%ticket), energy), stat, errmsg)
   end function
 
   !> How the last level was reached; level_status is one of the rsc_level_* codes.
@@ -1148,7 +1336,7 @@ contains
     integer(c_int64_t) :: n(3)
     quality = 0
     n = 0
-    status = rsc_contact_level(self%handle, quality, n(1), n(2), n(3), residual)
+    status = rsc_contact_level(reading(self%ticket), quality, n(1), n(2), n(3), residual)
     if (present(level_status)) level_status = int(quality)
     if (present(candidates)) candidates = int(n(1))
     if (present(iterations)) iterations = int(n(2))
@@ -1168,13 +1356,17 @@ contains
     ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
     real(c_double), allocatable :: force_(:), radius_(:), penetration_(:)
     integer(c_int32_t), allocatable :: which(:)
+    integer :: problem
     n = 0
-    status = rsc_contact_result(self%handle, contacts=n)
-    allocate (which(n))
-    if (present(force)) allocate (force_(n))
-    if (present(radius)) allocate (radius_(n))
-    if (present(penetration)) allocate (penetration_(n))
-    if (status == rsc_success) status = rsc_contact_spots(self%handle, n, which, force_, radius_, penetration_)
+    status = rsc_contact_result(reading(self%ticket), contacts=n)
+    problem = 0
+    if (status == rsc_success) allocate (which(n), stat=problem)
+    if (problem /= 0) status = rsc_no_memory
+    if (.not. allocated(which)) allocate (which(0))
+    if (present(force)) call make_room(force_, n, status)
+    if (present(radius)) call make_room(radius_, n, status)
+    if (present(penetration)) call make_room(penetration_, n, status)
+    if (status == rsc_success) status = rsc_contact_spots(reading(self%ticket), n, which, force_, radius_, penetration_)
     if (present(force)) call move_alloc(force_, force)
     if (present(radius)) call move_alloc(radius_, radius)
     if (present(penetration)) call move_alloc(penetration_, penetration)
@@ -1197,7 +1389,7 @@ contains
       call refuse('contact%per_asperity: the size of an array is not the number of asperities', stat, errmsg)
       return
     end if
-    call finish(rsc_contact_per_asperity(self%handle, self%asperities, force, radius, penetration), stat, errmsg)
+    call finish(rsc_contact_per_asperity(reading(self%ticket), self%asperities, force, radius, penetration), stat, errmsg)
   end subroutine
 
   !> The lowering of the surface at points (x, y) by the contact forces.
@@ -1211,25 +1403,38 @@ contains
       call refuse('contact%deflection: the arrays are not of one size', stat, errmsg)
       return
     end if
-    call finish(rsc_contact_deflection(self%handle, size(x, kind=c_int64_t), x, y, deflection), stat, errmsg)
+    call finish(rsc_contact_deflection(reading(self%ticket), size(x, kind=c_int64_t), x, y, deflection), stat, errmsg)
   end subroutine
 
-  impure elemental subroutine contact_copy(self, original)
+  subroutine contact_copy(self, original)
     class(rsc_contact), intent(inout) :: self
     class(rsc_contact), intent(in) :: original
-    integer(c_int32_t) :: status
-    if (c_associated(self%handle, original%handle)) return
-    status = rsc_contact_destroy(self%handle)
     self%asperities = original%asperities
-    if (.not. c_associated(original%handle)) return
-    status = rsc_contact_copy(self%handle, original%handle)
-    call finish(status)
+    call finish(rsc_ticket_copy(self%ticket, original%ticket))
+  end subroutine
+
+  subroutine contacts_set(self, original)
+    type(rsc_contact), intent(inout) :: self(:)
+    type(rsc_contact), intent(in) :: original
+    integer :: i
+    do i = 1, size(self)
+      call contact_copy(self(i), original)
+    end do
+  end subroutine
+
+  subroutine contacts_copy(self, original)
+    type(rsc_contact), intent(inout) :: self(:)
+    type(rsc_contact), intent(in) :: original(:)
+    integer :: i
+    do i = 1, size(self)
+      call contact_copy(self(i), original(i))
+    end do
   end subroutine
 
   impure elemental subroutine contact_final(self)
     type(rsc_contact), intent(inout) :: self
     integer(c_int32_t) :: status
-    status = rsc_contact_destroy(self%handle)
+    status = rsc_ticket_release(self%ticket)
   end subroutine
 
   ! --- friction ------------------------------------------------------------------------------------------------------------------------
@@ -1252,8 +1457,11 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    status = rsc_friction_destroy(self%handle)
-    status = rsc_friction_create(self%handle, contact%handle, mu, ratio)
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_friction_create(handle, reading(contact%ticket), mu, ratio)
+    call keep(self%ticket, rsc_kind_friction, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -1265,8 +1473,11 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    status = rsc_friction_destroy(self%handle)
-    status = rsc_friction_create_from_case(self%handle, contact%handle, options_of(options))
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_friction_create_from_case(handle, reading(contact%ticket), options_of(options))
+    call keep(self%ticket, rsc_kind_friction, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -1277,7 +1488,7 @@ contains
     real(c_double), intent(out), optional :: force, force_x, force_y, lost
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_update(self%handle, separation, x, y, force, force_x, force_y, lost), stat, errmsg)
+    call finish(rsc_friction_update(changing(self%ticket), separation, x, y, force, force_x, force_y, lost), stat, errmsg)
   end subroutine
 
   !> dQ/d(x, y) of a further slide the way that slips now: k(i, j) = dQ_i/dx_j.
@@ -1287,7 +1498,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: k(2, 2)
     k = 0
-    call finish(rsc_friction_stiffness(self%handle, k(1, 1), k(1, 2), k(2, 1), k(2, 2)), stat, errmsg)
+    call finish(rsc_friction_stiffness(changing(self%ticket), k(1, 1), k(1, 2), k(2, 1), k(2, 2)), stat, errmsg)
   end function
 
   !> Where the path has led: the last update, its forces, elastic energies (of the normal problem, of the slide), work lost since the
@@ -1299,7 +1510,7 @@ contains
         & stick_separation
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_state(self%handle, separation, x, y, force, force_x, force_y, energy, tangential_energy, lost, &
+    call finish(rsc_friction_state(reading(self%ticket), separation, x, y, force, force_x, force_y, energy, tangential_energy, lost, &
         & stick_separation), stat, errmsg)
   end subroutine
 
@@ -1308,7 +1519,7 @@ contains
     class(rsc_friction), intent(inout) :: self
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_commit(self%handle), stat, errmsg)
+    call finish(rsc_friction_commit(changing(self%ticket)), stat, errmsg)
   end subroutine
 
   !> Back to the last commit.
@@ -1316,7 +1527,7 @@ contains
     class(rsc_friction), intent(inout) :: self
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_rollback(self%handle), stat, errmsg)
+    call finish(rsc_friction_rollback(changing(self%ticket)), stat, errmsg)
   end subroutine
 
   !> Q of a contact pressed to the last separation at rest and then slid by each of the slides; the path is not touched.
@@ -1334,7 +1545,7 @@ contains
       call refuse('friction%first_loading: the arrays are not of one size', stat, errmsg)
       return
     end if
-    call finish(rsc_friction_first_loading(self%handle, size(slide, kind=c_int64_t), slide, force, stick_separation), stat, errmsg)
+    call finish(rsc_friction_first_loading(changing(self%ticket), size(slide, kind=c_int64_t), slide, force, stick_separation), stat, errmsg)
   end subroutine
 
   !> The slide that takes the force Q on first loading.
@@ -1345,7 +1556,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: slide
     slide = 0
-    call finish(rsc_friction_slide(self%handle, force, slide), stat, errmsg)
+    call finish(rsc_friction_slide(changing(self%ticket), force, slide), stat, errmsg)
   end function
 
   !> The slide at which all slips on first loading, and the force mu N.
@@ -1354,7 +1565,7 @@ contains
     real(c_double), intent(out), optional :: slide, force
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_full_slip(self%handle, slide, force), stat, errmsg)
+    call finish(rsc_friction_full_slip(reading(self%ticket), slide, force), stat, errmsg)
   end subroutine
 
   !> The spots of the last update: number of the asperity, radius of the spot and of its part that sticks, share of Q.
@@ -1370,13 +1581,13 @@ contains
     real(c_double), allocatable :: radius_(:), stick_radius_(:), force_x_(:), force_y_(:)
     integer(c_int32_t), allocatable :: which(:)
     n = 0
-    status = rsc_friction_spots(self%handle, 0_c_int64_t, count=n)  ! asks for the number only
+    status = rsc_friction_spots(changing(self%ticket), 0_c_int64_t, count=n)  ! asks for the number only
     allocate (which(n))
     if (present(radius)) allocate (radius_(n))
     if (present(stick_radius)) allocate (stick_radius_(n))
     if (present(force_x)) allocate (force_x_(n))
     if (present(force_y)) allocate (force_y_(n))
-    if (n > 0) status = rsc_friction_spots(self%handle, n, n, which, radius_, stick_radius_, force_x_, force_y_)
+    if (n > 0) status = rsc_friction_spots(changing(self%ticket), n, n, which, radius_, stick_radius_, force_x_, force_y_)
     if (present(radius)) call move_alloc(radius_, radius)
     if (present(stick_radius)) call move_alloc(stick_radius_, stick_radius)
     if (present(force_x)) call move_alloc(force_x_, force_x)
@@ -1385,21 +1596,34 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  impure elemental subroutine friction_copy(self, original)
+  subroutine friction_copy(self, original)
     class(rsc_friction), intent(inout) :: self
     class(rsc_friction), intent(in) :: original
-    integer(c_int32_t) :: status
-    if (c_associated(self%handle, original%handle)) return
-    status = rsc_friction_destroy(self%handle)
-    if (.not. c_associated(original%handle)) return
-    status = rsc_friction_copy(self%handle, original%handle)
-    call finish(status)
+    call finish(rsc_ticket_copy(self%ticket, original%ticket))
+  end subroutine
+
+  subroutine frictions_set(self, original)
+    type(rsc_friction), intent(inout) :: self(:)
+    type(rsc_friction), intent(in) :: original
+    integer :: i
+    do i = 1, size(self)
+      call friction_copy(self(i), original)
+    end do
+  end subroutine
+
+  subroutine frictions_copy(self, original)
+    type(rsc_friction), intent(inout) :: self(:)
+    type(rsc_friction), intent(in) :: original(:)
+    integer :: i
+    do i = 1, size(self)
+      call friction_copy(self(i), original(i))
+    end do
   end subroutine
 
   impure elemental subroutine friction_final(self)
     type(rsc_friction), intent(inout) :: self
     integer(c_int32_t) :: status
-    status = rsc_friction_destroy(self%handle)
+    status = rsc_ticket_release(self%ticket)
   end subroutine
 
 end module rsc

@@ -7,61 +7,15 @@ import sys
 import textwrap
 
 try:
-    import matplotlib
-
-    matplotlib.use("Agg")  # works without a screen
-    import matplotlib.pyplot as plt
-    import netCDF4
     import numpy as np
     import scipy  # noqa: F401  (the other files need it: say here that it is missing)
 except ImportError as missing:
     sys.exit(f"paper.py: the Python module {missing.name!r} is missing; on Debian: apt install python3-scipy python3-matplotlib python3-netcdf4")
 
-# Curves differ by marker and line style as well as by colour: the pictures are readable in grey.
-STYLES = [("o", "-", "#0b3c5d"), ("s", "--", "#c1440e"), ("^", "-.", "#4b8b3b"), ("D", ":", "#6a4c93"), ("v", "-", "#777777"), ("P", "--", "#b08d00"),
-          ("X", "-.", "#000000"), ("<", ":", "#1f9e9e"), (">", "-", "#a03060")]
+from plot_results import Result
+from plot_style import STYLES, plt
 
 plt.rcParams.update({"figure.dpi": 130, "font.size": 9, "axes.titlesize": 9, "legend.fontsize": 7.5, "legend.framealpha": 0.9, "image.origin": "lower"})
-
-
-class Result:
-    """A result file: variables as arrays of doubles with absent values as NaN, and the keys of its case."""
-
-    def __init__(self, path):
-        self.path = path
-        self.file = netCDF4.Dataset(path)
-        self.cache = {}
-        self.case = {}
-        group = ""
-        for line in self.file.case.splitlines():
-            if line.startswith("&"):
-                group = line[1:].strip()
-            elif "=" in line:
-                key, value = line.split("=", 1)
-                self.case[f"{group}%{key.strip()}"] = value.split("!")[0].strip().rstrip(",")
-        if "realization" in self.file.dimensions:
-            self.realizations = len(self.file.dimensions["realization"])
-
-    def __contains__(self, name):
-        return name in self.file.variables
-
-    def __getitem__(self, name):
-        if name not in self.cache:
-            self.cache[name] = np.ma.filled(np.ma.asarray(self.file.variables[name][:]).astype(float), np.nan)
-        return self.cache[name]
-
-    def attribute(self, name, attribute):
-        values = np.atleast_1d(np.asarray(getattr(self.file.variables[name], attribute), dtype=float))
-        return np.where(values > 9e36, np.nan, values)
-
-    def number(self, key):
-        """A key of the case as a number; of several values the last (of R: the sphere's)."""
-        return float(self.case[key].split(",")[-1])
-
-    def level(self, z):
-        """Index of the level at Z0/sigma = z; None if the run has none within 0.02."""
-        distance = abs(self["separation_sigma"] - z)
-        return int(np.argmin(distance)) if distance.min() < 0.02 else None
 
 
 def members(folder, name):
@@ -94,11 +48,17 @@ def text(value, digits=4):
     return f"{value:.{digits}g}"
 
 
+def agrees(paper, ours, error):
+    """Within 2.5 standard errors, or 2 %."""
+    return abs(ours - paper) <= max(0.02 * abs(paper), 2.5 * error if np.isfinite(error) else 0.0)
+
+
 class Report:
     """The report, section by section. A row: what, the paper's number, ours, its standard error, and a word on it."""
 
     def __init__(self):
         self.lines = []
+        self.rows = []  # (what, paper, ours, error) of rows with both numbers
         self.full = True  # not the shortened version
 
     def heading(self, title):
@@ -110,6 +70,7 @@ class Report:
     def row(self, what, paper, ours, error=np.nan, remark=None):
         difference = ""
         if isinstance(paper, (int, float)) and isinstance(ours, (int, float, np.floating)) and np.isfinite(ours):
+            self.rows.append((what, paper, float(ours), float(error)))
             d = float(ours) - paper
             difference = f"{text(d, 3)} ({100 * d / paper:+.1f} %)" if paper else text(d, 3)
         self.lines.append(f"  {what:56s} {text(paper):>12s} {text(float(ours) if not isinstance(ours, str) else ours):>12s} "
@@ -128,9 +89,28 @@ class Report:
     def raw(self, line):
         self.lines.append("  " + line)
 
+    # What the paper says, shortly, and the row that it is judged by.
+    VERDICTS = [("curvatures of summits, kappa1/kappa2", "the same of Greenwood's formula itself"), ("spots merge beyond an area fraction of [%]", "area fraction beyond"),
+                ("rms slope of the gold surface", "rms slope of the gold"), ("force at Z0/sigma = 1.43 [N]", "N at Z0/sigma = 1.43 [N], no plateau"),
+                ("area over load, beta", "beta, mean of the six"), ("force between the regimes, N*/(m2^1.5 E*/m4)", "N*/(m2"),
+                ("pressure in contacts, exponent alpha", "exponent alpha at Z0/sigma = 2, no plateau"), ("hardness at r = 0.18 um [N/mm2]", "hardness at"),
+                ("solves a level by dgesv, 90 % have at most", "solves a level, 90 %")]
+
+    def verdict(self):
+        """Ten lines: how many of the paper's numbers are confirmed, and nine that matter most."""
+        agree = sum(agrees(*row[1:]) for row in self.rows)
+        lines = [f"Verdict: of {len(self.rows)} numbers of the paper, {agree} agree (within 2.5 standard errors or 2 %), {len(self.rows) - agree} do not."
+                 + ("" if self.full else " SHORTENED: no verdict on the paper.")]
+        for words, row in self.VERDICTS:
+            paper, ours, error = next((r[1:] for r in self.rows if r[0].startswith(row)), (None, None, None))
+            said = "not in this run" if paper is None else (f"paper {text(paper)}, rsc {text(ours)}" + (f" +- {text(error, 2)}" if np.isfinite(error) and error > 0 else "") + ": "
+                                                           + ("agrees" if agrees(paper, ours, error) else f"does not agree, {100 * (ours - paper) / paper:+.0f} %"))
+            lines.append(f"  {words:46s} {said}")
+        return lines
+
     def write(self, path):
         with open(path, "w", encoding="utf-8") as out:
-            out.write("\n".join(self.lines).lstrip("\n") + "\n")
+            out.write("\n".join(self.verdict() + ["", *self.lines]) + "\n")
 
 
 def save(figure, folder, name):

@@ -23,6 +23,7 @@ struct LevelValues {
     double separation = 0;               // Z0 [length]
     double force = 0;                    // N = sum f [force]
     double area = 0;                     // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
+    double area_pixels = kNotComputed;   // elements: of all pixels under pressure, not corrected for their border [length^2]
     double residual = 0;                 // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     double stiffness = kNotComputed;     // dN/dZ0, negative [force/length]
     std::int64_t products = 0;           // products with B (matrix-free methods), solves (dgesv)
@@ -39,6 +40,18 @@ struct LevelValues {
     std::int32_t outside_map = 0;    // contacts outside the map
 };
 
+// Elements: the pixels under pressure, row by row. Empty for asperities.
+struct LevelPixels {
+    int columns = 0;                    // of the map
+    double x0 = 0, y0 = 0;              // middle of the map's first pixel [length]
+    double dx = 0, dy = 0;              // sides of a pixel [length]
+    std::vector<std::int32_t> index;    // row * columns + column, 0-based
+    std::vector<std::int32_t> contact;  // which of the level's contacts it belongs to
+    std::vector<double> pressure;       // [force/length^2]
+    double x(std::size_t k) const { return x0 + index[k] % columns * dx; }
+    double y(std::size_t k) const { return y0 + index[k] / columns * dy; }
+};
+
 // A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
 struct Level : LevelValues {
     std::vector<int> asperity;  // index of the asperity (0-based), or of the spot's pixel that carries the most
@@ -46,6 +59,7 @@ struct Level : LevelValues {
     std::vector<double> f;      // force [force]
     std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
     std::vector<double> u;      // penetration with interaction [length]
+    LevelPixels pixels;
 
     void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
         asperity.push_back(index);

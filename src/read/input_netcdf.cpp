@@ -140,7 +140,7 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
     return text.substr(0, text.find('\0'));
 }
 
-void NetcdfInput::read(const Variable& v, double* out) const {
+void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {
     if (!v.numeric()) refuse(path_ + ": variable " + v.name + " is not numeric");
     std::size_t count = 1;
     for (const std::size_t n : v.lengths) count *= n;
@@ -168,6 +168,10 @@ void NetcdfInput::read(const Variable& v, double* out) const {
     const double scale = factor("scale_factor", 1.0), offset = factor("add_offset", 0.0);
     for (std::size_t i = 0; i < count; ++i) {
         const double stored = out[i];
+        if (missing_allowed && (std::isnan(stored) || std::find(missing.begin(), missing.end(), stored) != missing.end())) {
+            out[i] = std::nan("");
+            continue;
+        }
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
             refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) + "); every value must be known");
         out[i] = stored * scale + offset;

@@ -33,8 +33,8 @@ public:
     std::optional<Variable> find(const std::string& name) const;
 
     // All values of a numeric variable to out, unpacked with scale_factor and add_offset. Throws Error(bad_input) naming the
-    // first that is missing or not finite, by its indices counted from 0.
-    void read(const Variable& variable, double* out) const;
+    // first that is missing or not finite, by its indices counted from 0; with `missing` these are NaN, but infinity is refused.
+    void read(const Variable& variable, double* out, bool missing = false) const;
 
     std::optional<std::string> text_attribute(const Variable& variable, const char* name) const;
     const std::string& path() const { return path_; }

@@ -36,6 +36,14 @@ std::string shown(std::string_view word) {
     return "'" + s + (word.size() > 40 ? "...'" : "'");
 }
 
+// In any case of letters.
+bool is_missing(std::string_view word) {
+    const auto is = [&](std::string_view other) {
+        return std::equal(word.begin(), word.end(), other.begin(), other.end(), [](char a, char b) { return (a | 32) == b; });
+    };
+    return is("nan") || is("bad");
+}
+
 double number(std::string_view word, const std::string& path, long line, std::size_t column, Style& style) {
     const std::string place = shown(word) + " in column " + std::to_string(column);
     // std::from_chars knows no plus sign before a number.
@@ -63,12 +71,13 @@ double number(std::string_view word, const std::string& path, long line, std::si
     // Out of range means too large, or so small that zero is the nearest double: the latter does no harm.
     if (whole && error == std::errc::result_out_of_range && std::abs(std::strtod(text.c_str(), nullptr)) < 1.0) return 0.0;
     if (!whole || error != std::errc()) refuse(path, line, place + " is not a number");
-    if (!std::isfinite(value)) refuse(path, line, place + " is not finite: every value must be known");
+    if (!std::isfinite(value))
+        refuse(path, line, place + " is not finite: every value must be known (missing points of a map: surface%missing)");
     return value;
 }
 
 // Appends the numbers of a line to `values`; returns how many there were.
-std::size_t parse(std::string_view text, const std::string& path, long line, Style& style, std::vector<double>& values) {
+std::size_t parse(std::string_view text, const std::string& path, long line, Style& style, bool missing, std::vector<double>& values) {
     text = text.substr(0, text.find('#'));
     const bool semicolons = text.find(';') != std::string_view::npos;
     const auto separates = [semicolons](char c) { return c == (semicolons ? ';' : ','); };
@@ -101,7 +110,7 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
         while (i < text.size() && !blank(text[i]) && !separates(text[i])) ++i;
         const std::string_view word = text.substr(start, i - start);
         if (count > 0) require(gap, shown(word));
-        values.push_back(number(word, path, line, count + 1, style));
+        values.push_back(missing && is_missing(word) ? std::nan("") : number(word, path, line, count + 1, style));
         ++count;
         gap = 0;
     }
@@ -110,7 +119,7 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
 
 }  // namespace
 
-TextTable read_table(const std::string& path, std::size_t columns) {
+TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw Error(Failure::bad_input, path + ": cannot be read");
     TextTable table;
@@ -125,7 +134,7 @@ TextTable read_table(const std::string& path, std::size_t columns) {
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
             throw Error(Failure::bad_input, path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
         if (view.find('\0') != std::string_view::npos) refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
-        const std::size_t count = parse(view, path, line, style, table.values);
+        const std::size_t count = parse(view, path, line, style, missing, table.values);
         if (count == 0) continue;
         if (table.columns == 0) table.columns = count;
         if (count != table.columns) {

@@ -18,7 +18,7 @@ struct TextTable {
 // throughout the file. Between semicolons the decimal mark may be a comma; then it is so throughout. `#` starts a comment; empty lines
 // are skipped; Fortran's exponents (1.5d-3) are understood. `columns` wanted, or 0: as many as the first row has. Throws
 // Error(bad_input) naming the line of a word that is no finite number, of a row longer or shorter than the others or separated
-// otherwise, or that nothing is there; UTF-16 is refused by name.
-TextTable read_table(const std::string& path, std::size_t columns);
+// otherwise, or that nothing is there; UTF-16 is refused by name. With `missing` the words nan and bad are values: NaN.
+TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
 
 }  // namespace rsc

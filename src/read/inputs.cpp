@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fstream>
 #include <limits>
 #include <vector>
 
-#include <unistd.h>
-
 #include "case/units.hpp"
 #include "error.hpp"
+#include "read/grid.hpp"
+#include "read/input_gwy.hpp"
 #include "read/input_netcdf.hpp"
+#include "read/input_sdf.hpp"
 #include "read/input_text.hpp"
 #include "rough/magnitude.hpp"
+#include "rough/missing.hpp"
 
 namespace rsc {
 namespace {
@@ -23,37 +25,8 @@ constexpr double kSameL = 1e-6;        // relative: how far nx dx may be from th
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
 
-std::string text(double v) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.9g", v);
-    return buffer;
-}
-
-// A file may announce any size; more than the machine holds is refused before memory is asked for. `what` has `count` doubles.
-void check_memory(const std::string& path, const std::string& what, double count) {
-    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    const double machine = pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : 1e15;
-    const double bytes = count * sizeof(double);
-    if (bytes > machine)
-        refuse(path + ": " + what + " needs " + text(bytes / 1e9) + " GB; this machine has " + text(machine / 1e9) + " GB");
-}
-
-void check_size(const std::string& path, std::size_t nx, std::size_t ny) {
-    const std::string what = "a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points";
-    if (nx < 3 || ny < 3) refuse(path + ": " + what + "; at least 3 x 3 are needed");
-    if (std::max(nx, ny) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        refuse(path + ": " + what + "; at most 2147483647 a side are possible");
-    check_memory(path, what, static_cast<double>(nx) * static_cast<double>(ny));
-}
-
 void check_L(const std::string& path, double L) {
-    if (!(L > 0 && std::isfinite(L))) refuse(path + ": L must be positive and finite, not " + text(L));
-}
-
-HeightMap allocate(std::size_t nx, std::size_t ny) {
-    HeightMap map;
-    map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
-    return map;
+    if (!(L > 0 && std::isfinite(L))) refuse(path + ": L must be positive and finite, not " + text_of(L));
 }
 
 // nx dx must be the L that was given, if any.
@@ -62,8 +35,8 @@ void check_given_L(const std::string& path, const std::string& coordinate, int n
     check_L(path, *L);
     const double extent = nx * dx;
     if (!(std::abs(extent - *L) <= kSameL * *L))
-        refuse(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) + " steps of " + text(dx) + " = " + text(extent) +
-               ", but L = " + text(*L) + " was given");
+        refuse(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) + " steps of " + text_of(dx) + " = " +
+               text_of(extent) + ", but L = " + text_of(*L) + " was given");
 }
 
 // The uniform grid that one coordinate of x y z triples lies on.
@@ -75,7 +48,11 @@ struct TextAxis {
 
 TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t column, const char* name) {
     std::vector<double> c(table.rows);
-    for (std::size_t i = 0; i < table.rows; ++i) c[i] = table.values[3 * i + column];
+    for (std::size_t i = 0; i < table.rows; ++i) {
+        c[i] = table.values[3 * i + column];
+        if (std::isnan(c[i]))
+            refuse(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " is missing");
+    }
     std::sort(c.begin(), c.end());
     TextAxis axis;
     axis.first = c.front();
@@ -83,38 +60,40 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     axis.count = 1;
     for (std::size_t i = 1; i < c.size(); ++i) axis.count += c[i] - c[i - 1] > same ? 1 : 0;
     if (axis.count < 2)
-        refuse(path + ": three columns are read as x y z of a map; column " + name + " is " + text(axis.first) + " throughout");
+        refuse(path + ": three columns are read as x y z of a map; column " + name + " is " + text_of(axis.first) + " throughout");
     axis.step = range / static_cast<double>(axis.count - 1);
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double v = table.values[3 * i + column];
         const double uniform = axis.first + static_cast<double>(axis.index(v)) * axis.step;
         if (!(std::abs(v - uniform) <= kUniformText * axis.step))
-            refuse(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " = " + text(v) +
-                   " is not on a uniform grid of " + std::to_string(axis.count) + " values from " + text(c.front()) + " to " +
-                   text(c.back()));
+            refuse(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " = " + text_of(v) +
+                   " is not on a uniform grid of " + std::to_string(axis.count) + " values from " + text_of(c.front()) + " to " +
+                   text_of(c.back()));
     }
     return axis;
 }
 
-HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L) {
+HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L, bool missing) {
     const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
-    check_size(path, x.count, y.count);
-    HeightMap map = allocate(x.count, y.count);
+    check_grid(path, x.count, y.count);
+    HeightMap map = allocate_map(x.count, y.count);
     std::vector<long> line(x.count * y.count);
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double* const row = table.values.data() + 3 * i;
         const std::size_t point = y.index(row[1]) * x.count + x.index(row[0]);
         if (line[point] > 0)
-            refuse(path + ":" + std::to_string(table.line[i]) + ": x = " + text(row[0]) + ", y = " + text(row[1]) + " is already in line " +
-                   std::to_string(line[point]));
+            refuse(path + ":" + std::to_string(table.line[i]) + ": x = " + text_of(row[0]) + ", y = " + text_of(row[1]) +
+                   " is already in line " + std::to_string(line[point]));
         line[point] = table.line[i];
         map.data[point] = row[2];
     }
+    for (std::size_t k = 0; missing && k < line.size(); ++k)  // a point that is not listed is missing
+        if (line[k] == 0) map.data[k] = std::nan(""), line[k] = -1;
     if (const auto empty = std::find(line.begin(), line.end(), 0L); empty != line.end()) {
         const auto point = static_cast<std::size_t>(empty - line.begin());
         refuse(path + ": three columns are read as x y z of a map of " + std::to_string(x.count) + " x " + std::to_string(y.count) +
-               " points, but there is none at x = " + text(x.first + static_cast<double>(point % x.count) * x.step) +
-               ", y = " + text(y.first + static_cast<double>(point / x.count) * y.step));
+               " points, but there is none at x = " + text_of(x.first + static_cast<double>(point % x.count) * x.step) +
+               ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step));
     }
     map.x0 = x.first;
     map.y0 = y.first;
@@ -124,14 +103,14 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table, std
     return map;
 }
 
-HeightMap read_text_heights(const std::string& path, std::optional<double> L) {
-    const TextTable table = read_table(path, 0);
-    if (table.columns == 3) return read_text_triples(path, table, L);
+HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing) {
+    const TextTable table = read_table(path, 0, missing);
+    if (table.columns == 3) return read_text_triples(path, table, L, missing);
     if (table.columns == 4) refuse(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
     if (!L) refuse(path + ": a text matrix has no spacing; L, its extent in x, must be given");
     check_L(path, *L);
-    check_size(path, table.columns, table.rows);
-    HeightMap map = allocate(table.columns, table.rows);
+    check_grid(path, table.columns, table.rows);
+    HeightMap map = allocate_map(table.columns, table.rows);
     std::copy(table.values.begin(), table.values.end(), map.data.get());
     map.dx = map.dy = *L / map.nx;
     return map;
@@ -155,21 +134,28 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     if (axis.reversed) std::reverse(c.begin(), c.end());
     axis.first = c.front();
     axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
-    if (!(axis.step > 0)) refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text(c.front()));
+    if (!(axis.step > 0)) refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text_of(c.front()));
     // Coordinates stored in single precision are as uniform as that allows.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (std::size_t i = 0; i < n; ++i) {
         const double uniform = axis.first + static_cast<double>(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
-            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text(axis.step) + ": " + name + "(" +
-                   std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text(c[i]) + " where " + text(uniform) +
+            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text_of(axis.step) + ": " + name + "(" +
+                   std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text_of(c[i]) + " where " + text_of(uniform) +
                    " was expected");
     }
     return axis;
 }
 
-NetcdfInput::Variable find_heights(const NetcdfInput& file) {
+NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel) {
+    if (!channel.empty()) {
+        const auto named = file.find(channel);
+        if (!named) refuse(file.path() + ": there is no variable '" + channel + "'");
+        if (named->lengths.size() != 2 || !named->numeric())
+            refuse(file.path() + ": channel '" + channel + "': two dimensions of numbers were expected, not " + named->shape());
+        return *named;
+    }
     if (const auto named = file.find("height")) {
         if (named->lengths.size() != 2 || !named->numeric())
             refuse(file.path() + ": height(y, x), numeric, was expected, not " + named->shape());
@@ -223,23 +209,16 @@ Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heigh
     return {factor[0], factor[1], factor[2]};
 }
 
-void reverse_columns(HeightMap& map) {
-    for (int j = 0; j < map.ny; ++j) std::reverse(map.row(j), map.row(j) + map.nx);
-}
-
-void reverse_rows(HeightMap& map) {
-    for (int j = 0; j < map.ny - 1 - j; ++j) std::swap_ranges(map.row(j), map.row(j) + map.nx, map.row(map.ny - 1 - j));
-}
-
-HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, const std::string& length_unit) {
+HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, const std::string& length_unit, const std::string& channel,
+                              bool missing) {
     const NetcdfInput file(path);
-    const auto variable = find_heights(file);
-    check_size(path, variable.lengths[1], variable.lengths[0]);
+    const auto variable = find_heights(file, channel);
+    check_grid(path, variable.lengths[1], variable.lengths[0]);
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
         refuse(path + ": " + variable.shape() + " has a coordinate variable for one dimension alone; for both or neither was expected");
     if (!x && !L) refuse(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
-    HeightMap map = allocate(variable.lengths[1], variable.lengths[0]);
+    HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
     if (L) {
         check_L(path, *L);
         map.dx = map.dy = *L / map.nx;
@@ -252,12 +231,28 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
         map.dy = y->step * factor.y;
         check_given_L(path, variable.axes[1], map.nx, map.dx, L);
     }
-    file.read(variable, map.data.get());
+    file.read(variable, map.data.get(), missing);
     if (factor.height != 1)
         std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [&](double& z) { z *= factor.height; });
     if (x && x->reversed) reverse_columns(map);
     if (y && y->reversed) reverse_rows(map);
     return map;
+}
+
+std::string first_bytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string start(4096, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    return start;
+}
+
+// What no reader here knows and is no text is refused with the way to read it all the same.
+void refuse_unknown(const std::string& path, const std::string& start) {
+    if (start.find('\0') == std::string::npos || start.substr(0, 2) == "\xff\xfe" || start.substr(0, 2) == "\xfe\xff") return;
+    refuse(path +
+           ": neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" +
+           path + "' makes one that rsc reads");
 }
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
@@ -309,17 +304,35 @@ Asperities read_text_asperities(const std::string& path) {
 
 }  // namespace
 
-HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit) {
-    HeightMap map = is_netcdf(path) ? read_netcdf_heights(path, L, length_unit) : read_text_heights(path, L);
+HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit, const std::string& channel,
+                       Missing missing) {
+    const bool fill = missing == Missing::fill;
+    const bool netcdf = is_netcdf(path);
+    const std::string start = first_bytes(path);
+    const bool gwy = !netcdf && is_gwy(start), sdf = !netcdf && is_sdf(start);
+    if (!channel.empty() && !netcdf && !gwy)
+        refuse(path + ": has no channels to choose '" + channel + "' from; only .gwy and NetCDF files have");
+    if (!netcdf && !gwy && !sdf) refuse_unknown(path, start);
+    HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill)
+                    : gwy  ? read_gwy(path, channel, length_unit)
+                    : sdf  ? read_sdf(path, length_unit)
+                           : read_text_heights(path, L, fill);
+    if (gwy || sdf) check_given_L(path, "x", map.nx, map.dx, L);
     for (const double step : {map.dx, map.dy})
-        if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text(step));
+        if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));
     for (const double origin : {map.x0, map.y0})
-        if (!usable(origin)) refuse(path + ": the first coordinate " + kNumberBounds + ", not " + text(origin));
+        if (!usable(origin)) refuse(path + ": the first coordinate " + kNumberBounds + ", not " + text_of(origin));
     for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
-            if (!usable(map(i, j)))
-                refuse(path + ": a height " + kNumberBounds + ", not " + text(map(i, j)) + " as in column " + std::to_string(i) +
-                       " of row " + std::to_string(j) + ", counted from 0");
+        for (int i = 0; i < map.nx; ++i) {
+            const double z = map(i, j);
+            if (usable(z) || (fill && std::isnan(z))) continue;
+            const std::string place = " in column " + std::to_string(i) + " of row " + std::to_string(j) + ", counted from 0" +
+                                      (gwy || sdf ? " with y upwards" : "");
+            if (std::isnan(z))
+                refuse(path + ": " + std::to_string(count_missing(map)) + " of " + std::to_string(static_cast<long>(map.nx) * map.ny) +
+                       " points are missing" + (gwy ? " or masked" : "") + ", the first" + place + "; surface%missing = 'fill' fills them");
+            refuse(path + ": a height " + kNumberBounds + ", not " + text_of(z) + " as" + place);
+        }
     return map;
 }
 

@@ -1,4 +1,4 @@
-// Surfaces from files: height maps and lists of asperities, NetCDF or text. What a file is, is told by its first bytes, not by
+// Surfaces from files: height maps and lists of asperities, NetCDF, .gwy, .sdf or text. What a file is, is told by its first bytes, not by
 // its name. Anything wrong is Error(bad_input) naming the file, the line or index, and what was expected.
 // May be called by several threads; NetCDF files are read one at a time.
 #pragma once
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "rough/asperities.hpp"
+#include "rough/measured.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -22,7 +23,12 @@ namespace rsc {
 //   points of a full grid whose coordinates are uniform to a hundredth of a step, as text is rounded. Four columns are refused:
 //   they are a list of asperities.
 // L: extent in x [length_unit], a point being a cell (L = nx dx). At least 3 x 3 points. The map is not periodic.
-HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit = "mm");
+// Gwyddion's .gwy (input_gwy.hpp) and .sdf of ISO 25178-71 (input_sdf.hpp): sizes and units are theirs; L, if given, must agree.
+// `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first that holds heights. With Missing::fill missing
+// points are NaN in the map; otherwise they are refused. In a text `nan` and `bad` are missing points, and so are points that triples
+// do not list.
+HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit = "mm",
+                       const std::string& channel = "", Missing missing = Missing::refuse);
 
 // Asperities from `path`.
 // NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1, _kappa2 and _angle when all

@@ -55,6 +55,12 @@ done
 
 report=$folder/paper/report.txt
 [ -s "$report" ] || { fail "no report"; exit 1; }
+# It begins with ten lines of verdict, made from its own rows.
+head -n 10 "$report" > "$folder/verdict.txt"
+head -n 1 "$report" | grep -q '^Verdict: of [0-9]* numbers of the paper, [0-9]* agree .* [0-9]* do not\. SHORTENED' || fail "the report does not begin with a verdict"
+[ "$(grep -c ': agrees$\|: does not agree, [-+][0-9]* %$' "$folder/verdict.txt")" -eq 9 ] || fail "not nine verdicts: $(cat "$folder/verdict.txt")"
+grep -q 'area over load, beta .*does not agree' "$folder/verdict.txt" || fail "beta of the paper is taken for right"
+grep -q 'kappa1/kappa2 .*2\.214.*: agrees' "$folder/verdict.txt" || fail "the paper's kappa1/kappa2 is taken for wrong"
 grep -q 'SHORTENED' "$report" || fail "the report does not say that it is the shortened one"
 if grep -n -w -i nan "$report"; then fail "not a number in the report"; fi
 # A row for every number the paper states and a shortened run has.

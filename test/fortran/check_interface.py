@@ -1,7 +1,7 @@
-"""Compares the interface blocks of rsc.f90 with rsc.h: functions, arguments, their order, names and types, constants.
+"""Compares the interface blocks of rsc.f90 with rsc.h and tickets.h: functions, arguments, their order, names and types, constants.
 
-usage: check_interface.py rsc.h rsc.f90
-       check_interface.py --self-test rsc.h rsc.f90    (every single change to a copy must be found)
+usage: check_interface.py rsc.h tickets.h rsc.f90
+       check_interface.py --self-test rsc.h tickets.h rsc.f90    (every single change to a copy must be found)
 """
 import re
 import sys
@@ -26,7 +26,7 @@ def c_argument(function, text):
     if not match:
         raise SystemExit(f"rsc.h: {function}: argument not understood: {text}")
     const, kind, stars, name = bool(match[1]), match[2], match[3], match[4]
-    if kind.startswith("rsc_"):
+    if kind.startswith("rsc_") or kind == "void":
         what = {"*": "handle", "**": "address of a handle"}[stars]
     elif kind == "char":
         what = "text in" if const else "text out"
@@ -36,8 +36,9 @@ def c_argument(function, text):
 
 
 def read_module(text):
-    constants = {n.lower(): int(v) for n, v in re.findall(r"integer, parameter, public :: (rsc_\w+) = (-?\d+)", text)}
-    start, end = text.index("\n  interface\n"), text.index("\n  end interface\n")
+    constants = {n.lower(): int(v) for n, v in re.findall(r"integer(?:\(c_int32_t\))?, parameter(?:, public)? :: (rsc_\w+) = (-?\d+)", text)}
+    start = text.index("\n  interface\n")
+    end = text.index("\n  end interface\n", start)
     block = re.sub(r"!.*", "", text[start:end])
     block = re.sub(r"&\s*\n\s*&?", "", block)
     functions = {}
@@ -65,10 +66,11 @@ def fortran_type(function, text, array):
     if kind == "type(c_ptr)":
         return {"value": "handle", "intent(inout)": "address of a handle"}.get("".join(attributes), text)
     if kind == "character(kind=c_char)" and array:
-        return {"intent(in)": "text in", "intent(out)": "text out"}.get("".join(attributes), text)
+        return {"intent(in)": "text in", "intent(inout)": "text out"}.get("".join(attributes), text)
     if attributes == {"value"} and not array:
         return kind + " value"
-    if attributes in ({"intent(in)"}, {"intent(out)"}):
+    # What a failure leaves as it was is intent(inout): after intent(out) a compiler may drop the value from before.
+    if attributes in ({"intent(in)"}, {"intent(inout)"}):
         return kind + (" in" if attributes == {"intent(in)"} else " out")
     return kind + " result" if not attributes else text
 
@@ -101,6 +103,9 @@ def self_test(header, module):
         (0, "RSC_API int32_t rsc_key_count(int64_t* count);", ""),
         (1, "real(c_double), value :: separation", "real(c_double), intent(in) :: separation"),
         (1, "integer(c_int64_t), value :: key", "integer(c_int32_t), value :: key"),
+        (0, "int32_t kind, void* handle", "void* handle, int32_t kind"),
+        (0, "X(RSC_KIND_CASE, 1,", "X(RSC_KIND_CASE, 2,"),
+        (1, "real(c_double), intent(inout), optional :: separation, force, area", "real(c_double), intent(out), optional :: separation, force, area"),
         (1, "public :: rsc_no_memory = 2", "public :: rsc_no_memory = 7"),
         (1, "function rsc_case_copy(new_case, original)", "function rsc_case_copy(original, new_case)"),
     ]
@@ -124,7 +129,8 @@ def self_test(header, module):
 def main():
     arguments = sys.argv[1:]
     test = arguments[:1] == ["--self-test"]
-    header, module = (open(path, encoding="utf-8").read() for path in arguments[-2:])
+    *headers, module = (open(path, encoding="utf-8").read() for path in arguments[test:])
+    header = "\n".join(headers)
     if test:
         sys.exit(1 if self_test(header, module) else 0)
     found, functions, constants = differences(header, module)

@@ -316,7 +316,8 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0), "at least 3 x 3");
     REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "holds no numbers");
     REFUSED(read_heights(write("t", ""), 1.0), "is empty");
-    REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0), "neither text nor a NetCDF file");
+    REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0),
+            "neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=");
     REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0), "t: is text in UTF-16");
     REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0), "four columns are a list of asperities x y z r");
     REFUSED(read_heights(in_folder("absent"), 1.0), "absent: No such file");

@@ -15,9 +15,9 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-constexpr int kOffsets = 49;          // of boxes: -3 ... 3 in both directions
-constexpr std::size_t kThreads = 64;  // boxes from which threads pay
-constexpr std::size_t kChunk = 128;   // boxes that a thread takes at a time
+constexpr int kOffsets = 49;           // of boxes: -3 ... 3 in both directions
+constexpr std::size_t kThreads = 500;  // boxes from which threads pay
+constexpr std::size_t kChunk = 128;    // boxes that a thread takes at a time
 
 // Interpolation error of q points (test_pixels.cpp measures it).
 double interpolation_error(int q) { return 0.2 * std::pow(6.0, -q); }
@@ -88,7 +88,7 @@ void enclose(Generation& g, const std::vector<Box>& boxes) {
 void pair_up(Generation& g, bool last) {
     const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
     std::vector<std::vector<std::array<int, 3>>> found(chunks);
-#pragma omp parallel for schedule(dynamic, 4) if (g.boxes.size() > 8 * kThreads)
+#pragma omp parallel for schedule(dynamic, 4) if (g.boxes.size() > 2 * kThreads)
     for (std::size_t c = 0; c < chunks; ++c)
         for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
             const Box b = g.boxes[k];
@@ -161,6 +161,7 @@ class Interpolation {
 public:
     Interpolation(int q, int rows, double aspect) : q_(q), rows_(rows), aspect_(aspect) {
         padded_ = (q * q + kLane - 1) / kLane * kLane;
+        for (int i = 0; i < q; ++i) point_.push_back(chebyshev_point(q, i));
         columns_of_.resize(at(kTileColumns * q));
         rows_of_.resize(at(rows * q));
         for (int i = 0; i < kTileColumns; ++i) interpolation_weights(q, (i + 0.5) * 2 / kTileColumns - 1, &columns_of_[at(i * q)]);
@@ -250,11 +251,10 @@ private:
             for (int ox = 0; ox <= 3; ++ox) {
                 if (ox <= 1 && oy <= 1) continue;
                 std::vector<double> K(at(n) * at(n));  // (target, source)
-#pragma omp parallel for schedule(static) if (n > 32)
                 for (int t = 0; t < n; ++t)
                     for (int s = 0; s < n; ++s) {
-                        const double x = half_x * (2 * ox + chebyshev_point(q_, s % q_) - chebyshev_point(q_, t % q_));
-                        const double y = half_y * (2 * oy + chebyshev_point(q_, s / q_) - chebyshev_point(q_, t / q_));
+                        const double x = half_x * (2 * ox + point_[at(s % q_)] - point_[at(t % q_)]);
+                        const double y = half_y * (2 * oy + point_[at(s / q_)] - point_[at(t / q_)]);
                         K[at(t) * at(n) + at(s)] = pixel_kernel(x, y, aspect_);
                     }
                 for (int sy = oy == 0 ? 1 : -1; sy <= 1; sy += 2)
@@ -279,6 +279,7 @@ private:
 
     int q_, rows_, padded_ = 0;
     double aspect_;
+    std::vector<double> point_;                 // Chebyshev points
     std::vector<double> columns_of_, rows_of_;  // weights of a tile's columns and rows
     std::vector<double> child_[2];              // of the points of the lower and the upper half
     std::vector<std::vector<std::vector<double>>> matrices_;

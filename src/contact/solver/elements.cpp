@@ -131,8 +131,8 @@ void ElementsSolver::find_free() {
     blocks_.assign(pixels, products_);
 }
 
-// Conjugate gradients on the free pixels. Returns the steps taken.
-int ElementsSolver::descend(int most_steps, double reduction) {
+// Conjugate gradients on the free pixels.
+void ElementsSolver::descend(int most_steps, double reduction) {
     const std::size_t n = free_.size();
     r_.resize(n);
     z_.resize(n);
@@ -145,7 +145,7 @@ int ElementsSolver::descend(int most_steps, double reduction) {
         blocks_.apply(r_.data(), z_.data());
         for (std::size_t k = 0; k < n; ++k) rz += r_[k] * z_[k];
         if (step == 0) first = rz;
-        if (step == most_steps || !(rz > reduction * reduction * first)) return step;
+        if (step == most_steps || !(rz > reduction * reduction * first)) return;
         const double beta = step > 0 ? rz / last : 0.0;
         last = rz;
         for (std::size_t k = 0; k < n; ++k) {
@@ -155,7 +155,7 @@ int ElementsSolver::descend(int most_steps, double reduction) {
         products_.apply(direction_.data(), image_.data(), Accuracy::inner);
         double curvature = 0;
         for (int k : free_) curvature += direction_[at(k)] * image_[at(k)];
-        if (!(curvature > 0)) return step;
+        if (!(curvature > 0)) return;
         const double alpha = rz / curvature;
         for (std::size_t k = 0; k < p_.size(); ++k) {
             p_[k] += alpha * direction_[k];
@@ -251,6 +251,7 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
     bool exact = false;   // w_ comes from a full product
     bool looked = false;  // pixels outside were looked at, and those that joined are in
     while (outcome.iterations < most_iterations) {
+        ++outcome.iterations;
         find_free();
         if (free_.empty()) {  // every pixel at the highest pressure, or none under any
             evaluate(Accuracy::full);
@@ -258,7 +259,7 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
         } else {
             before_p_ = p_;
             before_w_ = w_;
-            outcome.iterations += std::max(1, descend(kSteps, kReduction));
+            descend(kSteps, kReduction);
             const long cut = bound();
             const double guess = error();
             exact = (looked && guess < kInnerReach * products_.inner_error()) || guess < tolerance;
@@ -285,6 +286,12 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
     for (std::size_t k = 0; k < p_.size(); ++k) p[at(position_[k])] = p_[k];
     outcome.products = products_.count() - before;
     return outcome;
+}
+
+double ElementsSolver::energy() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < p_.size(); ++k) sum += p_[k] * (g0_[k] - w_[k]);
+    return 0.5 * sum;
 }
 
 double ElementsSolver::stiffness(double tolerance) {

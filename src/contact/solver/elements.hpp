@@ -11,7 +11,7 @@ namespace rsc {
 
 struct ElementsOutcome {
     bool converged = false;
-    int iterations = 0;   // steps of conjugate gradients
+    int iterations = 0;   // rounds: sets of pixels under pressure tried
     long products = 0;    // products with K
     double residual = 0;  // what the conditions miss: see ElementsSolver::error
 };
@@ -33,12 +33,15 @@ public:
     // residual of `tolerance`.
     double stiffness(double tolerance);
 
+    // p'Kp/2 of the last answer, evaluated as g0'p - p'Kp/2 = sum p (g0 - w)/2, which equals it at the solution.
+    double energy() const;
+
 private:
     void start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p);
     void draw(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& p);
     void evaluate(PixelProducts::Accuracy accuracy);
     void find_free();
-    int descend(int most_steps, double reduction);
+    void descend(int most_steps, double reduction);
     long bound();
     void keep_falling(PixelProducts::Accuracy accuracy);
     long join(const std::vector<Pixel>& pixels, const std::vector<double>& g0);

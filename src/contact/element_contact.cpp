@@ -1,0 +1,281 @@
+#include "contact/element_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+
+#include "contact/ranking.hpp"
+#include "contact/solver/elements.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
+constexpr int kBlock = 16;            // pixels of a side of the blocks whose highest points are kept
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+struct ElementContact::Impl {
+    const HeightMap& heights;
+    Indenter indenter;
+    SolverOptions options;
+    std::unique_ptr<PixelProducts> products;
+    ElementsSolver solver;
+    int blocks_x, blocks_y;
+    std::vector<double> block_top;  // highest z of each block
+    double top = -kInfinity;        // highest point under the sphere
+
+    // Pixels with g0 > 0 of the level at hand, row by row, and the answer.
+    std::vector<Pixel> pixels;
+    std::vector<double> g0, p;
+
+    // Pixels under pressure at earlier levels, the last one first.
+    struct Past {
+        double separation;
+        std::vector<Pixel> pixels;
+        std::vector<double> p;
+    };
+    std::deque<Past> past;
+    std::size_t since_move = 0;
+
+    Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
+        : heights(heights_),
+          indenter(indenter_),
+          options(options_),
+          products(make_tree_products(indenter_.E_star, heights_.dx, heights_.dy, kInnerError, 0.1 * options_.tolerance)),
+          solver(*products, kInfinity),
+          blocks_x((heights_.nx + kBlock - 1) / kBlock),
+          blocks_y((heights_.ny + kBlock - 1) / kBlock) {
+        block_top.assign(at(blocks_x) * at(blocks_y), -kInfinity);
+        for (int j = 0; j < heights.ny; ++j) {
+            const double* row = heights.row(j);
+            double* tops = block_top.data() + at(j / kBlock) * at(blocks_x);
+            for (int i = 0; i < heights.nx; ++i) tops[i / kBlock] = std::max(tops[i / kBlock], row[i]);
+        }
+        find_top();
+    }
+
+    double x(int i) const { return heights.x0 + i * heights.dx; }
+    double y(int j) const { return heights.y0 + j * heights.dy; }
+    double height(int i, int j) const { return height_under_sphere(indenter, x(i), y(j), heights(i, j)); }
+
+    // No point of the block is higher under the sphere: its highest one, at its place nearest to the tip.
+    double bound(int bi, int bj) const {
+        const auto nearest = [](double low, double high, double tip) { return std::clamp(tip, low, high); };
+        const double px = nearest(x(bi * kBlock), x(std::min((bi + 1) * kBlock, heights.nx) - 1), indenter.x0);
+        const double py = nearest(y(bj * kBlock), y(std::min((bj + 1) * kBlock, heights.ny) - 1), indenter.y0);
+        return height_under_sphere(indenter, px, py, block_top[at(bj) * at(blocks_x) + at(bi)]);
+    }
+
+    void find_top();
+    void select(double Z0);
+    void predict(double Z0);
+    Level report(double Z0, const ElementsOutcome& outcome) const;
+};
+
+void ElementContact::Impl::find_top() {
+    top = -kInfinity;
+    for (int bj = 0; bj < blocks_y; ++bj)
+        for (int bi = 0; bi < blocks_x; ++bi) {
+            if (!(bound(bi, bj) > top)) continue;
+            for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights.ny); ++j)
+                for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights.nx); ++i) top = std::max(top, height(i, j));
+        }
+}
+
+// Pixels with g0 > 0: K > 0 only lowers the surface, so nothing else can touch.
+void ElementContact::Impl::select(double Z0) {
+    pixels.clear();
+    g0.clear();
+    std::vector<int> high;
+    for (int bj = 0; bj < blocks_y; ++bj) {
+        high.clear();
+        for (int bi = 0; bi < blocks_x; ++bi) {
+            if (bound(bi, bj) > Z0) high.push_back(bi);
+        }
+        if (high.empty()) continue;
+        for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights.ny); ++j)
+            for (int bi : high)
+                for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights.nx); ++i) {
+                    const double g = height(i, j) - Z0;
+                    if (!(g > 0)) continue;
+                    pixels.push_back({i, j});
+                    g0.push_back(g);
+                }
+    }
+}
+
+// Pressures of the last level, or extrapolated through the last two where they lie near enough; all zero without any.
+void ElementContact::Impl::predict(double Z0) {
+    p.assign(pixels.size(), 0.0);
+    double weight[2] = {1, 0};
+    if (past.size() > 1) {
+        const double gap = past[0].separation - past[1].separation, t = (Z0 - past[0].separation) / gap;
+        if (gap != 0 && std::abs(t) <= 2) weight[0] = 1 + t, weight[1] = -t;
+    }
+    const auto before = [](const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
+    for (std::size_t a = 0; a < past.size() && a < 2; ++a) {
+        if (weight[a] == 0) continue;
+        std::size_t k = 0;
+        for (std::size_t l = 0; l < past[a].pixels.size(); ++l) {
+            while (k < pixels.size() && before(pixels[k], past[a].pixels[l])) ++k;
+            if (k < pixels.size() && pixels[k] == past[a].pixels[l]) p[k] += weight[a] * past[a].p[l];
+        }
+    }
+    for (double& v : p) v = std::max(v, 0.0);
+}
+
+Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) const {
+    Level level;
+    level.separation = Z0;
+    level.candidates = static_cast<std::int32_t>(pixels.size());
+    level.iterations = outcome.iterations;
+    level.products = outcome.products;
+    level.residual = outcome.residual;
+    level.method = Method::automatic;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+
+    std::vector<Pixel> touching;
+    std::vector<double> pressure, gap;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        if (!(p[k] > 0)) continue;
+        touching.push_back(pixels[k]);
+        pressure.push_back(p[k]);
+        gap.push_back(g0[k]);
+    }
+    std::vector<int> label;
+    const int contacts = connected_sets(touching, label);
+    struct Sum {
+        double p = 0, px = 0, py = 0, highest = 0, g0 = 0;
+        long pixels = 0, sides = 0;  // sides: between its pixels, each counted once from both
+        Pixel peak{0, 0};
+    };
+    std::vector<Sum> sums(at(contacts));
+    const auto neighbours = [&](std::size_t k, std::size_t& above) {
+        // Pixels of the same contact on the left and above; connected sets leave no other neighbour by sides.
+        const Pixel q = touching[k];
+        int n = k > 0 && touching[k - 1] == Pixel{q.x - 1, q.y};
+        while (above < k && (touching[above].y < q.y - 1 || (touching[above].y == q.y - 1 && touching[above].x < q.x))) ++above;
+        return n + (above < k && touching[above] == Pixel{q.x, q.y - 1});
+    };
+    std::size_t above = 0;
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        Sum& s = sums[at(label[k])];
+        const Pixel q = touching[k];
+        s.p += pressure[k];
+        s.px += pressure[k] * x(q.x);
+        s.py += pressure[k] * y(q.y);
+        s.pixels += 1;
+        s.sides += neighbours(k, above);
+        if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = q, s.g0 = gap[k];
+    }
+    // Penetration: how far the contact alone presses in the place of its highest pressure.
+    std::vector<double> own(sums.size(), 0.0);
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        const Pixel peak = sums[at(label[k])].peak;
+        own[at(label[k])] += pressure[k] * products->coefficient(touching[k].x - peak.x, touching[k].y - peak.y);
+    }
+    const double pixel = heights.dx * heights.dy;
+    const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+        const Sum& s = sums[c];
+        const double sides = static_cast<double>(4 * s.pixels - 2 * s.sides);
+        const double area = pixel * (static_cast<double>(s.pixels) - border * sides);
+        level.add_contact(s.peak.y * heights.nx + s.peak.x, s.px / s.p, s.py / s.p, s.p * pixel, std::sqrt(area / std::numbers::pi),
+                          own[c]);
+        level.force += s.p * pixel;
+        level.area += area;
+    }
+    level.area_pixels = pixel * static_cast<double>(touching.size());
+    level.pixels.columns = heights.nx;
+    level.pixels.x0 = heights.x0;
+    level.pixels.y0 = heights.y0;
+    level.pixels.dx = heights.dx;
+    level.pixels.dy = heights.dy;
+    for (const Pixel& q : touching) level.pixels.index.push_back(q.y * heights.nx + q.x);
+    level.pixels.contact = std::move(label);
+    level.pixels.pressure = std::move(pressure);
+    return level;
+}
+
+namespace {
+
+const HeightMap& checked(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
+    if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) throw Error(Failure::bad_input, "E* must be positive and finite");
+    if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
+    if (!(options.tolerance > 0)) throw Error(Failure::bad_input, "the tolerance must be positive");
+    if (heights.nx < 1 || heights.ny < 1 || !(heights.dx > 0) || !(heights.dy > 0))
+        throw Error(Failure::bad_input, "elements: the map of heights is empty");
+    constexpr double thinnest = 32;
+    if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
+        throw Error(Failure::bad_input, "elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
+                                            " are longer than 32 times their width");
+    return heights;
+}
+
+}  // namespace
+
+ElementContact::ElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(checked(heights, indenter, options), indenter, options)) {}
+ElementContact::~ElementContact() = default;
+ElementContact::ElementContact(ElementContact&&) noexcept = default;
+
+Level ElementContact::solve(double Z0) {
+    Impl& my = *impl_;
+    my.select(Z0);
+    my.predict(Z0);
+    const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p);
+    Impl::Past now{Z0, {}, {}};
+    for (std::size_t k = 0; k < my.p.size(); ++k) {
+        if (!(my.p[k] > 0)) continue;
+        now.pixels.push_back(my.pixels[k]);
+        now.p.push_back(my.p[k]);
+    }
+    my.past.push_front(std::move(now));
+    if (my.past.size() > 2) my.past.pop_back();
+    my.since_move = std::min<std::size_t>(my.since_move + 1, 2);
+    return my.report(Z0, outcome);
+}
+
+double ElementContact::stiffness() {
+    const double pixel = impl_->heights.dx * impl_->heights.dy;
+    return 0.0 - pixel * impl_->solver.stiffness(1e-9);
+}
+
+double ElementContact::energy() const { return impl_->heights.dx * impl_->heights.dy * impl_->solver.energy(); }
+
+void ElementContact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+    Impl& my = *impl_;
+    my.indenter.x0 = x0;
+    my.indenter.y0 = y0;
+    if (my.past.size() > 1) my.past.resize(1);
+    my.since_move = 0;
+    my.find_top();
+}
+
+double ElementContact::first_touch() const { return impl_->top; }
+const Indenter& ElementContact::indenter() const { return impl_->indenter; }
+double ElementContact::tolerance() const { return impl_->options.tolerance; }
+
+double ElementContact::first_place_force(double depth) {
+    const Impl& my = *impl_;
+    const double half = 0.5 * std::max(my.heights.Lx(), my.heights.Ly()), E = my.indenter.E_star;
+    const double punch = 2 * E * half * depth;
+    return std::isinf(my.indenter.R) ? punch : std::min(punch, 4.0 / 3 * E * std::sqrt(my.indenter.R * depth) * depth);
+}
+
+std::optional<double> ElementContact::likely_separation() const {
+    if (impl_->past.empty() || impl_->past[0].pixels.empty() || !(impl_->past[0].separation < impl_->top)) return std::nullopt;
+    return impl_->past[0].separation;
+}
+
+std::size_t ElementContact::levels_since_move() const { return impl_->since_move; }
+
+}  // namespace rsc

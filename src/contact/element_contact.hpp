@@ -1,0 +1,45 @@
+// The points of the surface themselves pressed by a sphere: no asperities, every pixel carries a uniform pressure p >= 0 (Johnson 1985,
+// section 3.4; Polonsky and Keer, Wear 231, 1999). What the asperity model approximates.
+#pragma once
+
+#include <memory>
+
+#include "contact/contact.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+class ElementContact final : public Contact {
+public:
+    // The heights must outlive the contact. Of the options it takes the tolerance and the number of iterations. Throws
+    // Error(bad_input) for moduli, radii or heights out of range.
+    ElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
+    ~ElementContact() override;
+    ElementContact(ElementContact&&) noexcept;
+
+    double stiffness() override;
+
+    // W = p'Kp dx dy/2, evaluated as g0'p - p'Kp/2, which equals it at the solution.
+    double energy() const override;
+
+    void move_tip(double x0, double y0) override;
+    double first_touch() const override;
+    const Indenter& indenter() const override;
+
+protected:
+    // There is one solution (K is positive definite); earlier levels are a start, and change the answer within the tolerance only.
+    // Contacts are sets of pixels connected by sides. Areas are those of the pixels less (pi - 1 + ln 2)/24 of a pixel for each side of
+    // their border (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017).
+    Level solve(double Z0) override;
+    double tolerance() const override;
+    // A smooth sphere's, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
+    double first_place_force(double depth) override;
+    std::optional<double> likely_separation() const override;
+    std::size_t levels_since_move() const override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rsc

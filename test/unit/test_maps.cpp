@@ -1,0 +1,274 @@
+// Files of instruments: .gwy and .sdf, what is read and what is refused with which words; where Gwyddion is installed, what it makes
+// of them itself.
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "read/inputs.hpp"
+#include "unit/map_files.hpp"
+
+using namespace rsc;
+using namespace map_files;
+
+namespace {
+
+const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_maps_" + std::to_string(getpid()));
+
+std::string write(const std::string& name, const std::string& content) {
+    std::ofstream((folder / name).string(), std::ios::binary) << content;
+    return (folder / name).string();
+}
+
+void refused(const std::function<void()>& what, const char* words, int line) {
+    try {
+        what();
+        std::printf("line %d: accepted, though '%s' was expected\n", line, words);
+        CHECK(!"refused");
+    } catch (const Error& e) {
+        CHECK(e.kind() == Failure::bad_input);
+        if (!std::strstr(e.what(), words)) std::printf("line %d: '%s' is not in: %s\n", line, words, e.what());
+        CHECK(std::strstr(e.what(), words));
+    }
+}
+#define REFUSED(expression, words) refused([&] { (void)(expression); }, words, __LINE__)
+
+// 6 x 4 points of 2 x 3 micrometres; height 100 row + column nanometres, rows from the top.
+Map sample() {
+    Map map{6, 4, 2e-6, 3e-6, {}};
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 6; ++i) map.z.push_back(1e-9 * (100 * j + i));
+    return map;
+}
+
+// The sample in micrometres, y upwards; `missing` is the column of a missing point in the second row from the top, or -1.
+void check_sample(const HeightMap& m, int missing) {
+    CHECK(m.nx == 6 && m.ny == 4 && !m.periodic && m.x0 == 0 && m.y0 == 0);
+    CHECK_RELATIVE(m.dx, 2.0, 1e-12);
+    CHECK_RELATIVE(m.dy, 3.0, 1e-12);
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 6; ++i)
+            if (i == missing && j == 2)
+                CHECK(std::isnan(m(i, j)));
+            else
+                CHECK_CLOSE(m(i, j), 1e-3 * (100 * (3 - j) + i), 1e-12);
+}
+
+HeightMap in_micrometres(const std::string& path, const std::string& channel = "", Missing missing = Missing::refuse) {
+    return read_heights(path, std::nullopt, "um", channel, missing);
+}
+
+void gwy() {
+    const Map map = sample();
+    check_sample(in_micrometres(write("one.gwy", gwy_file(gwy_channel(0, "Topography", map)))), -1);
+    CHECK_RELATIVE(read_heights(write("one.gwy", gwy_file(gwy_channel(0, "T", map))), std::nullopt, "mm")(1, 3), 1e-6, 1e-12);
+    CHECK_RELATIVE(read_heights((folder / "one.gwy").string(), 12e-3).Lx(), 12e-3, 1e-12);  // L may be given, if it is the same
+    REFUSED(read_heights((folder / "one.gwy").string(), 11e-3), "but L = 0.011 was given");
+    // The first channel of heights, or the one that is named; other things lie between.
+    Map other = map;
+    for (double& z : other.z) z += 1e-6;
+    std::string between;
+    gwy_component(between, "/filename", 's', std::string("x.gwy") + '\0');
+    gwy_component(between, "/0/base/range-type", 'i', bytes(std::int32_t{1}));
+    gwy_component(between, "/flag", 'b', "\1");
+    gwy_component(between, "/letters", 'C', bytes(std::uint32_t{3}) + "abc");
+    gwy_component(between, "/words", 'S', bytes(std::uint32_t{2}) + std::string("a\0bc\0", 5));
+    gwy_component(between, "/objects", 'O', bytes(std::uint32_t{1}) + gwy_object("GwySIUnit", ""));
+    gwy_component(between, "/meta", 'o', gwy_object("GwyContainer", ""));
+    gwy_component(between, "/long", 'q', bytes(std::int64_t{5}));
+    const std::string three =
+        gwy_file(gwy_channel(2, "Height", other) + between + gwy_channel(0, "Amplitude", map, "V") + gwy_channel(1, "Topography", map));
+    check_sample(in_micrometres(write("three.gwy", three)), -1);
+    CHECK_RELATIVE(in_micrometres(write("three.gwy", three), "Height")(0, 3), 1.0, 1e-12);
+    REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"), "channel 'Amplitude': its values are in 'V', which is no length");
+    REFUSED(in_micrometres(write("three.gwy", three), "Phase"),
+            "no channel 'Phase'; there are 'Amplitude' in 'V', 'Topography' in 'm', 'Height' in 'm'");
+    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))), "no channel holds heights; there are 'A' in 'V'");
+    REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "holds no channel");
+    REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))), "its sides are in 's', which is no length");
+    // Missing points: NaN, or under the mask.
+    Map hole = map;
+    hole.z[6 + 4] = std::nan("");
+    const std::string with_hole = write("hole.gwy", gwy_file(gwy_channel(0, "T", hole)));
+    check_sample(in_micrometres(with_hole, "", Missing::fill), 4);
+    REFUSED(in_micrometres(with_hole),
+            "1 of 24 points are missing or masked, the first in column 4 of row 2, counted from 0 with y upwards; surface%missing");
+    Map mask = map;
+    for (double& z : mask.z) z = 0;
+    mask.z[6 + 4] = 1;
+    std::string masked = gwy_channel(0, "T", map);
+    gwy_component(masked, "/0/mask", 'o', gwy_field(mask, "m", ""));
+    check_sample(in_micrometres(write("mask.gwy", gwy_file(masked)), "", Missing::fill), 4);
+    REFUSED(in_micrometres(write("mask.gwy", gwy_file(masked))), "missing or masked");
+
+    // A file that is cut anywhere is refused, with the place.
+    const std::string whole = gwy_file(gwy_channel(0, "T", map));
+    for (std::size_t size = 5; size < whole.size(); ++size) REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, size))), "at byte ");
+    Map wrong = map;
+    wrong.nx = 7;
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "24 values for 7 x 4 points");
+    wrong.nx = 2000000000, wrong.ny = 2000000000;
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "GB; this machine has");
+    wrong = map, wrong.ny = -4;
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "yres = -4: must be positive");
+    wrong = map, wrong.nx = 24, wrong.ny = 1;
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "24 x 1 points; at least 3 x 3");
+    wrong = map, wrong.dx = -1;
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "must be positive");
+    std::string strange;
+    gwy_component(strange, "/x", 'x', "");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(strange))), "of a type that is not known, 'x'");
+    REFUSED(in_micrometres(write("w.gwy", "GWYO" + whole.substr(4))), "another version of Gwyddion");
+    REFUSED(in_micrometres(write("w.gwy", "GWYP" + gwy_object("GwyBrick", ""))), "an object GwyContainer was expected, not 'GwyBrick'");
+}
+
+template <class T>
+std::vector<T> values_of(const Map& map, double scale, T missing, bool hole) {
+    std::vector<T> values;
+    for (const double z : map.z) values.push_back(static_cast<T>(std::round(z / scale)));
+    if (hole) values[6 + 4] = missing;
+    return values;
+}
+
+template <class T>
+void sdf_type(int type, T missing) {
+    const Map map = sample();
+    for (const bool hole : {false, true}) {
+        if (sizeof(T) == 1) {  // too few numbers for the sample: the type alone
+            std::vector<T> values(24, T{3});
+            if (hole) values[6 + 4] = missing;
+            const HeightMap m = in_micrometres(write("t.sdf", sdf_binary(map, type, 1e-9, values)), "", Missing::fill);
+            CHECK_RELATIVE(m(0, 0), 3e-3, 1e-12);
+            CHECK(std::isnan(m(4, 2)) == hole);
+            continue;
+        }
+        const std::string path = write("t.sdf", sdf_binary(map, type, 1e-9, values_of<T>(map, 1e-9, missing, hole)));
+        check_sample(in_micrometres(path, "", Missing::fill), hole ? 4 : -1);
+        if (hole) REFUSED(in_micrometres(path), "points are missing");
+    }
+}
+
+void sdf() {
+    const Map map = sample();
+    sdf_type<std::uint8_t>(0, 255);
+    sdf_type<std::uint16_t>(1, 65535);
+    sdf_type<std::uint32_t>(2, 4294967295u);
+    sdf_type<float>(3, std::nanf(""));
+    sdf_type<float>(3, std::numeric_limits<float>::lowest());
+    sdf_type<std::int8_t>(4, -128);
+    sdf_type<std::int16_t>(5, -32768);
+    sdf_type<std::int32_t>(6, std::numeric_limits<std::int32_t>::min());
+    sdf_type<double>(7, std::nan(""));
+    sdf_type<double>(7, std::numeric_limits<double>::lowest());
+    const auto i16 = values_of<std::int16_t>(map, 1e-9, 0, false);
+    check_sample(in_micrometres(write("t.sdf", sdf_binary(map, 5, 1e-9, i16, "bISO-2.0"))), -1);
+    check_sample(in_micrometres(write("t.sdf", sdf_binary(map, 5, 1e-9, i16, "bBCR-1.0") + "a trailer")), -1);
+    // Olympus: eight bytes more in the header.
+    std::string olympus = sdf_binary(map, 5, 1e-9, i16);
+    olympus.insert(81, bytes(std::uint32_t{5}) + bytes(std::uint32_t{1}));
+    check_sample(in_micrometres(write("t.sdf", olympus)), -1);
+
+    std::vector<std::string> words;
+    for (const double z : map.z) words.push_back(std::to_string(std::lround(z * 1e9)));
+    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), -1);
+    words[6 + 4] = "BAD";
+    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words)), "", Missing::fill), 4);
+    words[6 + 4] = "-32768";
+    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 5)), "", Missing::fill), 4);
+    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 5))), "1 of 24 points are missing");
+    words[6 + 4] = "1O4";
+    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "t.sdf:17: '1O4' is not a number");
+    words.pop_back();
+    words[6 + 4] = "104";
+    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "23 heights where 6 x 4 were expected");
+    words.resize(25, "0");
+    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "'0' after the last of 6 x 4 heights");
+    words.resize(24);
+    const std::string text = sdf_text(map, 1e-9, words);
+    REFUSED(in_micrometres(write("t.sdf", text.substr(0, 60))), "the line '*' that ends the header is missing");
+    REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = 4\n*\n")), "the header has no NumProfiles");
+    REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = four\n*\n")), "t.sdf:2: NumPoints: a number was expected, not 'four'");
+    REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = 4000000\nNumProfiles=4000000\nXscale=1\nYscale=1\nZscale=1\n*\n1 1 1")),
+            "4000000 x 4000000 heights in a file of");
+    // Cut anywhere, and absurd headers.
+    const std::string binary = sdf_binary(map, 5, 1e-9, i16);
+    for (std::size_t size = 8; size < binary.size(); ++size) REFUSED(in_micrometres(write("t.sdf", binary.substr(0, size))), "at byte ");
+    Map wrong = map;
+    wrong.nx = wrong.ny = 65535;
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))),
+            "65535 x 65535 heights of 2 bytes each, but 48 bytes are left");
+    wrong = map, wrong.nx = 24, wrong.ny = 1;
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "24 x 1 points; at least 3 x 3");
+    wrong = map, wrong.dy = 0;
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "Yscale = 0: must be positive");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 5, 0.0, i16))), "Zscale = 0: must be finite and not 0");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 9, 1e-9, i16))), "DataType = 9: 0 to 7 was expected");
+    std::string packed = binary;
+    packed[78] = 1;
+    REFUSED(in_micrometres(write("t.sdf", packed)), "Compression = 1");
+    REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channels to choose 'Height' from");
+    // What nobody knows.
+    REFUSED(in_micrometres(write("t.plu", std::string("PLU\0\1\2", 6))), "gwyddion --convert-to-gwy=map.gwy '");
+}
+
+void text_with_holes() {
+    const std::string matrix = write("m.txt", "1 2 3 0 0\n4 nan 6 0 0\n7 8 BAD 0 0\n1 2 3 0 0\n");
+    const HeightMap m = read_heights(matrix, 5.0, "mm", "", Missing::fill);
+    CHECK(std::isnan(m(1, 1)) && std::isnan(m(2, 2)) && m(0, 3) == 1);
+    REFUSED(read_heights(matrix, 5.0), "m.txt:2: 'nan' in column 2 is not finite");
+    const std::string list = write("l.txt", "0 0 1\n1 0 2\n2 0 3\n0 1 4\n2 1 6\n0 2 7\n1 2 8\n2 2 nan\n");
+    const HeightMap t = read_heights(list, std::nullopt, "mm", "", Missing::fill);
+    CHECK(t.nx == 3 && t.ny == 3 && std::isnan(t(1, 1)) && std::isnan(t(2, 2)) && t(2, 1) == 6);
+    REFUSED(read_heights(write("x.txt", "0 0 1\nnan 0 2\n"), std::nullopt, "mm", "", Missing::fill), "x is missing");
+}
+
+// What Gwyddion's converter makes of a file is what we read from it ourselves.
+void against_gwyddion() {
+    if (std::system("command -v gwyddion > /dev/null 2>&1") != 0) {
+        std::printf("skipped: no gwyddion to compare with\n");
+        return;
+    }
+    Map map{50, 40, 2e-6, 3e-6, {}};
+    std::vector<std::int16_t> values;
+    for (int k = 0; k < 2000; ++k) values.push_back(static_cast<std::int16_t>(3000 * std::sin(0.01 * k * k)));
+    values[777] = -32768;
+    std::vector<std::string> words;
+    for (const auto v : values) words.push_back(std::to_string(v));
+    for (const bool binary : {true, false}) {
+        if (!binary) words[777] = "0";  // it does not know BAD in a text
+        const std::string from = write("g.sdf", binary ? sdf_binary(map, 5, 1e-9, values) : sdf_text(map, 1e-9, words, 5));
+        const std::string to = (folder / (binary ? "b.gwy" : "t.gwy")).string();
+        const std::string command = "cd " + folder.string() + " && HOME=" + folder.string() +
+                                    " timeout 60 gwyddion --convert-to-gwy=" + to + " " + from + " > gwyddion.log 2>&1";
+        if (std::system(command.c_str()) != 0) {
+            std::printf("skipped: gwyddion does not run here\n");
+            return;
+        }
+        const HeightMap ours = in_micrometres(from, "", Missing::fill), theirs = in_micrometres(to, "", Missing::fill);
+        CHECK(ours.nx == theirs.nx && ours.ny == theirs.ny);
+        CHECK_RELATIVE(ours.dx, theirs.dx, 1e-12);
+        CHECK_RELATIVE(ours.dy, theirs.dy, 1e-12);
+        long different = 0;
+        for (int j = 0; j < ours.ny; ++j)
+            for (int i = 0; i < ours.nx; ++i)
+                different += std::isnan(ours(i, j)) ? !std::isnan(theirs(i, j)) : !(std::abs(ours(i, j) - theirs(i, j)) <= 1e-12);
+        CHECK(different == 0);
+    }
+}
+
+}  // namespace
+
+int main() {
+    std::filesystem::create_directories(folder);
+    gwy();
+    sdf();
+    text_with_holes();
+    against_gwyddion();
+    std::filesystem::remove_all(folder);
+    return check::summary();
+}
