@@ -1488,7 +1488,8 @@ contains
     real(c_double), intent(out), optional :: force, force_x, force_y, lost
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_update(changing(self%ticket), separation, x, y, force, force_x, force_y, lost), stat, errmsg)
+    call finish(rsc_friction_update(changing(self%ticket), separation, x, y, force, force_x, force_y, lost), &
+        & stat, errmsg)
   end subroutine
 
   !> dQ/d(x, y) of a further slide the way that slips now: k(i, j) = dQ_i/dx_j.
@@ -1510,8 +1511,8 @@ contains
         & stick_separation
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call finish(rsc_friction_state(reading(self%ticket), separation, x, y, force, force_x, force_y, energy, tangential_energy, lost, &
-        & stick_separation), stat, errmsg)
+    call finish(rsc_friction_state(reading(self%ticket), separation, x, y, force, force_x, force_y, energy, tangential_energy, &
+        & lost, stick_separation), stat, errmsg)
   end subroutine
 
   !> Keeps the state for rollback.
@@ -1545,7 +1546,8 @@ contains
       call refuse('friction%first_loading: the arrays are not of one size', stat, errmsg)
       return
     end if
-    call finish(rsc_friction_first_loading(changing(self%ticket), size(slide, kind=c_int64_t), slide, force, stick_separation), stat, errmsg)
+    call finish(rsc_friction_first_loading(changing(self%ticket), size(slide, kind=c_int64_t), slide, force, &
+        & stick_separation), stat, errmsg)
   end subroutine
 
   !> The slide that takes the force Q on first loading.
@@ -1587,7 +1589,8 @@ contains
     if (present(stick_radius)) allocate (stick_radius_(n))
     if (present(force_x)) allocate (force_x_(n))
     if (present(force_y)) allocate (force_y_(n))
-    if (n > 0) status = rsc_friction_spots(changing(self%ticket), n, n, which, radius_, stick_radius_, force_x_, force_y_)
+    if (n > 0) status = rsc_friction_spots(changing(self%ticket), n, n, which, &
+        & radius_, stick_radius_, force_x_, force_y_)
     if (present(radius)) call move_alloc(radius_, radius)
     if (present(stick_radius)) call move_alloc(stick_radius_, stick_radius)
     if (present(force_x)) call move_alloc(force_x_, force_x)

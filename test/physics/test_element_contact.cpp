@@ -13,6 +13,7 @@
 #include "contact/lateral.hpp"
 #include "contact/ranking.hpp"
 #include "error.hpp"
+#include "rough/synthesis.hpp"
 
 using namespace rsc;
 
