@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include "case/manual.hpp"
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
@@ -77,6 +78,10 @@ int run_program(int argc, char** argv, Job& job) {
     }
     if (options.version) {
         std::cout << rsc::version_text();
+        return 0;
+    }
+    if (options.man) {
+        std::cout << rsc::manual_page();
         return 0;
     }
     if (options.describe) {

@@ -17,9 +17,9 @@ struct Flag {
 };
 
 constexpr Flag kFlags[] = {
-    {'o', "output", true}, {'s', "set", true},     {'\0', "check", false},   {'\0', "describe", false},
-    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false},  {'\0', "progress", true},
-    {'q', "quiet", false}, {'h', "help", false},   {'\0', "version", false},
+    {'o', "output", true}, {'s', "set", true},     {'\0', "check", false},  {'\0', "describe", false},
+    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false}, {'\0', "progress", true},
+    {'q', "quiet", false}, {'h', "help", false},   {'\0', "man", false},    {'\0', "version", false},
 };
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, text + " (--help lists the options)"); }
@@ -75,6 +75,8 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
         options.quiet = true;
     else if (flag.name == "help")
         options.help = true;
+    else if (flag.name == "man")
+        options.man = true;
     else
         options.version = true;
 }
@@ -144,6 +146,7 @@ std::string usage_text() {
            "      --progress auto|always|never show progress on stderr (auto: on a terminal)\n"
            "  -q, --quiet                      no table on stdout\n"
            "  -h, --help                       this text\n"
+           "      --man                        the manual page, for man: rsc --man | man -l -\n"
            "      --version                    the version\n"
            "Exit status: 0 done, 1 ran and failed, 2 refused before running, 130/143 stopped by a signal.\n";
 }

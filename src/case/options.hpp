@@ -3,6 +3,7 @@
 //     const Options options = parse_options(argc, argv);          // Error(bad_input) on wrong usage: exit status 2
 //     if (options.help) { std::cout << usage_text(); return 0; }
 //     if (options.version) { std::cout << version_text(); return 0; }
+//     if (options.man) { std::cout << manual_page(); return 0; }  // case/manual.hpp
 //     if (options.describe) { std::cout << describe(options.describe_what); return 0; }       // case/registry.hpp
 //     const ReadCase read = read_case(options);                   // case/read_case.hpp: the file or standard input
 //     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
@@ -31,10 +32,11 @@ struct Options {
     Progress progress = Progress::automatic;
     bool quiet = false;
     bool help = false;
+    bool man = false;
     bool version = false;
 };
 
-// Throws Error(bad_input) saying what is wrong with the command line. --help and --version win over all that follows them.
+// Throws Error(bad_input) saying what is wrong with the command line. --help, --man and --version win over all that follows them.
 Options parse_options(int argc, const char* const* argv);
 
 std::string usage_text();
