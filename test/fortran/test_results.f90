@@ -2,6 +2,7 @@
 ! and a file that is none.
 program test_results
   use, intrinsic :: iso_fortran_env, only: real64
+  use netcdf
   use rsc_results
   implicit none
   integer, parameter :: asperities = 6000, steps = 12, points = 64
@@ -10,6 +11,8 @@ program test_results
 
   call test_one(argument(1))
   call test_many(argument(2))
+  call every_variable(argument(1))
+  call every_variable(argument(2))
   call test_refusals(argument(3))
   if (failures > 0) error stop 1
   print '(a)', 'rsc_results: everything read as written'
@@ -101,6 +104,110 @@ contains
     end do
     call check(near(r%m2(3), 0.023_real64, 1e-14_real64), 'm2')
   end subroutine test_many
+
+  ! Every member holds the variable of its name, value by value.
+  subroutine every_variable(file)
+    character(*), intent(in) :: file
+    type(rsc_result) :: r
+    integer :: id
+    call rsc_read_result(file, r)
+    call check(nf90_open(file, nf90_nowrite, id) == nf90_noerr, 'open')
+    call same(id, 'separation', [r%separation])
+    call same(id, 'separation_sigma', [r%separation_sigma])
+    call same(id, 'force', [r%force])
+    call same(id, 'contact_area', [r%contact_area])
+    call same(id, 'residual', [r%residual])
+    call same(id, 'force_mean', [r%force_mean])
+    call same(id, 'force_std', [r%force_std])
+    call same(id, 'contact_area_mean', [r%contact_area_mean])
+    call same(id, 'contact_area_std', [r%contact_area_std])
+    call same(id, 'area_I', [r%area_I])
+    call same(id, 'area_II', [r%area_II])
+    call same(id, 'area_hertz', [r%area_hertz])
+    call same(id, 'sigma', [r%sigma])
+    call same(id, 'm2', [r%m2])
+    call same(id, 'm4', [r%m4])
+    call same(id, 'rms_slope', [r%rms_slope])
+    call same(id, 'mean_kappa_g', [r%mean_kappa_g])
+    call same(id, 'x', [r%x])
+    call same(id, 'y', [r%y])
+    call same(id, 'map_area_fraction', [r%map_area_fraction])
+    call same(id, 'map_pressure', [r%map_pressure])
+    call same(id, 'radius', [r%radius])
+    call same(id, 'radial_area_fraction', [r%radial_area_fraction])
+    call same(id, 'radial_pressure', [r%radial_pressure])
+    call same(id, 'hertz_pressure', [r%hertz_pressure])
+    call same(id, 'pdf_level', [r%pdf_level])
+    call same(id, 'pdf_separation_sigma', [r%pdf_separation_sigma])
+    call same(id, 'pressure_mean_bin', [r%pressure_mean_bin])
+    call same(id, 'pressure_bin', [r%pressure_bin])
+    call same(id, 'spot_area_bin', [r%spot_area_bin])
+    call same(id, 'pressure_mean_pdf', [r%pressure_mean_pdf])
+    call same(id, 'pressure_pdf', [r%pressure_pdf])
+    call same(id, 'spot_area_pdf', [r%spot_area_pdf])
+    call same(id, 'asperity_x', [r%asperity_x])
+    call same(id, 'asperity_y', [r%asperity_y])
+    call same(id, 'asperity_z', [r%asperity_z])
+    call same(id, 'asperity_radius', [r%asperity_radius])
+    call same(id, 'asperity_kappa1', [r%asperity_kappa1])
+    call same(id, 'asperity_kappa2', [r%asperity_kappa2])
+    call same(id, 'asperity_angle', [r%asperity_angle])
+    call same(id, 'asperity_biharmonic', [r%asperity_biharmonic])
+    call same(id, 'contact_force', [r%contact_force])
+    call same(id, 'contact_radius', [r%contact_radius])
+    call same(id, 'height', [r%height])
+    call same(id, 'height_x', [r%height_x])
+    call same(id, 'height_y', [r%height_y])
+    call same(id, 'm0_theory', [r%m0_theory])
+    call same(id, 'm2_theory', [r%m2_theory])
+    call same(id, 'm4_theory', [r%m4_theory])
+    call same(id, 'nayak_theory', [r%nayak_theory])
+    call same(id, 'density_theory', [r%density_theory])
+    call same(id, 'e_star', [r%e_star])
+    call same(id, 'r_star', [r%r_star])
+    call same(id, 'transition_force', [r%transition_force])
+    call same(id, 'tip_x', [r%tip_x])
+    call same(id, 'tip_y', [r%tip_y])
+    call same(id, 'realization', real([r%realization], real64))
+    call same(id, 'contacts', real([r%contacts], real64))
+    call same(id, 'candidates', real([r%candidates], real64))
+    call same(id, 'iterations', real([r%iterations], real64))
+    call same(id, 'status', real([r%status], real64))
+    call same(id, 'method', real([r%method], real64))
+    call same(id, 'products', real([r%products], real64))
+    call same(id, 'overlapping_pairs', real([r%overlapping_pairs], real64))
+    call same(id, 'large_contacts', real([r%large_contacts], real64))
+    call same(id, 'crowded_cells', real([r%crowded_cells], real64))
+    call same(id, 'beyond_law', real([r%beyond_law], real64))
+    call same(id, 'summits', real([r%summits], real64))
+    call same(id, 'saddles', real([r%saddles], real64))
+    call same(id, 'contact_start', real([r%contact_start], real64))
+    call same(id, 'contact_count', real([r%contact_count], real64))
+    call same(id, 'contact_asperity', real([r%contact_asperity], real64))
+    call check(nf90_close(id) == nf90_noerr, 'close')
+  end subroutine every_variable
+
+  subroutine same(id, name, values)
+    integer, intent(in) :: id
+    character(*), intent(in) :: name
+    real(real64), intent(in) :: values(:)
+    real(real64), allocatable :: there(:)
+    integer :: variable, dimensions, ids(nf90_max_var_dims), lengths(nf90_max_var_dims), total, k
+    if (nf90_inq_varid(id, name, variable) /= nf90_noerr) then
+      call check(size(values) == 0, name // ' is not in the file')
+      return
+    end if
+    call check(nf90_inquire_variable(id, variable, ndims=dimensions, dimids=ids) == nf90_noerr, name)
+    total = 1
+    do k = 1, dimensions
+      call check(nf90_inquire_dimension(id, ids(k), len=lengths(k)) == nf90_noerr, name)
+      total = total * lengths(k)
+    end do
+    allocate (there(total))
+    call check(nf90_get_var(id, variable, there, count=lengths(:dimensions)) == nf90_noerr, name)
+    call check(size(values) == total, name // ': number of values')
+    if (size(values) == total) call check(all(values >= there .and. values <= there), name // ': values')
+  end subroutine same
 
   subroutine test_refusals(other)
     character(*), intent(in) :: other
