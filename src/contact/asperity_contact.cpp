@@ -57,7 +57,7 @@ struct AsperityContact::Impl {
         : asperities(asperities_),
           indenter(indenter_),
           options(options_),
-          kernel(make_kernel(options_.interaction, indenter_.E_star)),
+          kernel(make_kernel(options_.interaction, indenter_.E_star, indenter_.period)),
           law(make_law(options_.law, asperities_, indenter_.E_star)),
           direct(make_direct_products(kernel)),
           newton(*law) {
@@ -66,6 +66,9 @@ struct AsperityContact::Impl {
             throw Error(Failure::bad_input, "E* must be positive and finite");
         }
         if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
+        if (indenter.period.finite() && !std::isinf(indenter.R)) {
+            throw Error(Failure::bad_input, "a periodic contact is one of two flats: both radii must be Infinity");
+        }
         ranking.assign(asperities, indenter);
     }
 
@@ -141,9 +144,9 @@ Level AsperityContact::Impl::report(double Z0) const {
         level.large_contacts += options.mean_spacing > 0 && level.a.back() > options.mean_spacing / 4;
     }
     if (traits(options.law).elliptic_spots)
-        level.area = union_area(spots(level), &level.overlapping_pairs);
+        level.area = union_area(spots(level), &level.overlapping_pairs, indenter.period);
     else
-        level.overlapping_pairs = count_overlapping(level.x, level.y, level.a);
+        level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     return level;
@@ -221,9 +224,22 @@ std::optional<double> AsperityContact::likely_separation() const {
 
 std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.size(); }
 
-double AsperityContact::stiffness() { return impl_->solution.v.empty() ? 0.0 : impl_->newton.stiffness(1e-10); }
+double AsperityContact::shift() const { return impl_->kernel->shift(); }
 
-double AsperityContact::energy() const { return impl_->solution.v.empty() ? 0.0 : 0.0 - impl_->newton.energy(); }
+// With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
+double AsperityContact::stiffness() {
+    if (impl_->solution.v.empty()) return 0;
+    const double slope = impl_->newton.stiffness(1e-10);
+    return slope / (1 + shift() * slope);
+}
+
+// What the shift c adds to F'BF/2 is no energy of the bodies: c N^2/2.
+double AsperityContact::energy() const {
+    if (impl_->solution.v.empty()) return 0;
+    double N = 0;
+    for (double f : impl_->solution.force) N += f;
+    return 0.0 - impl_->newton.energy() - 0.5 * shift() * N * N;
+}
 
 void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");

@@ -33,6 +33,7 @@ protected:
     // proved unique, and not otherwise.
     Level solve(double Z0) override;
     void accept() override;
+    double shift() const override;
     double tolerance() const override;
     double first_place_force(double depth) override;
     std::optional<double> likely_separation() const override;

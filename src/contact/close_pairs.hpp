@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "contact/period.hpp"
+
 namespace rsc {
 
 // Calls visit(i, j, d) once for every pair i < j with d < reach[i] + reach[j], in an order that depends on the points alone. Points
@@ -111,6 +113,41 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
             }
         }
     }
+}
+
+// The same with distances to the nearest of all images, each pair once.
+template <class Visit>
+void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& reach, const Period& period,
+                     Visit&& visit) {
+    if (!period.finite()) return for_close_pairs(x, y, reach, visit);
+    // Points near the low borders once more beyond the high ones.
+    struct Image {
+        std::size_t index;
+        bool x, y;  // moved by a period
+    };
+    double longest = 0;
+    for (double r : reach) longest = std::max(longest, r);
+    std::vector<double> xs, ys, reaches;
+    std::vector<Image> images;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!(reach[i] > 0)) continue;
+        const double x0 = x[i] - period.x * std::floor(x[i] / period.x), y0 = y[i] - period.y * std::floor(y[i] / period.y);
+        const double far = reach[i] + longest;
+        for (bool mx : {false, true})
+            for (bool my : {false, true}) {
+                if ((mx && x0 > far) || (my && y0 > far)) continue;
+                xs.push_back(mx ? x0 + period.x : x0), ys.push_back(my ? y0 + period.y : y0);
+                reaches.push_back(reach[i]);
+                images.push_back({i, mx, my});
+            }
+    }
+    for_close_pairs(xs, ys, reaches, [&](std::size_t a, std::size_t b, double d) {
+        const Image &p = images[a], &q = images[b];
+        if (p.index == q.index || (p.x && q.x) || (p.y && q.y)) return;  // an image of itself, or a pair that came up already
+        const std::size_t i = p.index < q.index ? a : b, j = p.index < q.index ? b : a;
+        const auto nearest = [](double offset, double side) { return -side / 2 < offset && offset <= side / 2; };
+        if (nearest(xs[j] - xs[i], period.x) && nearest(ys[j] - ys[i], period.y)) visit(images[i].index, images[j].index, d);
+    });
 }
 
 }  // namespace rsc

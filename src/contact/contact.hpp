@@ -43,11 +43,26 @@ protected:
     // The last level solved is accepted: what remembers its path goes on from here.
     virtual void accept() {}
 
+    // Between flats that repeat, solve() counts separations from where no force raises the surface (Kernel::shift()): the level at
+    // the separation Z0 of the mean planes is its Z0 - shift() N. first_touch() is the same.
+    virtual double shift() const { return 0; }
+
     // What force control asks of a model.
     virtual double tolerance() const = 0;                         // relative, of the force
     virtual double first_place_force(double depth) = 0;           // of the place touched first, alone, pressed in so far
     virtual std::optional<double> likely_separation() const = 0;  // where to begin; none: near first touch
     virtual std::size_t levels_since_move() const = 0;            // solved since the tip was moved, at most a few
+
+private:
+    // Level at the separation Z0 of the mean planes, where shift() > 0.
+    Level solve_between_planes(double Z0);
+    // dN/dZ0 of the last trial as solve() counts separations.
+    double slope();
+
+    struct Trial {
+        double separation, force, slope;  // as solve() and slope() have them
+    };
+    std::optional<Trial> last_;  // the last level, where shift() > 0: a place to begin
 };
 
 }  // namespace rsc

@@ -15,8 +15,53 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Level Contact::at_separation(double Z0) {
     if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
-    Level level = solve(Z0);
+    Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
     if (level.status != LevelStatus::not_converged) accept();
+    return level;
+}
+
+double Contact::slope() {
+    const double S = stiffness();
+    return S / (1 - shift() * S);
+}
+
+// Newton on z + shift() N(z) = Z0 with z as solve() counts: its left side rises with z, ever faster, as long as N depends on Z0 at all.
+Level Contact::solve_between_planes(double Z0) {
+    const double c = shift();
+    if (Z0 >= first_touch()) return solve(Z0);
+    double above = Z0, below = -kInfinity;
+    double z = Z0;
+    if (last_) {
+        const auto& [at, force, rise] = *last_;
+        z = at + (Z0 - at - c * force) / (1 + c * rise);
+        if (!(z < above) || !(1 + c * rise > 0)) z = above;
+    }
+    Level level;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    constexpr int most = 60;
+    for (int i = 0;; ++i) {
+        level = solve(z);
+        iterations += level.iterations;
+        products += level.products;
+        const double miss = z + c * level.force - Z0, rise = slope(), steep = 1 + c * rise;
+        last_ = {z, level.force, rise};
+        if (level.status == LevelStatus::not_converged) break;
+        // An error of Z0 is one of the force of -rise/steep times as much.
+        const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
+        if (std::abs(miss) <= rounding || (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep)) break;
+        (miss > 0 ? above : below) = z;
+        double next = steep > 0 ? z - miss / steep : -kInfinity;
+        if (!(next < above) || !(next > below)) next = std::isfinite(below) ? 0.5 * (above + below) : z - 2 * (std::abs(miss) + (Z0 - z));
+        if (i == most || next == z || !std::isfinite(next)) {
+            level.status = LevelStatus::not_converged;
+            break;
+        }
+        z = next;
+    }
+    level.separation = Z0;
+    level.iterations = iterations;
+    level.products = products;
     return level;
 }
 
@@ -30,6 +75,10 @@ Level Contact::at_force(double N) {
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (first_place_force(depth) < N) depth *= 2;
     double Z0 = likely_separation().value_or(above - 0.25 * depth);
+    if (last_ && last_->force > 0) {
+        Z0 = last_->separation + std::log(N / last_->force) * last_->force / last_->slope;
+        if (!(Z0 < above)) Z0 = above - 0.25 * depth;
+    }
     Level level;
     int iterations = 0;
     long products = 0;
@@ -41,7 +90,7 @@ Level Contact::at_force(double N) {
         const double miss = level.force / N - 1;
         if (std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged) break;
         (miss < 0 ? above : below) = Z0;
-        double next = level.force > 0 ? Z0 - std::log1p(miss) * level.force / stiffness() : -kInfinity;
+        double next = level.force > 0 ? Z0 - std::log1p(miss) * level.force / slope() : -kInfinity;
         if (std::isinf(below)) {
             const double furthest = above - std::max(2 * (levels_since_move() > 1 ? above - Z0 : 0.0) + depth, 0.0);
             next = std::isfinite(next) ? std::max(next, furthest) : furthest;
@@ -51,7 +100,7 @@ Level Contact::at_force(double N) {
         if (next == Z0 || next >= above || next <= below) {
             // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
             const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
-            const double resolved = 2 * ulp * std::abs(stiffness()) + first_place_force(2 * ulp);
+            const double resolved = 2 * ulp * std::abs(slope()) + first_place_force(2 * ulp);
             if (std::abs(level.force - N) > resolved) level.status = LevelStatus::not_converged;
             break;
         }
@@ -59,6 +108,10 @@ Level Contact::at_force(double N) {
         if (i + 1 == most) level.status = LevelStatus::not_converged;
     }
     if (level.status != LevelStatus::not_converged) accept();
+    if (shift() > 0) {
+        last_ = {level.separation, level.force, slope()};
+        level.separation += shift() * level.force;
+    }
     level.iterations = iterations;
     level.products = products;
     return level;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/period.hpp"
 #include "rough/asperities.hpp"
 
 namespace rsc {
@@ -25,6 +26,7 @@ struct Indenter {
     double E_star = 0;  // [force/length^2]
     double R = 0;       // [length]
     double x0 = 0, y0 = 0;
+    Period period = {};  // finite: a flat, and surface and contact repeat (two flats, boundary='periodic')
 };
 
 struct SolverOptions {

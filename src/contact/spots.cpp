@@ -138,13 +138,13 @@ double swept(const Ellipse& e, const Vector& origin, double from, double to) {
 
 }  // namespace
 
-long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a) {
+long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a, const Period& period) {
     long pairs = 0;
-    for_close_pairs(x, y, a, [&](std::size_t, std::size_t, double) { ++pairs; });
+    for_close_pairs(x, y, a, period, [&](std::size_t, std::size_t, double) { ++pairs; });
     return pairs;
 }
 
-double union_area(const std::vector<Spot>& spots, long* close) {
+double union_area(const std::vector<Spot>& spots, long* close, const Period& period) {
     const std::size_t n = spots.size();
     std::vector<double> x(n), y(n), reach(n);
     double area = 0;
@@ -157,45 +157,78 @@ double union_area(const std::vector<Spot>& spots, long* close) {
         double d;
     };
     std::vector<Near> pairs;
-    for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) { pairs.push_back({i, j, d}); });
+    for_close_pairs(x, y, reach, period, [&](std::size_t i, std::size_t j, double d) { pairs.push_back({i, j, d}); });
     const auto radius = [&](std::size_t i) { return std::sqrt(spots[i].major * spots[i].minor); };
     if (close) *close = std::count_if(pairs.begin(), pairs.end(), [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
-    if (pairs.empty()) return area;
 
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> place(n, none);  // of a spot among those with others near
-    std::vector<Ellipse> ellipses;
-    const auto ellipse = [&](std::size_t i) {
-        if (place[i] == none) {
-            const Spot& s = spots[i];
-            place[i] = ellipses.size();
-            ellipses.push_back({{s.x, s.y}, {std::cos(s.angle), std::sin(s.angle)}, s.major, s.minor});
-        }
-        return place[i];
+    // Spot by spot, what those before it do not cover: each in its own frame, so that it does not matter what repeats where.
+    struct Cover : Interval {
+        std::size_t by;
     };
-    for (Near& p : pairs) p.i = ellipse(p.i), p.j = ellipse(p.j);
-    std::vector<std::vector<Interval>> covered(ellipses.size());
+    struct Before {
+        std::size_t spot;
+        Vector centre;  // seen from the later one
+    };
+    struct Place {
+        Ellipse ellipse;
+        std::vector<Cover> covered;  // of the border
+        std::vector<Before> before;
+    };
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> place_of(n, none);  // of a spot among those with others near
+    std::vector<Place> places;
+    const auto place = [&](std::size_t i) {
+        if (place_of[i] == none) {
+            const Spot& s = spots[i];
+            place_of[i] = places.size();
+            places.push_back({{{0, 0}, {std::cos(s.angle), std::sin(s.angle)}, s.major, s.minor}, {}, {}});
+        }
+        return place_of[i];
+    };
+    std::vector<Interval> inside;
     for (const auto& [i, j, d] : pairs) {
-        const Ellipse &p = ellipses[i], &q = ellipses[j];
-        if (d > 0) {
-            const Vector apart{(q.centre.x - p.centre.x) / d, (q.centre.y - p.centre.y) / d};
-            if (d >= p.extent(apart) + q.extent(apart)) continue;
-        }
-        Border(p, q).append_inside(covered[i]);
-        Border(q, p).append_inside(covered[j]);
+        const std::size_t first = std::min(place(i), place(j)), later = std::max(place(i), place(j));
+        const bool forward = first == place_of[i];
+        const double dx = period.nearest_x(x[j] - x[i]), dy = period.nearest_y(y[j] - y[i]);
+        const Vector centre = forward ? Vector{-dx, -dy} : Vector{dx, dy};
+        Ellipse p = places[first].ellipse;
+        const Ellipse q = places[later].ellipse;
+        p.centre = centre;
+        if (d > 0 && d >= p.extent({dx / d, dy / d}) + q.extent({dx / d, dy / d})) continue;
+        const auto cover = [&](const Ellipse& a, const Ellipse& b, std::size_t whose, std::size_t by) {
+            inside.clear();
+            Border(a, b).append_inside(inside);
+            for (const Interval& part : inside) places[whose].covered.push_back({part, by});
+        };
+        cover(p, q, first, later);
+        cover(q, p, later, first);
+        places[later].before.push_back({first, centre});
     }
-    const Vector origin = ellipses[0].centre;
-    for (std::size_t i = 0; i < ellipses.size(); ++i) {
-        if (covered[i].empty()) continue;
-        const Ellipse& e = ellipses[i];
-        std::sort(covered[i].begin(), covered[i].end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
-        area -= pi * e.major * e.minor;
-        double open = kStart;  // the border outside all others is part of the union's
-        for (const Interval& c : covered[i]) {
-            if (c.from > open) area += swept(e, origin, open, c.from);
-            open = std::max(open, c.to);
+    for (Place& p : places)
+        std::sort(p.covered.begin(), p.covered.end(),
+                  [](const Cover& a, const Cover& b) { return a.from != b.from ? a.from < b.from : a.by < b.by; });
+    // What is swept along a part of the border of p, seen from the origin, where spots before number `later` do not cover it.
+    const auto open_part = [&](const Place& p, const Vector& centre, Interval part, std::size_t later) {
+        Ellipse e = p.ellipse;
+        e.centre = centre;
+        double sum = 0;
+        for (const Cover& c : p.covered) {
+            if (c.by >= later || c.to <= part.from) continue;
+            if (c.from >= part.to) break;
+            if (c.from > part.from) sum += swept(e, {0, 0}, part.from, c.from);
+            part.from = std::max(part.from, c.to);
         }
-        area += swept(e, origin, open, kEnd);
+        return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
+    };
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const Place& p = places[k];
+        if (p.before.empty()) continue;
+        area += open_part(p, {0, 0}, {kStart, kEnd}, k) - pi * p.ellipse.major * p.ellipse.minor;
+        for (const auto& [spot, centre] : p.before) {
+            const Place& q = places[spot];
+            for (const Cover& c : q.covered)
+                if (c.by == k) area -= open_part(q, centre, c, k);
+        }
     }
     return area;
 }

@@ -3,10 +3,12 @@
 
 #include <vector>
 
+#include "contact/period.hpp"
+
 namespace rsc {
 
-// Number of pairs with d < a_i + a_j: contact spots that overlap.
-long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a);
+// Number of pairs with d < a_i + a_j, d to the nearest image: contact spots that overlap.
+long count_overlapping(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a, const Period& period = {});
 
 // A spot as an ellipse.
 struct Spot {
@@ -17,6 +19,7 @@ struct Spot {
 
 // Area of the union of the spots [length^2]: what several share is counted once. Exact to rounding; spots without area are allowed.
 // `close` (optional) receives what count_overlapping gives for circles of the spots' areas.
-double union_area(const std::vector<Spot>& spots, long* close = nullptr);
+// Where everything repeats, spots are narrower than half a period.
+double union_area(const std::vector<Spot>& spots, long* close = nullptr, const Period& period = {});
 
 }  // namespace rsc

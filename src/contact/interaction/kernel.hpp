@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "contact/indentation.hpp"
+#include "contact/interaction/lattice.hpp"
 
 namespace rsc {
 
@@ -16,10 +17,13 @@ public:
     virtual double at(double dx, double dy) const = 0;
     // What a force does to its own place beside what the law of the place answers: through its images, if it has any.
     virtual double self() const = 0;
-    // The least value of G, self() included: 0 where every force only lowers the surface.
-    virtual double least() const = 0;
-    // The surface repeats after this length in x and y; Infinity if it does not.
-    virtual double period() const = 0;
+    // What G has been raised by, so that no force raises any other place: then only what reaches above the separation can touch (alone
+    // it could rise only by a spot as wide as the period). 0 for a free half-space. A solution with this G at Z0' is the one with the
+    // true G at Z0 = Z0' + shift() N.
+    virtual double shift() const = 0;
+    // Where everything repeats; null: nowhere. Then G = near() Gamma + shift().
+    virtual const Lattice* lattice() const { return nullptr; }
+    Period period() const { return lattice() ? lattice()->period() : Period{}; }
 
     // Close to the force G = near()/d + something bounded: 1/(pi E*), or 0 without interaction.
     double near() const { return near_; }
@@ -34,7 +38,10 @@ private:
 };
 
 // Interaction::point: G = 1/(pi E* d), the free half-space (Boussinesq; paper, section 4). Interaction::none: G = 0.
+// A finite period: G = Gamma/(pi E*) + shift(), Gamma the sum over images less its mean (lattice.hpp): of a mode exp(i k x) of pressure
+// the half-space's answer 2/(E* |k|), of a uniform pressure none, for Z0 is measured from the mean plane of the deformed surface. Its
+// least value is 0, and self() = -2.28472/(pi E* L) on a square.
 // E_star: E* > 0, finite [force/length^2].
-std::shared_ptr<const Kernel> make_kernel(Interaction interaction, double E_star);
+std::shared_ptr<const Kernel> make_kernel(Interaction interaction, double E_star, Period period = {});
 
 }  // namespace rsc

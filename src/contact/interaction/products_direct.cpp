@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/interaction/pairs.hpp"
+#include "contact/interaction/pair_sums.hpp"
 #include "contact/interaction/products.hpp"
 
 namespace rsc {
@@ -9,7 +9,7 @@ namespace {
 
 class Direct final : public Products {
 public:
-    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), scale_(kernel_->near()) {}
+    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), scale_(kernel_->near()), sums_(*kernel_) {}
 
     void set_points(int n, const double* x, const double* y) override {
         x_.assign(x, x + n);
@@ -22,7 +22,7 @@ public:
         fresh_ = false;
         active_ = active;
         gather(active_, xa_, ya_);
-        set_.assign(active_.size(), xa_.data(), ya_.data());
+        sums_.assign(active_.size(), xa_.data(), ya_.data());
         complement(static_cast<int>(x_.size()));
         gather(passive_, xp_, yp_);
         passive_phi_.resize(passive_.size());
@@ -36,7 +36,7 @@ public:
             std::fill(phi, phi + active_.size(), 0.0);
             return;
         }
-        if (precise_) {
+        if (precise_ || !sums_.has_single()) {
             active_full(f, phi);
             return;
         }
@@ -48,7 +48,7 @@ public:
         f_single_.resize(n);
         phi_single_.resize(n);
         for (std::size_t k = 0; k < n; ++k) f_single_[k] = static_cast<float>(f[k] / unit);
-        set_.apply_single(f_single_.data(), phi_single_.data());
+        sums_.apply_single(f_single_.data(), phi_single_.data());
         for (std::size_t k = 0; k < n; ++k) phi[k] = scale_ * unit * static_cast<double>(phi_single_[k]);
     }
 
@@ -57,8 +57,7 @@ public:
             std::fill(phi, phi + passive_.size(), 0.0);
             return;
         }
-        const auto sums = precise_ ? pair_potential : pair_potential_single;
-        sums(passive_.size(), xp_.data(), yp_.data(), active_.size(), xa_.data(), ya_.data(), f, phi);
+        sums_.onto(!precise_, passive_.size(), xp_.data(), yp_.data(), f, phi);
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[k] *= scale_;
     }
 
@@ -67,7 +66,7 @@ public:
             std::fill(phi, phi + n, 0.0);
             return;
         }
-        pair_potential_single(static_cast<std::size_t>(n), x, y, active_.size(), xa_.data(), ya_.data(), f, phi);
+        sums_.onto(true, static_cast<std::size_t>(n), x, y, f, phi);
         for (int k = 0; k < n; ++k) phi[k] *= scale_;
     }
 
@@ -79,13 +78,13 @@ public:
         }
         active_phi_.resize(active_.size());
         active_full(f, active_phi_.data());
-        pair_potential(passive_.size(), xp_.data(), yp_.data(), active_.size(), xa_.data(), ya_.data(), f, passive_phi_.data());
+        sums_.onto(false, passive_.size(), xp_.data(), yp_.data(), f, passive_phi_.data());
         for (std::size_t k = 0; k < active_.size(); ++k) phi[active_[k]] = active_phi_[k];
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[passive_[k]] = scale_ * passive_phi_[k];
     }
 
     double full_error() const override { return 1e-14; }
-    double inner_error() const override { return 1e-6; }
+    double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
     void gather(const std::vector<int>& which, std::vector<double>& x, std::vector<double>& y) const {
@@ -98,7 +97,7 @@ private:
     }
 
     void active_full(const double* f, double* phi) const {
-        set_.apply(f, phi);
+        sums_.apply(f, phi);
         for (std::size_t k = 0; k < active_.size(); ++k) phi[k] *= scale_;
     }
 
@@ -107,7 +106,7 @@ private:
     bool fresh_ = true;  // the active list belongs to earlier points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
     std::vector<float> f_single_, phi_single_;
-    PairSet set_;
+    PairSums sums_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <memory>
 #include <new>
 
-#include "contact/interaction/pairs.hpp"
+#include "contact/interaction/pair_sums.hpp"
 #include "contact/solver/lapack.hpp"
 #include "error.hpp"
 
@@ -44,7 +44,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     const std::size_t size = static_cast<std::size_t>(n);
     const auto K = allocate_matrix(size);
     std::vector<int> pivots;
-    PairSet pairs;
+    PairSums pairs(kernel);
     pairs.assign(size, set.x.data(), set.y.data());
 
     Vector m(size), slope(size), rate(size), regular(size), dF(size), work(size), target(size);

@@ -232,7 +232,7 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
     if (products_->kernel().none()) return true;
     const double E_star = products_->kernel().modulus();
     for (double& s : reach) s /= 2 * E_star;
-    if (positive_definite_by_shells(x, y, reach)) return true;
+    if (positive_definite_by_shells(x, y, reach, products_->kernel().period())) return true;
     products_->set_active(state.active);
     scale_active(state);
     Vector image(root_.size());

@@ -44,12 +44,17 @@ double shell_overlap(double a, double b, double d) {
 }
 
 // Pairs whose shells overlap.
-std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a) {
+std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a, const Period& period) {
     Vector rho(a);
     for (double& r : rho) r *= kWidening * 2 / std::numbers::pi;
     std::vector<Pair> pairs;
-    for_close_pairs(x, y, rho, [&](std::size_t i, std::size_t j, double d) { pairs.push_back({i, j, d}); });
+    for_close_pairs(x, y, rho, period, [&](std::size_t i, std::size_t j, double d) { pairs.push_back({i, j, d}); });
     return pairs;
+}
+
+// Whether shells are narrow enough against the period for the argument to hold.
+bool shells_fit(const Vector& a, const Period& period) {
+    return a.empty() || *std::max_element(a.begin(), a.end()) < std::min(period.x, period.y) / 10;
 }
 
 // Points connected by overlaps of their shells, one of which at least has a row sum that does not settle it.
@@ -229,8 +234,9 @@ private:
 
 }  // namespace
 
-bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector& a) {
-    for (const Cluster& cluster : doubtful_clusters(shell_pairs(x, y, a), a)) {
+bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector& a, const Period& period) {
+    if (!shells_fit(a, period)) return false;
+    for (const Cluster& cluster : doubtful_clusters(shell_pairs(x, y, a, period), a)) {
         if (!positive_definite(cluster, of_points(cluster, a))) return false;
     }
     return true;
@@ -264,7 +270,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     bool told_apart = true;
     std::vector<Coupling> close;
     std::vector<Pair> distant;  // for all their radii say, but for what a flat one might become
-    for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) {
+    for_close_pairs(x, y, reach, kernel.period(), [&](std::size_t i, std::size_t j, double d) {
         if (d < std::max(near * (radius[i] + radius[j]), 2 * touch)) {
             told_apart = told_apart && d > nearest;
             if (d > 0) close.push_back({i, j, kernel.at(d, 0)});
@@ -295,7 +301,8 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
         }
     };
     secants();
-    const auto pairs = shell_pairs(x, y, a);  // of the widest shells: the bounds only close in
+    if (!shells_fit(a, kernel.period())) return false;
+    const auto pairs = shell_pairs(x, y, a, kernel.period());  // of the widest shells: the bounds only close in
     auto doubtful = doubtful_clusters(pairs, a);
     const auto settled = [&](const Cluster& cluster) { return positive_definite(cluster, of_points(cluster, a)); };
     std::erase_if(doubtful, settled);

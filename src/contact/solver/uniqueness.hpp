@@ -7,6 +7,10 @@
 // definiteness: only pairs close enough for their shells to overlap can. With rho_i = 3 (2/pi) a_i the diagonal is 2/3, and the sparse
 // matrix of the overlaps, which falls apart into small clusters, decides cluster by cluster: by row sums (Gershgorin) where they
 // suffice, by a Cholesky factorisation where they do not. This costs O(n) for n contacts.
+//
+// Where everything repeats, shells and images make the same argument: a mode of the shells' charges has an energy >= 0, and what is left,
+// the neutralising background, lies in the plane and not on the shells, which costs (pi/A)(rho_i + rho_j) of the shift c that G has been
+// raised by. c is larger while shells are narrower than a quarter of the period, the contacts than an eighth.
 #pragma once
 
 #include <vector>
@@ -17,7 +21,8 @@
 namespace rsc {
 
 // True proves that I + S B S is positive definite for contact radii a (0: not in contact) [length]; false decides nothing.
-bool positive_definite_by_shells(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a);
+bool positive_definite_by_shells(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a,
+                                 const Period& period = {});
 
 // Whether no other solution can be near a given one, for all candidates: penetrations v (negative: no contact), forces and slopes.
 // A second solution differs by dF with dF'(B + 1/D')dF = 0, D' the secant slope of the law between the two, and its penetrations

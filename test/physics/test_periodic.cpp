@@ -1,0 +1,186 @@
+// Two flats that repeat: asperities and their images against scalar equations, a large period against none, methods against each other,
+// conservation and symmetry.
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "random_asperities.hpp"
+
+using namespace rsc;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double kE = 3.0;
+constexpr double kInfinity = Period{}.x;
+constexpr double kSelf = -3.900264920001955886982;  // of the square lattice (test_lattice.cpp)
+
+SolverOptions options(Method method, double tolerance = 1e-11, LawKind law = LawKind::hertz) {
+    SolverOptions o;
+    o.method = method;
+    o.tolerance = tolerance;
+    o.sigma = 0.01;
+    o.law = law;
+    return o;
+}
+
+Indenter flats(double L) { return {kE, kInfinity, 0, 0, {L, L}}; }
+
+Asperities on_square(int n, unsigned seed, double spacing = 0.02, double radius = 1e-3) {
+    return random_asperities(n, spacing, 0.01, radius, 0.4, seed);
+}
+
+// u + lowering f(u) = depth, by bisection.
+double pressed(double lowering, double depth, double radius) {
+    double low = 0, high = depth * 10;
+    for (int k = 0; k < 200; ++k) {
+        const double u = 0.5 * (low + high);
+        (u + lowering * 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u) > depth ? high : low) = u;
+    }
+    return low;
+}
+
+// One asperity and its images, and two half a period apart (a lattice turned by 45 degrees): Z0 is the true one, of the mean planes.
+void asperities_and_images() {
+    constexpr double kScalar = 1e-12;
+    const double radius = 2e-3, L = 0.8;
+    for (double Z0 : {0.0099, 0.005, -0.02}) {
+        const double depth = 0.01 - Z0;
+        const Asperities one{{0.1}, {0.2}, {0.01}, {radius}, {}, {}, {}, {}};
+        const Asperities two{{0.1, 0.5}, {0.2, 0.6}, {0.01, 0.01}, {radius, radius}, {}, {}, {}, {}};
+        for (Method method : {Method::direct, Method::dgesv}) {
+            AsperityContact single(one, flats(L), options(method, 1e-14));
+            const double u = pressed(kSelf / (pi * kE * L), depth, radius);
+            const Level level = single.at_separation(Z0);
+            CHECK_RELATIVE(level.force, 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u), kScalar);
+            CHECK_RELATIVE(level.u[0], u, kScalar);
+            AsperityContact both(two, flats(L), options(method, 1e-14));
+            const double v = pressed(kSelf * std::sqrt(2.0) / (pi * kE * L), depth, radius);
+            CHECK_RELATIVE(both.at_separation(Z0).force, 2 * 4.0 / 3 * kE * std::sqrt(radius) * v * std::sqrt(v), kScalar);
+        }
+    }
+}
+
+void methods_agree() {
+    constexpr double kMethods = 1e-8;
+    for (unsigned seed : {1u, 2u}) {
+        const Asperities a = on_square(250, seed);
+        for (double Z0 : {0.02, 0.008, 0.0}) {
+            double force = 0;
+            for (Method method : {Method::direct, Method::dgesv}) {
+                AsperityContact contact(a, flats(1), options(method, 1e-10));
+                const Level level = contact.at_separation(Z0);
+                CHECK(level.status != LevelStatus::not_converged);
+                if (force == 0) force = level.force;
+                CHECK_RELATIVE(level.force, force, kMethods);
+            }
+        }
+    }
+}
+
+// Everything moved by a vector, and put back into the cell.
+void translations() {
+    constexpr double kMoved = 1e-9;
+    for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
+        Asperities a = on_square(600, 11, 0.0, 6e-3);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            const double ratio = 0.3 + 0.6 * std::fmod(0.618 * static_cast<double>(i), 1.0);
+            a.kappa1.push_back(1 / a.radius[i] / std::sqrt(ratio));
+            a.kappa2.push_back(1 / a.radius[i] * std::sqrt(ratio));
+            a.angle.push_back(std::fmod(static_cast<double>(i), 1.5));
+        }
+        Asperities moved = a;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            moved.x[i] = std::fmod(a.x[i] + 0.377, 1.0);
+            moved.y[i] = std::fmod(a.y[i] + 0.613, 1.0);
+        }
+        AsperityContact here(a, flats(1), options(Method::direct, 1e-11, law)), there(moved, flats(1), options(Method::direct, 1e-11, law));
+        const Level p = here.at_separation(0.005), q = there.at_separation(0.005);
+        CHECK(p.contacts > 50 && p.overlapping_pairs > 0);
+        CHECK_RELATIVE(q.force, p.force, kMoved);
+        CHECK_RELATIVE(q.area, p.area, kMoved);
+        CHECK(q.asperity == p.asperity && q.overlapping_pairs == p.overlapping_pairs && q.status == p.status);
+        CHECK_RELATIVE(there.stiffness(), here.stiffness(), kMoved);
+        CHECK_RELATIVE(there.energy(), here.energy(), kMoved);
+    }
+}
+
+// A cluster in a growing cell: the images add kSelf/(pi E* L) to what every force does, and quadrupoles of order (size/L)^3 in the end.
+void large_periods() {
+    Asperities a = on_square(60, 21, 0.05, 2e-3);
+    for (auto* x : {&a.x, &a.y})
+        for (double& v : *x) v *= 0.3;
+    const double Z0 = 0.004;
+    AsperityContact free(a, {kE, kInfinity, 0, 0}, options(Method::direct));
+    double before = 0, uncorrected = 0;
+    for (double L : {2.0, 4.0, 8.0, 16.0}) {
+        AsperityContact periodic(a, flats(L), options(Method::direct));
+        const double N = periodic.at_separation(Z0).force;
+        const double plain = N / free.at_separation(Z0).force - 1;
+        const double corrected = N / free.at_separation(Z0 + kSelf * N / (pi * kE * L)).force - 1;
+        CHECK(std::abs(corrected) < 0.05 * std::abs(plain) && std::abs(plain) > 1e-4);
+        if (before != 0) {
+            CHECK(std::abs(before / corrected) > 7 && std::abs(before / corrected) < 9);
+            CHECK(uncorrected / plain > 1.8 && uncorrected / plain < 2.4);
+        }
+        before = corrected, uncorrected = plain;
+    }
+}
+
+// Force control is the inverse of separation control; stiffness and force are the derivatives of force and energy.
+void controls_and_derivatives() {
+    constexpr double kInverse = 1e-9, kDifference = 1e-6;
+    const Asperities a = on_square(400, 31);
+    AsperityContact contact(a, flats(1), options(Method::direct, 1e-12));
+    for (double Z0 : {0.02, 0.01, 0.0}) {
+        const Level level = contact.at_separation(Z0);
+        CHECK(level.separation == Z0 && level.contacts > 2);
+        AsperityContact other(a, flats(1), options(Method::direct, 1e-12));
+        const Level pressed = other.at_force(level.force);
+        CHECK_CLOSE(pressed.separation, Z0, kInverse * 0.01);
+        CHECK_RELATIVE(pressed.force, level.force, 1e-11);
+        const double S = contact.stiffness(), h = 1e-6;
+        CHECK_RELATIVE(other.stiffness(), S, 1e-7);
+        const Level up = contact.at_separation(Z0 + h);
+        const double W_up = contact.energy();
+        const Level down = contact.at_separation(Z0 - h);
+        const double W_down = contact.energy();
+        CHECK(up.asperity == down.asperity);
+        CHECK_RELATIVE((up.force - down.force) / (2 * h), S, kDifference);
+        CHECK_RELATIVE((W_down - W_up) / (2 * h), level.force, kDifference);
+    }
+    const Level touch = contact.at_separation(1.0);
+    CHECK(touch.force == 0 && touch.contacts == 0 && contact.stiffness() == 0 && contact.energy() == 0);
+}
+
+// A level is the same alone and in a series, to the tolerance, whatever the control.
+void series() {
+    const Asperities a = on_square(400, 41);
+    AsperityContact up(a, flats(1), options(Method::direct, 1e-9));
+    long products = 0, steps = 0;
+    for (int k = 0; k <= 10; ++k) {
+        const double N = 1e-6 * std::pow(10, 0.3 * k);
+        const Level level = up.at_force(N);
+        AsperityContact fresh(a, flats(1), options(Method::direct, 1e-9));
+        const Level alone = fresh.at_force(N);
+        CHECK(level.status != LevelStatus::not_converged);
+        CHECK_RELATIVE(level.force, N, 1e-9);
+        CHECK_CLOSE(level.separation, alone.separation, 1e-10);
+        products += level.products, steps += level.iterations;
+    }
+    std::printf("a series of 11 forces: %ld Newton steps, %ld products\n", steps, products);
+}
+
+}  // namespace
+
+int main() {
+    asperities_and_images();
+    methods_agree();
+    translations();
+    large_periods();
+    controls_and_derivatives();
+    series();
+    return check::summary();
+}
