@@ -13,6 +13,7 @@
 #include "error.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/campaign_study.hpp"
+#include "run/screen.hpp"
 #include "run/signals.hpp"
 #ifdef RSC_MPI
 #include "run/mpi_team.hpp"
@@ -55,15 +56,21 @@ std::size_t threads_of(const rsc::Case& settings) {
 #endif
 }
 
-// 0: done, 1: some level did not converge.
-int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
+rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& command) {
     rsc::RunOptions how;
     how.command = command;
+    how.inputs = {options.case_path.empty() ? "/dev/stdin" : options.case_path};
     how.progress = options.progress;
     how.quiet = options.quiet;
     how.resume = options.resume;
     how.table = &std::cout;
     how.messages = &std::cerr;
+    return how;
+}
+
+// 0: done, 1: some level did not converge.
+int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
+    const rsc::RunOptions how = how_to_run(options, command);
     const std::size_t threads = threads_of(read.settings);
     rsc::CampaignWork work = rsc::make_work(rsc::members_of(read), how, threads);
     const std::unique_ptr<rsc::Team> team = make_team(job, work, read, threads);
@@ -99,8 +106,13 @@ int run_program(int argc, char** argv, Job& job) {
         return 0;
     }
     if (options.check) {
-        rsc::members_of(read);  // throws for members that are wrong
+        const rsc::RunOptions how = how_to_run(options, command_line(argc, argv));
+        const std::size_t threads = threads_of(read.settings);
+        const double seconds = rsc::check_members(read, options.member, how, threads);
         std::cout << rsc::effective_namelist(read);
+        if (!options.quiet)
+            std::cerr << "rsc: the inputs can be read and the result can be written; expected to take about " << rsc::duration(seconds)
+                      << " with " << threads << (threads == 1 ? " thread\n" : " threads\n");
         return 0;
     }
     return run(job, options, read, command_line(argc, argv));

@@ -12,6 +12,7 @@
 #include "contact/solver/uniqueness.hpp"
 #include "contact/spots.hpp"
 #include "contact/start.hpp"
+#include "contact/validity.hpp"
 #include "contact/working_set.hpp"
 #include "error.hpp"
 
@@ -75,7 +76,7 @@ struct AsperityContact::Impl {
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     void use(Method how);
     NewtonOutcome solve_from(const Vector& start, bool rough_start);
-    NewtonOutcome solve_by_paper();
+    NewtonOutcome solve_by_paper(Fallback& why_not);
     bool one_solution() const {
         const auto& [v, force, slope] = solution;
         return has_one_solution(*law, *kernel, candidates.set.asperity, candidates.set.x, candidates.set.y, v, force, slope);
@@ -99,7 +100,7 @@ NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_
                             {options.tolerance, options.max_iterations, method == Method::mesh, rough_start}, start, solution);
 }
 
-NewtonOutcome AsperityContact::Impl::solve_by_paper() {
+NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
     const WorkingSet& set = candidates.set;
     auto& [v, force, slope] = solution;
     const PaperMethod paper{options.delta0 * options.sigma, options.delta_cut, options.tolerance, options.max_iterations};
@@ -111,6 +112,7 @@ NewtonOutcome AsperityContact::Impl::solve_by_paper() {
     result.converged = outcome.converged;
     result.iterations = outcome.iterations;
     result.residual = outcome.residual;
+    if (!outcome.converged) why_not = outcome.singular ? Fallback::dgesv_singular : Fallback::dgesv_not_converged;
     return result;
 }
 
@@ -141,14 +143,13 @@ Level AsperityContact::Impl::report(double Z0) const {
         level.force += force[k];
         level.area += area;
         level.beyond_law += law->beyond(set.asperity[k], v[k]);
-        level.large_contacts += options.mean_spacing > 0 && level.a.back() > options.mean_spacing / 4;
     }
     if (traits(options.law).elliptic_spots)
         level.area = union_area(spots(level), &level.overlapping_pairs, indenter.period);
     else
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
-    if (level.large_contacts > 0 || level.beyond_law > 0) level.status = LevelStatus::out_of_validity;
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
+    judge_range(level, indenter, options);
     return level;
 }
 
@@ -171,9 +172,10 @@ Level AsperityContact::solve(double Z0) {
     bool unique = false;
     const Method method = choose_method(my.options, *my.kernel, my.candidates.size());
     const bool dense = method == Method::dgesv;
+    Fallback fallback = my.options.method == Method::mesh && method != Method::mesh ? Fallback::no_interaction : Fallback::none;
     my.use(dense ? Method::direct : method);
     if (dense) {
-        outcome = my.solve_by_paper();
+        outcome = my.solve_by_paper(fallback);
         iterations = outcome.iterations;
         unique = outcome.converged && my.one_solution();
         my.products->set_points(my.candidates.size(), my.candidates.set.x.data(), my.candidates.set.y.data());
@@ -186,17 +188,20 @@ Level AsperityContact::solve(double Z0) {
             unique = outcome.converged && my.one_solution();
         }
     }
+    const bool by_dgesv = dense && unique;
     if (!unique) {  // the rule that defines the answer: from the no-interaction start, downhill to a minimum
         outcome = my.solve_from(cold_start(*my.law, *my.products, my.candidates.set), true);
         iterations += outcome.iterations;
         unique = outcome.converged && my.one_solution();
+        if (dense && fallback == Fallback::none) fallback = Fallback::not_unique;
     }
     my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
     Level level = my.report(Z0);
     level.iterations = iterations;
-    level.products = my.products_taken() - products_before;
+    level.products = by_dgesv ? iterations : my.products_taken() - products_before;
     level.residual = outcome.residual;
-    level.method = method;
+    level.method = dense && !by_dgesv ? Method::direct : method;
+    level.fallback = fallback;
     if (!unique) level.status = LevelStatus::not_unique;
     if (!outcome.converged) level.status = LevelStatus::not_converged;
     return level;

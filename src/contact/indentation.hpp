@@ -29,6 +29,12 @@ struct Indenter {
     Period period = {};  // finite: a flat, and surface and contact repeat (two flats, boundary='periodic')
 };
 
+// The rectangle of a free surface.
+struct Rectangle {
+    double x0 = 0, y0 = 0, Lx = 0, Ly = 0;  // [length]
+    bool known() const { return Lx > 0 && Ly > 0; }
+};
+
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
@@ -40,7 +46,8 @@ struct SolverOptions {
     int max_iterations = 100;
     double delta0 = 0.01;     // first regularisation of the paper's method, in sigma
     double delta_cut = 5.0;   // the paper's method divides delta by this each iteration (the paper: 2 to 10)
-    double mean_spacing = 0;  // <d> = 1/sqrt(D), for counting contacts with a > <d>/4; 0: not counted
+    double mean_spacing = 0;  // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
+    Rectangle surface;        // the free surface, for counting contacts near its border; not known: not counted
 };
 
 }  // namespace rsc

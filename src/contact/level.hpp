@@ -15,6 +15,16 @@ namespace rsc {
 enum class LevelStatus : std::int32_t { converged = 0, out_of_validity = 1, overlapping = 2, not_unique = 3, not_converged = 4 };
 inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping", "not_unique", "not_converged"};
 
+// Why a level was solved by another method than asked for. Values are those of `fallback` in the result file.
+enum class Fallback : std::int32_t {
+    none = 0,
+    no_interaction = 1,       // mesh: there is nothing to put on a mesh
+    dgesv_not_converged = 2,  // the paper's iteration did not reach the tolerance in max_iterations
+    dgesv_singular = 3,       // its matrix was singular
+    not_unique = 4,           // it converged, but the solution could not be proved to be the only one, and the rule for such levels holds
+};
+inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique"};
+
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
 // The scalars of a level. A plain record: checkpoints hold it as it is. Each is declared to files, screen and libraries by one row
@@ -33,8 +43,11 @@ struct LevelValues {
     std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
     std::int32_t iterations = 0;  // Newton steps
     LevelStatus status = LevelStatus::converged;
-    Method method = Method::direct;   // the one used
-    std::int32_t large_contacts = 0;  // contacts with a > <d>/4
+    Method method = Method::direct;      // the one whose answer this is
+    Fallback fallback = Fallback::none;  // why it is not the one asked for
+    std::int32_t large_contacts = 0;     // contacts with a > <d>/4
+    std::int32_t edge_contacts = 0;      // contacts within <d> of the border of a free surface
+    double nominal_area = 0;             // smallest disc about the tip that holds all contacts, at most the surface [length^2]
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
     std::int32_t outside_map = 0;    // contacts outside the map

@@ -223,17 +223,6 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
     }
 }
 
-// The nearest folder above `path` that exists.
-fs::path existing_ancestor(fs::path folder) {
-    std::error_code error;
-    while (!fs::exists(folder, error)) {
-        const fs::path parent = folder.parent_path();
-        if (parent.empty() || parent == folder) return ".";
-        folder = parent;
-    }
-    return folder;
-}
-
 }  // namespace
 
 void NetcdfFile::dimension(const std::string& name, std::size_t length) { dimensions_.emplace_back(name, length); }
@@ -342,21 +331,6 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     define_and_put(memory.id(), format, compression, path);
     part.write(memory.close());
     part.finish();
-}
-
-void check_output(const std::string& path) {
-    const auto refuse = [&path](const std::string& why) { throw Error(Failure::bad_input, "&output file='" + path + "': " + why); };
-    if (path.empty()) refuse("a file name is expected");
-    std::error_code error;
-    if (fs::is_directory(path, error))
-        refuse("this is a folder; name a file in it, such as '" + (fs::path(path) / "rsc.nc").string() + "'");
-    if (path.back() == '/') refuse("a file name is expected after the last '/'");
-    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("something that is not a plain file has this name");
-    const fs::path folder = folder_of(path), ancestor = existing_ancestor(folder);
-    if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
-    if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
-        refuse("folder '" + folder.string() + "' does not exist; make it first");
-    if (::access(ancestor.c_str(), W_OK | X_OK) != 0) refuse("folder '" + ancestor.string() + "' cannot be written to: " + reason(errno));
 }
 
 }  // namespace rsc

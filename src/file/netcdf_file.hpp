@@ -54,8 +54,4 @@ private:
     std::vector<NetcdfVariable> variables_;
 };
 
-// Can a file be written there? Changes nothing on the disk. Throws Error(bad_input) saying what is in the way: no name, a folder
-// or a device of that name, a folder that is missing above an absolute path, is no folder, or may not be written to.
-void check_output(const std::string& path);
-
 }  // namespace rsc

@@ -73,6 +73,7 @@ void ResultTable::levels() {
         NetcdfAttributes attributes;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member)) attributes = flags(kLevelStatusNames, 0);
         if (std::holds_alternative<Method LevelValues::*>(q.member)) attributes = flags(kMethodNames, 1);  // 0 is 'auto'
+        if (std::holds_alternative<Fallback LevelValues::*>(q.member)) attributes = flags(kFallbackNames, 0);
         append(attributes, comment(q.comment));
         if (q.integer()) {
             add(q.name, dims, "1", q.meaning, of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }), attributes);

@@ -23,10 +23,15 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "relative residual of F - C<G0 - B F>^(3/2)",
      .comment = "unregularised, over all candidates: it says whether the forces are right", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "how the level ended",
-     .comment = "1: contacts with a > <d>/4 or beyond the law (large_contacts, beyond_law); 2: contacts overlap, d < a_i + a_j; 3: a local "
+     .comment = "1: contacts with a > <d>/4, beyond the law or near the border (large_contacts, beyond_law, edge_contacts), contact_area above "
+                "nominal_area, or Z0 below -3 sigma; 2: contacts overlap, d < a_i + a_j; 3: a local "
                 "minimum of the energy, perhaps not the only one; 4: do not use. The larger is the more serious and hides the smaller",
      .heading = "status", .width = 0},
-    {.name = "method", .member = &V::method, .meaning = "solver used"},
+    {.name = "method", .member = &V::method, .meaning = "solver whose answer this is",
+     .comment = "fallback says why it is not the one asked for"},
+    {.name = "fallback", .member = &V::fallback, .meaning = "why another solver than the one asked for gave the answer",
+     .comment = "solver%method = 'dgesv': 2: the paper's iteration did not reach the tolerance; 3: its matrix was singular; 4: it "
+                "converged, but its solution could not be proved to be the only one; 'mesh': 1: without interaction there is nothing for it"},
     {.name = "products", .member = &V::products,
      .meaning = "products with the interaction matrix B (direct, mesh) or solves (dgesv)"},
     {.name = "overlapping_pairs", .member = &V::overlapping_pairs,
@@ -37,6 +42,10 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
                 "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its radius stays "
                 "and the stiffness with it; 0 for the other laws"},
+    {.name = "edge_contacts", .member = &V::edge_contacts, .meaning = "contacts within <d> of the border of a free surface",
+     .comment = "what would carry beyond the border is missing: the load is too small"},
+    {.name = "nominal_area", .member = &V::nominal_area, .length_power = 2, .meaning = "nominal area under the sphere",
+     .comment = "the smallest disc about the tip that holds all contacts, at most the area of the surface"},
     {.name = "crowded_cells", .member = &V::crowded_cells,
      .meaning = "cells of the map with an area fraction above pi/16",
      .comment = "19.6 %: beyond it point forces do not describe the interaction well"},

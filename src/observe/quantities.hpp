@@ -13,7 +13,7 @@ namespace rsc {
 
 struct LevelQuantity {
     using Member = std::variant<double LevelValues::*, std::int32_t LevelValues::*, std::int64_t LevelValues::*, LevelStatus LevelValues::*,
-                                Method LevelValues::*>;
+                                Method LevelValues::*, Fallback LevelValues::*>;
     const char* name;                       // of the variable in the file, and in calls by name
     Member member;                          // doubles may be NaN: not computed
     int length_power = 0, force_power = 0;  // of its unit

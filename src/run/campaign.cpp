@@ -13,6 +13,7 @@
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
 #include "file/netcdf_writer.hpp"
+#include "file/output_path.hpp"
 #include "run/campaign_archive.hpp"
 #include "run/campaign_screen.hpp"
 #include "run/checkpoint.hpp"
@@ -104,7 +105,7 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     const auto start = Clock::now();
     const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     const std::string& file = settings.output.file;
-    check_output(file);
+    const bool replaces = check_result_path(settings, options);
     contacts_kept(settings);
     std::error_code ignored;
     if (const fs::path folder = fs::path(file).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
@@ -155,28 +156,26 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     }
     checkpoint.remove();
     const RunSummary summary = campaign_summary(result.observations);
-    if (table) print_campaign_summary(*table, *job, result.observations, seconds(), file);
+    if (table) print_campaign_summary(*table, *job, result.observations, seconds(), file, replaces);
     tell_failed(options, summary);
     return summary;
 }
 
 std::optional<RunSummary> finished_result(const Case& settings) {
+    if (case_in_result(settings.output.file) != case_text(settings)) return {};
     const std::lock_guard lock(netcdf_mutex());
     int file = -1;
-    if (!fs::exists(settings.output.file) || nc_open(settings.output.file.c_str(), NC_NOWRITE, &file) != NC_NOERR) return {};
-    const auto text = [file](const char* name) {
-        std::size_t length = 0;
-        if (nc_inq_attlen(file, NC_GLOBAL, name, &length) != NC_NOERR || length > (std::size_t{1} << 26)) return std::string();
-        std::string value(length, '\0');
-        if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
-        return value;
-    };
+    if (nc_open(settings.output.file.c_str(), NC_NOWRITE, &file) != NC_NOERR) return {};
+    std::size_t length = 0;
+    if (nc_inq_attlen(file, NC_GLOBAL, "source", &length) != NC_NOERR) length = 0;
+    std::string source(length, '\0');
+    if (length > 0 && nc_get_att_text(file, NC_GLOBAL, "source", source.data()) != NC_NOERR) source.clear();
     std::optional<RunSummary> summary;
     int status = -1, dimensions[2] = {};
     std::size_t shape[2] = {};
-    if (text("case") == case_text(settings) && text("source").starts_with(std::string("rsc ") + RSC_VERSION + ",") &&
-        nc_inq_varid(file, "status", &status) == NC_NOERR && nc_inq_vardimid(file, status, dimensions) == NC_NOERR &&
-        nc_inq_dimlen(file, dimensions[0], &shape[0]) == NC_NOERR && nc_inq_dimlen(file, dimensions[1], &shape[1]) == NC_NOERR) {
+    if (source.starts_with("rsc " RSC_VERSION ",") && nc_inq_varid(file, "status", &status) == NC_NOERR &&
+        nc_inq_vardimid(file, status, dimensions) == NC_NOERR && nc_inq_dimlen(file, dimensions[0], &shape[0]) == NC_NOERR &&
+        nc_inq_dimlen(file, dimensions[1], &shape[1]) == NC_NOERR) {
         std::vector<int> values(shape[0] * shape[1]);
         if (nc_get_var_int(file, status, values.data()) == NC_NOERR) {
             summary.emplace();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
 #include "file/netcdf_writer.hpp"
+#include "file/output_path.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -98,8 +100,13 @@ void write_text(const std::string& path, const std::string& text) {
     if (std::rename(part.c_str(), path.c_str()) != 0) fail(errno);
 }
 
+constexpr const char* kTextStart = "# member\tfile";
+
+// Beside the NetCDF manifest.
+std::string text_manifest_file(const std::string& manifest) { return fs::path(manifest).replace_extension(".txt").string(); }
+
 std::string text_manifest(const std::vector<Member>& members, const std::string& manifest) {
-    std::string text = "# member\tfile";
+    std::string text = kTextStart;
     for (const auto& [key, value] : members.front().values) text += "\t" + key;
     for (const Member& member : members) {
         text += "\n" + std::to_string(member.index) + "\t" + relative_name(member.settings.output.file, manifest);
@@ -124,8 +131,25 @@ std::string manifest_file(const std::string& output_file) {
     return (path.parent_path() / name).string();
 }
 
+void check_manifest(const std::string& output_file, const std::vector<std::string>& inputs) {
+    const std::string path = manifest_file(output_file), text_path = text_manifest_file(path);
+    const auto refuse = [](const std::string& name, const char* why) {
+        throw Error(Failure::bad_input,
+                    "the manifest of the study, '" + name + "': " + why + "; it is left alone: let &output file have another name");
+    };
+    std::error_code error;
+    for (const std::string& input : inputs)
+        for (const std::string& name : {path, text_path})
+            if (fs::is_regular_file(input, error) && fs::equivalent(input, name, error)) refuse(name, "this is an input of the run");
+    if (fs::exists(path, error) && !case_in_result(path)) refuse(path, "this file exists and is no manifest of rsc");
+    std::string start(std::strlen(kTextStart), '\0');
+    if (std::ifstream in(text_path, std::ios::binary);
+        in && (!in.read(start.data(), static_cast<std::streamsize>(start.size())) || start != kTextStart))
+        refuse(text_path, "this file exists and is no manifest of rsc");
+}
+
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command) {
-    const std::string path = manifest_file(read.settings.output.file), text_path = fs::path(path).replace_extension(".txt").string();
+    const std::string path = manifest_file(read.settings.output.file), text_path = text_manifest_file(path);
     const std::string text = text_manifest(members, path);
     std::error_code ignored;
     if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);

@@ -16,6 +16,9 @@ std::string manifest_file(const std::string& output_file);
 // may all write them. Throws Error(file_system).
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command);
 
+// Can both be written? As check_output; the text one may be replaced if it is a manifest. Throws Error(bad_input).
+void check_manifest(const std::string& output_file, const std::vector<std::string>& inputs);
+
 // "1  output/rsc_001.nc  surface%sigma=0.001 surface%L_lambda_s=256", a line a member.
 std::string list_members(const std::vector<Member>& members);
 

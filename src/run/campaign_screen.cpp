@@ -62,7 +62,8 @@ void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double
         << std::flush;
 }
 
-void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o, double seconds, const std::string& file) {
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o, double seconds, const std::string& file,
+                            bool replaces) {
     const auto& run = job.settings.run;
     out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n", o.realizations, "level",
                   format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(),
@@ -71,17 +72,14 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
         out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s], o.separation.mean[s] / job.sigma,
                       o.force.mean[s], o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
 
-    std::map<LevelStatus, long> statuses;
-    long long crowded = 0;
-    for (const LevelValues& row : o.rows) {
-        ++statuses[row.status];
-        crowded += row.crowded_cells;
-    }
     out << '\n' << o.realizations << " realizations, " << o.rows.size() << " levels in " << duration(seconds) << '\n';
-    print_statuses(out, statuses, static_cast<long>(o.rows.size()));
-    if (crowded > 0)
-        out << "  " << crowded << " map cells (over all levels) with an area fraction above pi/16 = 19.6 %: contacts there would merge.\n";
-    out << "result: " << file << "\npicture: python3 output/plot/plot.py " << file << std::endl;
+    if (!o.surface.empty() && o.surface.front().m2 > 0) {
+        double m2 = 0;
+        for (const SurfaceStatistics& surface : o.surface) m2 += surface.m2 / static_cast<double>(o.surface.size());
+        out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2)) << slope_remark(std::sqrt(2 * m2)) << '\n';
+    }
+    print_remarks(out, o.rows, job.sigma);
+    print_result(out, file, replaces);
 }
 
 RunSummary campaign_summary(const Observations& o) {

@@ -17,7 +17,8 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
 void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds, std::size_t done_in_this_run);
 
 // The mean curve, statuses, what to be wary of, the file.
-void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file);
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file,
+                            bool replaces);
 
 RunSummary campaign_summary(const Observations& observations);
 

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "error.hpp"
-#include "file/netcdf_file.hpp"
 #include "file/result.hpp"
 #include "run/campaign.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/checkpoint.hpp"
+#include "run/forecast.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "run/single.hpp"
@@ -27,17 +27,50 @@ Error named(const Error& error, const Member& member) {
     return {error.kind(), name.empty() ? error.what() : name + ": " + error.what()};
 }
 
-// What can be known to go wrong does so here.
-void look_at(const Member& member, bool resume, std::set<std::string>& files_read) {
+// What can be known to go wrong does so here; only making ready (prepare) is left. Returns whether a result is there already.
+bool look_at(const Member& member, const RunOptions& options) {
     const Case& settings = member.settings;
-    check_output(settings.output.file);
+    const bool there = check_result_path(settings, options);
     contacts_kept(settings);
     if (settings.run.realizations > 1 && fs::exists(checkpoint_name(settings.output.file)))
-        Checkpoint(settings.output.file, settings, resume);
-    if (member.values.empty()) return;  // the only one is made ready next, anyway
-    const auto& surface = settings.surface;
-    // Reading a large map for every one of many members would take its time: each is read once.
-    if (surface.source == Source::synthetic || files_read.insert(surface.file).second) prepare(settings);
+        Checkpoint(settings.output.file, settings, options.resume);
+    return there;
+}
+
+// Makes cases ready. Reading a large map for every one of many members would take its time: each is read once.
+class ReadOnce {
+public:
+    void operator()(const Case& settings) {
+        const auto& surface = settings.surface;
+        if (surface.source == Source::synthetic || files_read_.insert(surface.file).second) prepare(settings);
+    }
+
+private:
+    std::set<std::string> files_read_;
+};
+
+std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all, std::optional<int> only) {
+    std::vector<const Member*> wanted;
+    for (const Member& member : all)
+        if (!only || member.index == *only) wanted.push_back(&member);
+    if (only && (!read.study || wanted.empty()))
+        throw Error(Failure::bad_input, read.study ? "--member " + std::to_string(*only) + ": the study has " + std::to_string(all.size()) +
+                                                         " members (--list names them)"
+                                                   : "--member: the case has no &study");
+    return wanted;
+}
+
+// look_at every member, then `ready(member, whether a result is there)`; errors name the member.
+template <class Ready>
+void look_at_all(const ReadCase& read, const std::vector<const Member*>& wanted, const RunOptions& options, Ready ready) {
+    if (read.study) check_manifest(read.settings.output.file, options.inputs);
+    for (const Member* member : wanted) {
+        try {
+            ready(*member, look_at(*member, options));
+        } catch (const Error& error) {
+            throw named(error, *member);
+        }
+    }
 }
 
 // Its result file is there, from the same case, and nothing has changed since.
@@ -145,23 +178,34 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
     return {std::move(cases), options};
 }
 
+double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads) {
+    const std::vector<Member> all = members_of(read);
+    const std::vector<const Member*> wanted = wanted_of(read, all, only);
+    constexpr std::size_t samples = 20;  // members whose time is worked out; the others are taken to be like them
+    double seconds = 0;
+    std::size_t timed = 0;
+    ReadOnce prepare_once;
+    look_at_all(read, wanted, options, [&](const Member& member, bool) {
+        const bool campaign = member.settings.run.realizations > 1;
+        if (timed == samples) return prepare_once(member.settings);
+        ++timed;
+        // Members of one realization run side by side.
+        const double side_by_side = campaign || wanted.size() == 1 ? 1.0 : static_cast<double>(std::min(threads, wanted.size()));
+        seconds += expected_seconds(prepare(member.settings), static_cast<double>(threads)) / side_by_side;
+    });
+    return seconds * static_cast<double>(wanted.size()) / static_cast<double>(timed);
+}
+
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team) {
     const std::vector<Member> all = members_of(read);
-    std::vector<const Member*> wanted;
-    for (const Member& member : all)
-        if (!only || member.index == *only) wanted.push_back(&member);
-    if (only && (!read.study || wanted.empty()))
-        throw Error(Failure::bad_input, read.study ? "--member " + std::to_string(*only) + ": the study has " + std::to_string(all.size()) +
-                                                         " members (--list names them)"
-                                                   : "--member: the case has no &study");
-    std::set<std::string> files_read;
-    for (const Member* member : wanted) {
-        try {
-            look_at(*member, options.resume, files_read);
-        } catch (const Error& error) {
-            throw named(error, *member);
-        }
-    }
+    const std::vector<const Member*> wanted = wanted_of(read, all, only);
+    ReadOnce prepare_once;
+    std::set<const Member*> there;  // those with a result already
+    look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
+        if (result_there) there.insert(&member);
+        // The only one is made ready next, anyway.
+        if (!member.values.empty()) prepare_once(member.settings);
+    });
     if (read.study) write_manifest(read, all, options.command);
 
     Run run(wanted.size(), options, work, team);
@@ -174,6 +218,9 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
             else
                 left.push_back(member);
         }
+        const auto replaced = std::count_if(left.begin(), left.end(), [&](const Member* m) { return there.contains(m); });
+        if (read.study && replaced > 0 && options.messages)
+            *options.messages << "rsc: the results of " << replaced << " of the members are there already and will be replaced\n";
         const auto is_campaign = [](const Member* m) { return m->settings.run.realizations > 1; };
         for (auto from = left.begin(); from != left.end();) {
             leave_if_interrupted();

@@ -21,6 +21,10 @@ std::vector<Member> members_of(const ReadCase& read);
 // whole has its share of them.
 CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options, std::size_t threads);
 
+// All that can go wrong before the first level, for all members or the one numbered `only`: every input is read, every place of a
+// result looked at. Returns the seconds that the run is expected to take with so many threads. Error(bad_input) names the member.
+double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads);
+
 // Runs all members, or the one numbered `only` (from 1), and the manifest. With options.resume those that are finished are left
 // alone. Everything is looked at before anything runs: Error(bad_input) names the member. Returns the sums of levels.
 // An interrupted study leaves whole files and checkpoints.

@@ -179,7 +179,11 @@ void Checkpoint::load(const Case& settings) {
     std::string bytes;
     const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
     if (!get_frame(fd_, end, offset, kind, bytes)) {
-        if (end > sizeof(FrameHead) + header_.size()) refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
+        // Killed before the first frame was whole, it is the beginning of one; anything else is somebody's.
+        std::uint32_t start = kHeader;
+        const bool read = get(fd_, reinterpret_cast<char*>(&start), std::min<std::size_t>(end, sizeof start), 0);
+        if (!read || start != kHeader || end > sizeof(FrameHead) + header_.size())
+            refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
         return;
     }
     if (kind != kHeader) refuse("is not a checkpoint of rsc");

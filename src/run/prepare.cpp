@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "contact/equivalent.hpp"
@@ -9,6 +10,7 @@
 #include "error.hpp"
 #include "read/inputs.hpp"
 #include "rough/detection.hpp"
+#include "rough/magnitude.hpp"
 #include "rough/synthesis.hpp"
 
 namespace rsc {
@@ -99,7 +101,7 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
 
 Site synthetic_site(const Case& settings) {
     const Spectrum spectrum = spectrum_of(settings);
-    return {{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, theoretical_moments(spectrum).mean_spacing()};
+    return {{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theoretical_moments(spectrum).mean_spacing()};
 }
 
 Site list_site(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
@@ -111,6 +113,7 @@ Site list_site(const Asperities& asperities, std::optional<double> L, const std:
     }
     Site site;
     site.sigma = rms(asperities.z);
+    site.guessed = !L;
     if (L && std::min(box.x_min, box.y_min) >= 0 && std::max(box.x_max, box.y_max) <= *L) {
         site.domain = {0, 0, *L, *L};
     } else {
@@ -155,11 +158,36 @@ Ground make_ground(const Case& settings, std::int64_t number, int threads) {
     throw Error(Failure::internal, "a source of asperities that nobody knows");
 }
 
+void require_tip_above(const Site& site, double R, double x, double y) {
+    const Domain& d = site.domain;
+    const double beyond = site.guessed ? R : 0;
+    const auto text = [](double v) {
+        char buffer[40];
+        std::snprintf(buffer, sizeof buffer, "%.9g", v);
+        return std::string(buffer);
+    };
+    const auto within = [&](double v, double first, double length) {
+        const double rounding = 1e-12 * (std::abs(first) + length);
+        return usable(v) && v >= first - beyond - rounding && v <= first + length + beyond + rounding;
+    };
+    if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
+    throw Error(Failure::bad_input, "the tip at x = " + text(x) + ", y = " + text(y) +
+                                        " is not above the surface, which reaches from x = " + text(d.x0) + " to " + text(d.x0 + d.Lx) +
+                                        " and from y = " + text(d.y0) + " to " + text(d.y0 + d.Ly) +
+                                        (site.guessed ? " (the asperities' own extent; surface%L would say)" : ""));
+}
+
 Indenter indenter_of(const Case& settings, const Site& site) {
     const auto& centre = settings.indentation.centre;
     const Domain& d = site.domain;
-    return {equivalent_modulus(settings.solids.E, settings.solids.nu), equivalent_radius(settings.solids.R),
-            centre[0].value_or(d.x0 + 0.5 * d.Lx), centre[1].value_or(d.y0 + 0.5 * d.Ly)};
+    const Indenter indenter{equivalent_modulus(settings.solids.E, settings.solids.nu), equivalent_radius(settings.solids.R),
+                            centre[0].value_or(d.x0 + 0.5 * d.Lx), centre[1].value_or(d.y0 + 0.5 * d.Ly)};
+    try {
+        require_tip_above(site, indenter.R, indenter.x0, indenter.y0);
+    } catch (const Error& error) {
+        throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
+    }
+    return indenter;
 }
 
 double sigma_of(const Case& settings, const Site& site) { return settings.surface.sigma.value_or(site.sigma); }
@@ -176,6 +204,7 @@ SolverOptions solver_of(const Case& settings, const Site& site) {
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
     options.mean_spacing = site.mean_spacing;
+    if (!site.guessed) options.surface = {site.domain.x0, site.domain.y0, site.domain.Lx, site.domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
         throw Error(Failure::bad_input,
                     "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "

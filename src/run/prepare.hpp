@@ -38,6 +38,7 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads);
 struct Site {
     Domain domain;            // the surface's rectangle
     double sigma = 0;         // rms height of the surface, or of the asperities of a list [length]
+    bool guessed = false;     // the rectangle is made up: asperities of a list, and no surface%L
     double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
 };
 
@@ -64,6 +65,10 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads);
 // it is made, without storing it: the same as those of make_surface where that grid is fine enough for the law. Never empty.
 // Throws Error(bad_input) for what cannot be read, made or used by the law.
 Ground make_ground(const Case& settings, std::int64_t number, int threads);
+
+// Throws Error(bad_input) unless the tip at (x, y) is above the surface: on its rectangle, or where that is guessed no farther from it
+// than the sphere's radius R. For every place where a tip is put.
+void require_tip_above(const Site& site, double R, double x, double y);
 
 // E* and R from &solids, the tip above indentation%centre, by default the middle of the surface.
 Indenter indenter_of(const Case& settings, const Site& site);

@@ -3,8 +3,15 @@
 #include <unistd.h>
 
 #include "case/registry.hpp"
+#include "file/output_path.hpp"
 
 namespace rsc {
+
+bool check_result_path(const Case& settings, const RunOptions& options) {
+    std::vector<std::string> inputs = options.inputs;
+    if (settings.surface.source != Source::synthetic) inputs.push_back(settings.surface.file);
+    return check_output(settings.output.file, inputs);
+}
 
 std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "case/case.hpp"
 #include "case/options.hpp"
@@ -11,7 +12,8 @@
 namespace rsc {
 
 struct RunOptions {
-    std::string command;  // for the history attribute
+    std::string command;              // for the history attribute
+    std::vector<std::string> inputs;  // files that the case was read from: no result is written over them
     Progress progress = Progress::never;
     bool quiet = false;                            // no table; the summary's warnings and failures are still told on `messages`
     bool resume = false;                           // a campaign: go on with what an interrupted run left
@@ -26,6 +28,9 @@ struct RunSummary {
     double separation = 0;        // of the last level; its means over the realizations:
     double force = 0, area = 0;
 };
+
+// check_output for the result of a case: neither the files it was read from nor the surface's. Returns whether a result is replaced.
+bool check_result_path(const Case& settings, const RunOptions& options);
 
 // The effective namelist as it stands in a result file: that of the case but for run%threads, which touches nothing in the file.
 std::string case_text(const Case& settings);

@@ -1,10 +1,14 @@
 #include "run/screen.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 #include "case/units.hpp"
+#include "contact/validity.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 
@@ -17,6 +21,19 @@ std::string format(const char* text, Args... args) {
     std::snprintf(buffer, sizeof buffer, text, args...);
     return buffer;
 }
+
+const char* fallback_text(Fallback fallback) {
+    switch (fallback) {
+        case Fallback::none: return "";
+        case Fallback::no_interaction: return "there is no interaction";
+        case Fallback::dgesv_not_converged: return "dgesv did not converge";
+        case Fallback::dgesv_singular: return "dgesv's matrix was singular";
+        case Fallback::not_unique: return "dgesv's solution is not proved unique";
+    }
+    return "";
+}
+
+const char* name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
 
 }  // namespace
 
@@ -62,7 +79,9 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
     for (const LevelQuantity& q : level_quantities()) {
         if (!q.heading) continue;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
-            out << "  " << status_text(level.status);
+            out << "  " << status_text(level.status)
+                << (level.fallback == Fallback::none ? ""
+                                                     : std::string(", ") + name_of(level.method) + ": " + fallback_text(level.fallback));
         else if (q.integer())
             out << format(" %*.0f", q.width, q.of(level));
         else if (q.digits > 0)
@@ -73,23 +92,73 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
     out << '\n';
 }
 
-void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts, long levels) {
-    const auto tell = [&](LevelStatus status, const char* meaning) {
-        const auto found = counts.find(status);
-        if (found == counts.end() || found->second == 0) return;
-        out << format("  %ld of %ld levels: %s - %s\n", found->second, levels, status_text(status).c_str(), meaning);
+namespace {
+
+void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
+    std::map<std::pair<Method, Fallback>, long> counts;
+    for (const LevelValues& level : levels) ++counts[{level.method, level.fallback}];
+    out << "method:";
+    const char* before = " ";
+    for (const auto& [how, count] : counts) {
+        out << before << name_of(how.first) << " (" << count << " levels" << (how.second == Fallback::none ? "" : ": ")
+            << fallback_text(how.second) << ")";
+        before = ", ";
+    }
+    out << '\n';
+}
+
+void print_statuses(std::ostream& out, std::span<const LevelValues> levels, double sigma) {
+    const auto count = [&](auto holds) { return static_cast<long>(std::count_if(levels.begin(), levels.end(), holds)); };
+    const auto tell = [&](long found, const std::string& what) {
+        if (found > 0) out << format("  %ld of %zu levels: ", found, levels.size()) << what << '\n';
     };
+    const auto tell_status = [&](LevelStatus status, const char* meaning) {
+        tell(count([status](const LevelValues& l) { return l.status == status; }), status_text(status) + " - " + meaning);
+    };
+    // What makes a level out_of_validity; told also where a more serious status hides that one.
+    tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
+         "contacts within <d> of the surface's border - what would carry beyond it is missing: N is too small.");
     tell(
-        LevelStatus::out_of_validity,
-        "contacts with a > <d>/4, a quarter of the mean spacing of summits, or pressed beyond what the law knows of a summit (beyond_law in "
-        "the file): the asperity model is leaving its range.");
-    tell(LevelStatus::overlapping,
-         "pairs of contact spots nearer than the sum of their radii: asperities that would merge are counted as two.");
-    tell(
+        count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
+        "separation below -3 sigma - the sphere's tip lies under all but a thousandth of the surface: the asperity model is out of its range.");
+    tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
+         "contact area above the nominal area under the sphere - the asperity model is out of its range.");
+    tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
+         "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is leaving its range.");
+    tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
+         "contacts pressed beyond what the law knows of a summit (beyond_law in the file).");
+    tell_status(LevelStatus::overlapping,
+                "pairs of contact spots nearer than the sum of their radii: asperities that would merge are counted as two.");
+    tell_status(
         LevelStatus::not_unique,
         "spots so deep in each other that other solutions may exist: the one given is a local minimum of the energy, reached by a fixed rule.");
-    tell(LevelStatus::not_converged,
-         "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
+    tell_status(LevelStatus::not_converged,
+                "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
+}
+
+}  // namespace
+
+void print_remarks(std::ostream& out, std::span<const LevelValues> levels, double sigma) {
+    print_methods(out, levels);
+    print_statuses(out, levels, sigma);
+    std::int64_t crowded = 0;
+    for (const LevelValues& level : levels) crowded += level.crowded_cells;
+    if (crowded > 0)
+        out << "  " << crowded << " map cells (over all levels) with an area fraction above pi/16 = 19.6 %: contacts there would merge.\n";
+}
+
+const char* slope_remark(double rms_slope) {
+    if (rms_slope <= 0.5) return "";
+    if (rms_slope <= 2)
+        return " - above 0.5 the theory of small slopes is strained: compare surfaces by N(Z0), A(N) and stiffness, their ratios and trends; "
+               "do not take absolute areas and pressures (some 0.4 E* in a contact) for those of a real body";
+    return " - above 2 the theory of small slopes does not hold: the numbers are the model's own, good for comparing its runs and for repeating "
+           "the paper (4.7 there); no load, area or pressure here is that of a real body";
+}
+
+void print_result(std::ostream& out, const std::string& file, bool replaces) {
+    out << "result: " << file << (replaces ? " (replaces the result that was there)" : "") << "\npicture: python3 output/plot/plot.py "
+        << file << std::endl;
 }
 
 std::string duration(double seconds) {

@@ -3,8 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <ostream>
+#include <span>
 #include <string>
 
 #include "contact/level.hpp"
@@ -21,8 +21,15 @@ void print_case(std::ostream& out, const Job& job);
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 
-// How often each status came, with what it means and what to do.
-void print_statuses(std::ostream& out, const std::map<LevelStatus, long>& counts, long levels);
+// The methods the levels were solved with, and why others than asked for; how often each status came, with what it means and what to do;
+// what else to be wary of.
+void print_remarks(std::ostream& out, std::span<const LevelValues> levels, double sigma);
+
+// What an rms slope means for the results; empty for the small ones that the theory is for.
+const char* slope_remark(double rms_slope);
+
+// The last lines: the file written, whether it took the place of another result, and how to see it.
+void print_result(std::ostream& out, const std::string& file, bool replaces);
 
 // "12.3 s", "4 min 10 s", ...
 std::string duration(double seconds);

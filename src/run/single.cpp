@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +12,6 @@
 
 #include "case/registry.hpp"
 #include "error.hpp"
-#include "file/netcdf_file.hpp"
 #include "file/netcdf_writer.hpp"
 #include "observe/regimes.hpp"
 #include "run/campaign_team.hpp"
@@ -22,40 +22,21 @@
 namespace rsc {
 namespace {
 
-// What the levels add up to, for the summary.
-struct Tally {
-    std::map<LevelStatus, long> statuses;
-    long levels = 0;
-    std::int64_t crowded_cells = 0;
-    std::map<Method, long> methods;
-};
-
-void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds, const std::string& file) {
+void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, std::span<const LevelValues> levels, double seconds,
+               const std::string& file, bool replaces) {
     const char* l = job.settings.run.length_unit.c_str();
-    char line[400];
-    const auto& s = r.statistics;
+    char line[600];
     out << '\n';
-    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %ld levels in %s\n", static_cast<long long>(s.summits),
-                  static_cast<long long>(s.saddles), tally.levels, duration(seconds).c_str());
+    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %zu levels in %s\n", static_cast<long long>(s.summits),
+                  static_cast<long long>(s.saddles), levels.size(), duration(seconds).c_str());
     out << line;
     if (s.m2 > 0) {
-        std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, std::sqrt(2 * s.m2),
-                      std::sqrt(2 * s.m2) > 0.5 ? " (the theory is one of small slopes: take N and A with care)" : "");
+        const double slope = std::sqrt(2 * s.m2);
+        std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, slope, slope_remark(slope));
         out << line;
     }
-    out << "method:";
-    for (const auto& [method, levels] : tally.methods)
-        out << ' ' << kMethodNames[static_cast<std::size_t>(method)] << " (" << levels << " levels)";
-    out << '\n';
-    print_statuses(out, tally.statuses, tally.levels);
-    if (tally.crowded_cells > 0) {
-        std::snprintf(line, sizeof line,
-                      "  %lld map cells (over all levels) with an area fraction above pi/16 = 19.6 %%: contacts there would merge.\n",
-                      static_cast<long long>(tally.crowded_cells));
-        out << line;
-    }
-    out << "result: " << file << '\n';
-    out << "picture: python3 output/plot/plot.py " << file << '\n';
+    print_remarks(out, levels, job.sigma);
+    print_result(out, file, replaces);
 }
 
 // Starts as many threads once, because OpenMP ends the program where the machine refuses one.
@@ -97,7 +78,7 @@ private:
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    check_output(settings.output.file);
+    const bool replaces = check_result_path(settings, options);
     const Contacts keep = contacts_kept(settings);
     Job job = prepare(settings);
     const int threads = static_cast<int>(thread_count(settings.run.threads));
@@ -106,15 +87,11 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     std::ostream* const line_out = progress_stream(options, terminal);
     std::ostream* table = options.quiet ? nullptr : options.table;
     if (table) print_heading(*table, job);
-    Tally tally;
     Realization r;
     {
         ProgressLine progress(line_out, terminal, "levels");
         r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
             if (table) print_level(*table, job, k, level);
-            ++tally.statuses[level.status];
-            ++tally.methods[level.method];
-            ++tally.levels;
             progress.show(static_cast<double>(k + 1), static_cast<double>(job.levels.size()));
             return caught_signal() == 0 && !(options.abandoned && *options.abandoned);
         });
@@ -124,19 +101,21 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     if (options.abandoned && *options.abandoned) throw Interrupted(0, "abandoned");
     Accumulators sums(job.observe, job.levels.size());
     const RealizationRecord record = observe(job, settings.run.first_realization, r);
-    for (const auto& row : record.levels) tally.crowded_cells += row.crowded_cells;
     sums.add(record);
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
     keep_contacts(result, r.levels, keep);
-    const Realization shown{r.statistics, {}, {}, {}};
+    const SurfaceStatistics statistics = r.statistics;
     result.asperities = std::move(r.asperities);
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
     write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
 
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (table) summarise(*table, job, shown, tally, seconds, settings.output.file);
+    if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces);
     const LevelValues& last = record.levels.back();
-    const RunSummary summary{tally.levels, tally.statuses[LevelStatus::not_converged], last.separation, last.force, last.area};
+    const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
+    const RunSummary summary{static_cast<long>(record.levels.size()),
+                             static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)), last.separation,
+                             last.force, last.area};
     tell_failed(options, summary);
     return summary;
 }

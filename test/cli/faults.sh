@@ -161,7 +161,7 @@ test_wrong_shape() {
     cdl 'dimensions: a=3; b=2; variables: double asperity_x(a), asperity_y(b); data: asperity_x=1,2,3; asperity_y=1,2;'; refused asperities t.nc "asperity_y(b = 2)"
     cdl 'dimensions: a=3; variables: double asperity_x(a); data: asperity_x=1,2,3;'; refused asperities t.nc "there is no variable asperity_y"
     # All levels and the sphere, but nothing to touch: a flat map has no summits.
-    printf '1 1 1\n1 1 1\n1 1 1\n' > t; refused heights t "no summit inside the map"
+    printf '1 1 1 1 1\n1 1 1 1 1\n1 1 1 1 1\n' > t; refused heights t "no summit inside the map"
     # Summits of one height: sigma = 0 has no levels in sigma. With a sigma given they are a surface like any other.
     printf '0 0 1 1\n1 0 1 2\n' > t; refused asperities t "rms height of what was read is 0; give a sigma > 0"
     expect 0 "$rsc" -s "surface%source='asperities'" -s "surface%file='t'" -s surface%L=2 -s surface%sigma=0.01 -s "indentation%unit='length'" \

@@ -11,6 +11,7 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
+#include "file/output_path.hpp"
 #include "sample_result.hpp"
 #include "temporary_folder.hpp"
 

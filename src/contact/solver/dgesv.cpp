@@ -38,6 +38,24 @@ void build_matrix(const WorkingSet& set, const Kernel& kernel, const Vector& wei
 
 }  // namespace
 
+void paper_equations(const Law& law, const Kernel& kernel, const WorkingSet& set, double delta, const Vector& force, const Vector& v,
+                     Vector& R, double* K) {
+    const std::size_t size = v.size();
+    Vector m(size), rate(size), slope(size), work(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const double far = 2 * delta - v[i];
+        m[i] = v[i] < delta ? delta * delta / far : v[i];
+        rate[i] = v[i] < delta ? delta * delta / (far * far) : 1.0;
+    }
+    R.resize(size);
+    law.respond(set.size(), set.asperity.data(), m.data(), R.data(), slope.data(), work.data());
+    for (std::size_t i = 0; i < size; ++i) {
+        rate[i] *= slope[i];
+        R[i] = force[i] - R[i];
+    }
+    build_matrix(set, kernel, rate, K);
+}
+
 PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set, const PaperMethod& method, Vector& v,
                             Vector& force) {
     const int n = set.size();
@@ -47,7 +65,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     PairSums pairs(kernel);
     pairs.assign(size, set.x.data(), set.y.data());
 
-    Vector m(size), slope(size), rate(size), regular(size), dF(size), work(size), target(size);
+    Vector slope(size), R(size), work(size), target(size);
     const auto penetrations = [&] {  // v = g0 - B F
         pairs.apply(force.data(), v.data());
         for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - kernel.near() * v[i];
@@ -66,24 +84,18 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     PaperOutcome outcome;
     double delta = method.delta0;
     while (outcome.iterations < method.max_iterations) {
-        for (std::size_t i = 0; i < size; ++i) {  // m(x, delta) and dm/dx: a smooth, positive <x>
-            const double far = 2 * delta - v[i];
-            m[i] = v[i] < delta ? delta * delta / far : v[i];
-            rate[i] = v[i] < delta ? delta * delta / (far * far) : 1.0;
-        }
-        law.respond(n, set.asperity.data(), m.data(), regular.data(), slope.data(), work.data());
-        double force2 = 0, change2 = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            rate[i] *= slope[i];
-            dF[i] = regular[i] - force[i];
-            force2 += force[i] * force[i];
-        }
-        build_matrix(set, kernel, rate, K.get());
+        outcome.delta = delta;
+        paper_equations(law, kernel, set, delta, force, v, R, K.get());
         ++outcome.iterations;
-        if (!lapack::solve(n, K.get(), dF.data(), pivots)) break;
-        for (std::size_t i = 0; i < size; ++i) {
-            force[i] = std::max(force[i] + dF[i], 0.0);
-            change2 += dF[i] * dF[i];
+        if (!lapack::solve(n, K.get(), R.data(), pivots)) {
+            outcome.singular = true;
+            break;
+        }
+        double force2 = 0, change2 = 0;
+        for (std::size_t i = 0; i < size; ++i) {  // K dF = -R
+            force2 += force[i] * force[i];
+            change2 += R[i] * R[i];
+            force[i] = std::max(force[i] - R[i], 0.0);
         }
         penetrations();
         outcome.residual = residual();

@@ -18,9 +18,17 @@ struct PaperMethod {
 
 struct PaperOutcome {
     bool converged = false;
-    int iterations = 0;   // dgesv solves
-    double residual = 0;  // |F - f(<g0 - B F>)| / |F|, unregularised
+    bool singular = false;  // dgesv found no pivot
+    int iterations = 0;     // dgesv solves
+    double residual = 0;    // |F - f(<g0 - B F>)| / |F|, unregularised
+    double delta = 0;       // of the last iteration [length]
 };
+
+// One iteration's equations at the forces F, v = g0 - B F: the residual R = F - f(m(v, delta)) with the smooth, positive
+// m(x, delta) = delta^2/(2 delta - x) for x < delta, x otherwise, in place of <x>; and K = dR/dF = I + diag(f'(m) dm/dx) B,
+// column-major, n x n.
+void paper_equations(const Law& law, const Kernel& kernel, const WorkingSet& set, double delta, const std::vector<double>& force,
+                     const std::vector<double>& v, std::vector<double>& R, double* K);
 
 // Forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F. Needs 8 n^2 bytes: throws
 // Error(no_memory) when they are refused.

@@ -1,0 +1,41 @@
+#include "contact/validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rsc {
+namespace {
+
+// Distance to the border, negative outside.
+double inside(const Rectangle& r, double x, double y) { return std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y}); }
+
+// Area of the smallest disc about the tip that holds all spots; no more than the surface has.
+double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
+    double radius = 0;
+    for (std::size_t k = 0; k < level.x.size(); ++k)
+        radius = std::max(radius, std::hypot(level.x[k] - indenter.x0, level.y[k] - indenter.y0) + level.a[k]);
+    const double disc = std::numbers::pi * radius * radius;
+    return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
+}
+
+}  // namespace
+
+bool exceeds_nominal_area(const LevelValues& level) {
+    constexpr double rounding = 1e-9;  // one spot under the tip has the nominal area itself
+    return level.area > (1 + rounding) * level.nominal_area;
+}
+
+void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options) {
+    level.large_contacts = level.edge_contacts = 0;
+    for (std::size_t k = 0; k < level.x.size() && options.mean_spacing > 0; ++k) {
+        level.large_contacts += level.a[k] > options.mean_spacing / 4;
+        level.edge_contacts += options.surface.known() && inside(options.surface, level.x[k], level.y[k]) < options.mean_spacing;
+    }
+    level.nominal_area = nominal_area(level, indenter, options.surface);
+    const bool too_deep = options.sigma > 0 && level.separation < kLowestSeparation * options.sigma;
+    if (level.large_contacts > 0 || level.beyond_law > 0 || level.edge_contacts > 0 || exceeds_nominal_area(level) || too_deep)
+        level.status = std::max(level.status, LevelStatus::out_of_validity);
+}
+
+}  // namespace rsc

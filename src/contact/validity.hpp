@@ -1,0 +1,21 @@
+// Where a level leaves the range of the model: what is counted, and what makes its status out_of_validity.
+#pragma once
+
+#include "contact/indentation.hpp"
+#include "contact/level.hpp"
+
+namespace rsc {
+
+// Separations below this many rms heights are out of range: the sphere's tip lies under all but a thousandth of the surface.
+inline constexpr double kLowestSeparation = -3;
+
+// More contact than there is surface under the sphere.
+bool exceeds_nominal_area(const LevelValues& level);
+
+// Fills large_contacts, edge_contacts and nominal_area of a level whose contacts and sums are there, and raises its status to out_of_validity
+// where one of these holds: contacts with a > <d>/4, contacts beyond the law, contacts within <d> of the border of a free surface
+// (what would carry beyond it is missing), A above the nominal area, Z0 below -3 sigma. Each is judged only where what it needs is
+// known.
+void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options);
+
+}  // namespace rsc

@@ -1,0 +1,76 @@
+#include "file/output_path.hpp"
+
+#include <netcdf.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <mutex>
+#include <system_error>
+
+#include "error.hpp"
+#include "file/netcdf_file.hpp"
+
+namespace rsc {
+namespace fs = std::filesystem;
+namespace {
+
+// The nearest folder above `path` that exists.
+fs::path existing_ancestor(fs::path folder) {
+    std::error_code error;
+    while (!fs::exists(folder, error)) {
+        const fs::path parent = folder.parent_path();
+        if (parent.empty() || parent == folder) return ".";
+        folder = parent;
+    }
+    return folder;
+}
+
+}  // namespace
+
+std::optional<std::string> case_in_result(const std::string& path) {
+    const std::lock_guard lock(netcdf_mutex());
+    std::error_code error;
+    int file = -1;
+    if (!fs::is_regular_file(path, error) || nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
+    const auto text = [file](const char* name) {
+        constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: a damaged file may announce anything
+        std::size_t length = 0;
+        nc_type type = NC_NAT;
+        std::string value;
+        if (nc_inq_att(file, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR || length > longest) return value;
+        value.resize(length);
+        if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
+        return value;
+    };
+    const std::string source = text("source");
+    std::string found = text("case");
+    nc_close(file);
+    if (!source.starts_with("rsc ") || found.empty()) return std::nullopt;
+    return found;
+}
+
+bool check_output(const std::string& path, const std::vector<std::string>& inputs) {
+    const auto refuse = [&path](const std::string& why) { throw Error(Failure::bad_input, "&output file='" + path + "': " + why); };
+    if (path.empty()) refuse("a file name is expected");
+    std::error_code error;
+    if (fs::is_directory(path, error))
+        refuse("this is a folder; name a file in it, such as '" + (fs::path(path) / "rsc.nc").string() + "'");
+    if (path.back() == '/') refuse("a file name is expected after the last '/'");
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("something that is not a plain file has this name");
+    const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? fs::path(".") : parent,
+                   ancestor = existing_ancestor(folder);
+    if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
+    if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
+        refuse("folder '" + folder.string() + "' does not exist; make it first");
+    if (::access(ancestor.c_str(), W_OK | X_OK) != 0)
+        refuse("folder '" + ancestor.string() + "' cannot be written to: " + std::error_code(errno, std::generic_category()).message());
+    for (const std::string& input : inputs)
+        if (fs::is_regular_file(input, error) && fs::equivalent(input, path, error))
+            refuse("this is an input of the run ('" + input + "'), which the result would overwrite; name another file");
+    if (!fs::exists(path, error)) return false;
+    if (!case_in_result(path)) refuse("this file exists and is no result of rsc; it is left alone: name another, or remove it first");
+    return true;
+}
+
+}  // namespace rsc

@@ -1,0 +1,17 @@
+// How long a case is going to take, told before it runs.
+#pragma once
+
+#include "run/job.hpp"
+
+namespace rsc {
+
+// Asperities under the sphere, higher than it at the separation Z0 [length]: those a level's solver is given. Counted where the asperities
+// are known; of a synthetic surface expected for Gaussian summits of the theoretical density and the surface's own rms height.
+double expected_candidates(const Job& job, double Z0);
+
+// Seconds that all realizations of the case take when `workers` are run at a time. The surface's share is measured on a smaller one
+// of the same kind (some ten milliseconds), the levels' is their number of candidates at rates measured where rsc was written:
+// right within a factor of some three.
+double expected_seconds(const Job& job, double workers);
+
+}  // namespace rsc

@@ -1,0 +1,163 @@
+// The paper's method on its own, without the solver that takes over where it fails: it converges by itself where the paper used it,
+// its matrix is the derivative of its residual, and a level says what it was solved with.
+#include "contact/solver/dgesv.hpp"
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/equivalent.hpp"
+#include "contact/ranking.hpp"
+#include "random_asperities.hpp"
+#include "rough/spectrum.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr int kMostSolves = 15;     // the paper: 7 to 12 a step
+constexpr double kResidual = 1e-8;  // of the unregularised equation
+
+WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) {
+    WorkingSet set;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double g0 = height_under_sphere(indenter, a.x[i], a.y[i], a.z[i]) - Z0;
+        if (!(g0 > 0)) continue;
+        set.asperity.push_back(static_cast<int>(i));
+        set.x.push_back(a.x[i]);
+        set.y.push_back(a.y[i]);
+        set.g0.push_back(g0);
+    }
+    return set;
+}
+
+// |F - f(<g0 - B F>)| / |F| by plain sums.
+double true_residual(const Asperities& a, double E_star, const WorkingSet& set, const std::vector<double>& force) {
+    double error2 = 0, force2 = 0;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+        double v = set.g0[i];
+        for (std::size_t j = 0; j < force.size(); ++j)
+            if (j != i) v -= force[j] / (std::numbers::pi * E_star * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
+        const double r = a.radius[static_cast<std::size_t>(set.asperity[i])];
+        const double f = v > 0 ? 4.0 / 3.0 * E_star * std::sqrt(r) * std::pow(v, 1.5) : 0.0;
+        error2 += (force[i] - f) * (force[i] - f);
+        force2 += force[i] * force[i];
+    }
+    return std::sqrt(error2 / force2);
+}
+
+// The iteration at one level, called directly. Returns the number of solves.
+int solve_alone(const Asperities& a, const Indenter& indenter, double sigma, double Z0) {
+    const WorkingSet set = candidates(a, indenter, Z0);
+    const auto law = make_law(LawKind::hertz, a, indenter.E_star);
+    law->prepare(set.asperity);
+    const PaperMethod method{0.01 * sigma, 5.0, kResidual, 100};
+    std::vector<double> v, force;
+    const PaperOutcome outcome = solve_by_dgesv(*law, *make_kernel(Interaction::point, indenter.E_star), set, method, v, force);
+    CHECK(outcome.converged && !outcome.singular);
+    CHECK(outcome.iterations <= kMostSolves);
+    CHECK_RELATIVE(outcome.delta, method.delta0 / std::pow(method.cut, outcome.iterations - 1), 1e-12);
+    CHECK(outcome.residual <= kResidual);
+    CHECK(true_residual(a, indenter.E_star, set, force) <= 1.01 * kResidual);
+    return outcome.iterations;
+}
+
+void well_separated() {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300 + seed);
+        const Indenter indenter{1.0, 2.5, 0.5, 0.5};
+        for (const double Z0 : {0.01, 0.0, -0.01}) solve_alone(a, indenter, 0.01, Z0);
+    }
+}
+
+// The default case: the surface of the paper's figures, pressed to the separation of its maps, 1.43 sigma.
+void default_surface() {
+    const Spectrum spectrum{1.0, 0.8, 24.0, 512.0, false, 0.01};
+    const double E[] = {78.0e3, std::numeric_limits<double>::infinity()}, nu[] = {0.42, 0.0};
+    const Asperities a = make_asperities(spectrum, 2048, Normalise::sample, 1, 1, Curvature::geometric);
+    const Indenter indenter{equivalent_modulus(E, nu), 2.5, 0.5, 0.5};
+    int most = 0;
+    for (const double level : {3.0, 2.0, 1.43}) most = std::max(most, solve_alone(a, indenter, 0.01, level * 0.01));
+    std::printf("default surface: at most %d solves a level\n", most);
+}
+
+// K against central differences of R, at forces where some points are within delta of touching, some far inside, some far outside.
+void matrix() {
+    const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
+    const Indenter indenter{1.0, 2.5, 0.5, 0.5};
+    const WorkingSet set = candidates(a, indenter, -0.01);
+    const auto law = make_law(LawKind::hertz, a, 1.0);
+    law->prepare(set.asperity);
+    const auto kernel = make_kernel(Interaction::point, 1.0);
+    const std::size_t n = set.g0.size();
+    CHECK(n > 20);
+    const double delta = 0.005;
+    std::vector<double> force(n), K(n * n), unused(n * n), above, below, R;
+    for (std::size_t i = 0; i < n; ++i) force[i] = 2e-5 * (1 + std::sin(3.0 * static_cast<double>(i)));
+    const auto penetrations = [&](const std::vector<double>& F) {
+        std::vector<double> v = set.g0;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j)
+                if (j != i) v[i] -= F[j] / (std::numbers::pi * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
+        return v;
+    };
+    const std::vector<double> v = penetrations(force);
+    int near = 0, inside = 0, outside = 0;
+    for (const double x : v) ++(x < 0 ? outside : x < delta ? near : inside);
+    CHECK(near > 2 && inside > 2 && outside > 2);
+    paper_equations(*law, *kernel, set, delta, force, v, R, K.data());
+    double largest = 0, worst = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+        const double h = 1e-9;  // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of K
+        std::vector<double> F = force;
+        F[j] = force[j] + h;
+        paper_equations(*law, *kernel, set, delta, F, penetrations(F), above, unused.data());
+        F[j] = force[j] - h;
+        paper_equations(*law, *kernel, set, delta, F, penetrations(F), below, unused.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            worst = std::max(worst, std::abs((above[i] - below[i]) / (2 * h) - K[j * n + i]));
+            if (i != j) largest = std::max(largest, std::abs(K[j * n + i]));
+        }
+    }
+    std::printf("K: largest off the diagonal %.3g, worst difference %.1e\n", largest, worst);
+    CHECK(worst <= 1e-5 * largest);
+}
+
+// What a level was really solved with, and why not otherwise.
+void says_what_it_did() {
+    const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300);
+    const Indenter indenter{1.0, 2.5, 0.5, 0.5};
+    SolverOptions options;
+    options.method = Method::dgesv;
+    options.sigma = 0.01;
+    options.tolerance = kResidual;
+    const Level paper = AsperityContact(a, indenter, options).at_separation(0.0);
+    CHECK(paper.method == Method::dgesv && paper.fallback == Fallback::none);
+    CHECK(paper.iterations <= kMostSolves && paper.products == paper.iterations);
+    // Delta never cut: the iteration cannot converge on the unregularised equation, and the level says so.
+    options.delta_cut = 1;
+    options.delta0 = 1;
+    options.max_iterations = 30;
+    const Level uncut = AsperityContact(a, indenter, options).at_separation(0.0);
+    CHECK(uncut.method == Method::direct && uncut.fallback == Fallback::dgesv_not_converged);
+    CHECK_CLOSE(uncut.force, paper.force, 1e-6 * paper.force);
+    // Two asperities so close that the solution the iteration finds is a saddle of the energy.
+    Asperities pair;
+    pair.x = {0.499, 0.501}, pair.y = {0.5, 0.5}, pair.z = {0.01, 0.01}, pair.radius = {1e-2, 1e-2};
+    options.delta_cut = 5;
+    options.delta0 = 0.01;
+    const Level saddle = AsperityContact(pair, {1.0, 1e9, 0.5, 0.5}, options).at_separation(0.0);
+    CHECK(saddle.method == Method::direct && saddle.fallback == Fallback::not_unique);
+    options.interaction = Interaction::none;
+    options.method = Method::mesh;
+    const Level alone = AsperityContact(a, indenter, options).at_separation(0.0);
+    CHECK(alone.method == Method::direct && alone.fallback == Fallback::no_interaction);
+}
+
+}  // namespace
+
+int main() {
+    well_separated();
+    default_surface();
+    matrix();
+    says_what_it_did();
+    return check::summary();
+}

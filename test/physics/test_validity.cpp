@@ -1,0 +1,112 @@
+// Levels that leave the range of the model say so: contacts near the border of a free surface, more contact area than there is surface
+// under the sphere, a sphere below -3 sigma. And only those.
+#include "contact/validity.hpp"
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "error.hpp"
+#include "run/job.hpp"
+
+using namespace rsc;
+
+namespace {
+
+// One asperity at (x, 0.4) under a nearly flat sphere; surface [0, 1] x [0, 0.8], <d> = 0.1, sigma = 0.01.
+Level level_at(double x, double y, double Z0 = 0.0, double radius = 1e-3) {
+    Asperities a;
+    a.x = {x}, a.y = {y}, a.z = {0.001}, a.radius = {radius};
+    SolverOptions options;
+    options.sigma = 0.01;
+    options.mean_spacing = 0.1;
+    options.surface = {0, 0, 1, 0.8};
+    return AsperityContact(a, {1.0, 1e6, 0.5, 0.4}, options).at_separation(Z0);
+}
+
+void borders() {
+    for (const auto& [x, y, edge] : {std::tuple(0.5, 0.4, 0),
+                                     {0.099, 0.4, 1},
+                                     {0.101, 0.4, 0},
+                                     {0.901, 0.4, 1},
+                                     {0.899, 0.4, 0},
+                                     {0.5, 0.099, 1},
+                                     {0.5, 0.701, 1},
+                                     {0.5, 0.699, 0}}) {
+        const Level level = level_at(x, y);
+        CHECK(level.contacts == 1 && level.edge_contacts == edge);
+        CHECK(level.status == (edge > 0 ? LevelStatus::out_of_validity : LevelStatus::converged));
+    }
+}
+
+// Z0 = -3 sigma itself is within the range. g0 = z - Z0 with so flat a sphere.
+void depth() {
+    CHECK(level_at(0.5, 0.4, -0.02999, 1e-8).status == LevelStatus::converged);
+    CHECK(level_at(0.5, 0.4, -0.03001, 1e-8).status == LevelStatus::out_of_validity);
+}
+
+// Spots of a level put together by hand: two of radius 0.01, 0.02 apart, about the tip. The disc that holds them has radius 0.02.
+void nominal() {
+    SolverOptions options;
+    options.sigma = 0.01;
+    options.mean_spacing = 1;
+    const Indenter indenter{1.0, 2.5, 0.5, 0.4};
+    Level level;
+    level.add_contact(0, 0.49, 0.4, 1.0, 0.01, 0.001);
+    level.add_contact(1, 0.51, 0.4, 1.0, 0.01, 0.001);
+    const double disc = std::numbers::pi * 0.02 * 0.02;
+    level.area = 0.5 * disc;
+    judge_range(level, indenter, options);
+    CHECK_RELATIVE(level.nominal_area, disc, 1e-12);
+    CHECK(level.status == LevelStatus::converged && level.large_contacts == 0);
+    level.area = 1.01 * disc;
+    judge_range(level, indenter, options);
+    CHECK(level.status == LevelStatus::out_of_validity && exceeds_nominal_area(level));
+    // A surface smaller than the disc; and a more serious status stays.
+    options.surface = {0.495, 0.395, 0.01, 0.01};
+    level.status = LevelStatus::not_unique;
+    judge_range(level, indenter, options);
+    CHECK_RELATIVE(level.nominal_area, 1e-4, 1e-12);
+    CHECK(level.status == LevelStatus::not_unique);
+    options.mean_spacing = 0.039;
+    judge_range(level, indenter, options);
+    CHECK(level.large_contacts == 2);
+    // One spot right under the tip has all its nominal area, and no more.
+    const Level one = level_at(0.5, 0.4);
+    CHECK(one.status == LevelStatus::converged);
+    CHECK_RELATIVE(one.nominal_area, one.area, 1e-12);
+}
+
+// A small surface, as the program and the library prepare it.
+void prepared() {
+    Case c;
+    c.surface.n = 128;
+    c.surface.L_lambda_l = 4;
+    c.surface.L_lambda_s = 32;
+    c.indentation.levels = {2.0, 1.5};
+    const auto status = [&](double x) {
+        c.indentation.centre[0] = x;
+        return realize(prepare(c), 1, 1).levels.back();
+    };
+    const Level middle = status(0.5), border = status(1.0);
+    CHECK(middle.edge_contacts == 0);
+    CHECK(border.edge_contacts > 0 && border.status >= LevelStatus::out_of_validity);
+    CHECK(border.force < middle.force);
+    for (const double x : {-0.01, 1.01, 1e300}) CHECK_THROWS(status(x), Error);
+    // Asperities of a list have a border only if L says where; a tip they cannot feel is refused all the same.
+    const Site own{{0, 0, 1, 1}, 0.01, false, 0.1}, guessed{{0, 0, 1, 1}, 0.01, true, 0.1};
+    require_tip_above(own, 2.5, 1.0, 0.0);
+    CHECK_THROWS(require_tip_above(own, 2.5, 1.001, 0.5), Error);
+    CHECK_THROWS(require_tip_above(own, 2.5, 0.5, -0.001), Error);
+    require_tip_above(guessed, 2.5, 3.4, 0.5);
+    CHECK_THROWS(require_tip_above(guessed, 2.5, 3.6, 0.5), Error);
+    CHECK_THROWS(require_tip_above(guessed, std::numeric_limits<double>::infinity(), 1e300, 0.5), Error);
+}
+
+}  // namespace
+
+int main() {
+    borders();
+    depth();
+    nominal();
+    prepared();
+    return check::summary();
+}
