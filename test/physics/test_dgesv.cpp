@@ -7,7 +7,9 @@
 #include "contact/equivalent.hpp"
 #include "contact/ranking.hpp"
 #include "random_asperities.hpp"
+#include "rough/detection.hpp"
 #include "rough/spectrum.hpp"
+#include "rough/synthesis.hpp"
 
 using namespace rsc;
 
