@@ -27,7 +27,8 @@
 !> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
 !> stat = rsc_not_converged. Asperities count from 1.
 module rsc
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_float, &
+    c_int32_t, c_int64_t
   implicit none
   private
   public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version, rsc_stiffness_ratio
@@ -51,16 +52,23 @@ module rsc
     private
     integer(c_int64_t) :: ticket = 0
   contains
-    !> set(name, value): value is a real, an integer, a logical, or text in namelist syntax (with its quotes where it is a text).
-    generic :: set => set_text, set_real, set_integer, set_logical
+    !> set(name, value): value is a real or an integer of either usual kind, an array of them, a logical, or text in namelist syntax
+    !> (with its quotes where it is a text). A default real is taken as the shortest decimal number it stands for: 0.1 is 0.1.
+    generic :: set => set_text, set_real, set_single, set_integer, set_long, set_logical, set_reals, set_singles, set_integers
     procedure :: get => case_get
     procedure :: read => case_read
+    procedure :: read_file => case_read_file
     procedure :: text => case_text
     procedure :: run => case_run
     generic :: assignment(=) => copy
     procedure, private :: set_text => case_set_text
     procedure, private :: set_real => case_set_real
+    procedure, private :: set_single => case_set_single
     procedure, private :: set_integer => case_set_integer
+    procedure, private :: set_long => case_set_long
+    procedure, private :: set_reals => case_set_reals
+    procedure, private :: set_singles => case_set_singles
+    procedure, private :: set_integers => case_set_integers
     procedure, private :: set_logical => case_set_logical
     procedure, private :: copy => case_copy
     final :: case_final
@@ -118,6 +126,8 @@ module rsc
     procedure :: stiffness => contact_stiffness
     procedure :: energy => contact_energy
     procedure :: level => contact_level
+    procedure :: answer => contact_answer
+    procedure :: value => contact_value
     procedure :: spots => contact_spots
     procedure :: per_asperity => contact_per_asperity
     procedure :: deflection => contact_deflection
@@ -206,6 +216,12 @@ module rsc
       import :: c_char, c_int32_t, c_ptr
       type(c_ptr), value :: a_case
       character(kind=c_char), intent(in) :: text(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_case_read_file(a_case, path) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: a_case
+      character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: code
     end function
     function rsc_case_set(a_case, name, value) bind(c) result(code)
@@ -427,6 +443,22 @@ module rsc
       integer(c_int32_t), intent(inout), optional :: level_status
       integer(c_int64_t), intent(inout), optional :: candidates, iterations, overlapping_pairs
       real(c_double), intent(inout), optional :: residual
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_answer(contact, separation, force, stiffness, area, energy, lateral_x, lateral_y, level_status, contacts, &
+                                overlapping_pairs, large_contacts, beyond_law, edge_contacts) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: contact
+      real(c_double), intent(inout), optional :: separation, force, stiffness, area, energy, lateral_x, lateral_y
+      integer(c_int32_t), intent(inout), optional :: level_status
+      integer(c_int64_t), intent(inout), optional :: contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_value(contact, name, value) bind(c) result(code)
+      import :: c_char, c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(inout) :: value
       integer(c_int32_t) :: code
     end function
     function rsc_contact_stiffness(contact, stiffness) bind(c) result(code)
@@ -745,15 +777,103 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
+  !> A number in namelist syntax, every bit of it.
+  function of_real(value) result(text)
+    real(c_double), intent(in) :: value
+    character(32) :: text
+    write (text, '(es32.16e4)') value
+    text = adjustl(text)
+  end function
+
+  !> The shortest decimal number that is this one in single precision.
+  function of_single(value) result(text)
+    real(c_float), intent(in) :: value
+    character(32) :: text, form
+    real(c_float) :: back
+    integer :: digits, problem
+    do digits = 5, 8
+      write (form, '(a,i0,a)') '(es32.', digits, 'e4)'
+      write (text, form) value
+      read (text, *, iostat=problem) back
+      if (problem == 0 .and. back >= value .and. back <= value) exit
+    end do
+    text = adjustl(text)
+  end function
+
   subroutine case_set_real(self, name, value, stat, errmsg)
     class(rsc_case), intent(inout) :: self
     character(*), intent(in) :: name
     real(c_double), intent(in) :: value
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    call self%set_text(name, trim(of_real(value)), stat, errmsg)
+  end subroutine
+
+  subroutine case_set_single(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_float), intent(in) :: value
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call self%set_text(name, trim(of_single(value)), stat, errmsg)
+  end subroutine
+
+  subroutine case_set_reals(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_double), intent(in) :: value(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: text
+    integer :: i
+    text = ''
+    do i = 1, size(value)
+      text = text // ' ' // trim(of_real(value(i)))
+    end do
+    call self%set_text(name, text, stat, errmsg)
+  end subroutine
+
+  subroutine case_set_singles(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_float), intent(in) :: value(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: text
+    integer :: i
+    text = ''
+    do i = 1, size(value)
+      text = text // ' ' // trim(of_single(value(i)))
+    end do
+    call self%set_text(name, text, stat, errmsg)
+  end subroutine
+
+  subroutine case_set_integers(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(in) :: value(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: text
+    character(40) :: one
+    integer :: i
+    text = ''
+    do i = 1, size(value)
+      write (one, '(i0)') value(i)
+      text = text // ' ' // trim(one)
+    end do
+    call self%set_text(name, text, stat, errmsg)
+  end subroutine
+
+  subroutine case_set_long(self, name, value, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer(c_int64_t), intent(in) :: value
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
     character(40) :: text
-    write (text, '(es32.16e4)') value
-    call self%set_text(name, trim(adjustl(text)), stat, errmsg)
+    write (text, '(i0)') value
+    call self%set_text(name, trim(text), stat, errmsg)
   end subroutine
 
   subroutine case_set_integer(self, name, value, stat, errmsg)
@@ -814,6 +934,19 @@ contains
     type(c_ptr) :: handle
     call case_ready(self, handle, status)
     if (status == rsc_success) status = rsc_case_read(handle, terminated(text))
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> The same from a file.
+  subroutine case_read_file(self, path, stat, errmsg)
+    class(rsc_case), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    type(c_ptr) :: handle
+    call case_ready(self, handle, status)
+    if (status == rsc_success) status = rsc_case_read_file(handle, terminated(trim(path)))
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -1343,6 +1476,41 @@ contains
     if (present(overlapping_pairs)) overlapping_pairs = int(n(3))
     call finish(status, stat, errmsg)
   end subroutine
+
+  !> The answer of the last level in one call: Z0, N, dN/dZ0, A, W, the lateral force -dW/d(x0, y0), and what there is to say about the
+  !> level: how many contacts there are, overlap, are large against the mean spacing, past the range of the law, at the border.
+  subroutine contact_answer(self, separation, force, stiffness, area, energy, lateral_x, lateral_y, level_status, contacts, &
+                            overlapping_pairs, large_contacts, beyond_law, edge_contacts, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    real(c_double), intent(out), optional :: separation, force, stiffness, area, energy, lateral_x, lateral_y
+    integer, intent(out), optional :: level_status, contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status, quality
+    integer(c_int64_t) :: n(5)
+    quality = 0
+    n = 0
+    status = rsc_contact_answer(changing(self%ticket), separation, force, stiffness, area, energy, lateral_x, lateral_y, quality, &
+                                n(1), n(2), n(3), n(4), n(5))
+    if (present(level_status)) level_status = int(quality)
+    if (present(contacts)) contacts = int(n(1))
+    if (present(overlapping_pairs)) overlapping_pairs = int(n(2))
+    if (present(large_contacts)) large_contacts = int(n(3))
+    if (present(beyond_law)) beyond_law = int(n(4))
+    if (present(edge_contacts)) edge_contacts = int(n(5))
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> One quantity of the last level by its name in the result file: 'force', 'residual', 'large_contacts', 'lateral_force_x', ...
+  function contact_value(self, name, stat, errmsg) result(value)
+    class(rsc_contact), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double) :: value
+    value = 0
+    call finish(rsc_contact_value(changing(self%ticket), terminated(trim(name)), value), stat, errmsg)
+  end function
 
   !> The contacts of the last level: number of the asperity, force, contact radius, penetration.
   subroutine contact_spots(self, asperity, force, radius, penetration, stat, errmsg)

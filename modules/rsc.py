@@ -37,7 +37,7 @@ import threading
 import numpy as np
 
 __all__ = ["Case", "Surface", "Asperities", "Contact", "Friction", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
-           "Level", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "version", "keys"]
+           "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "version", "keys"]
 
 # ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
 # One row a function, as rsc.h declares it (all return int32_t); a test compares them. From a row follow the ctypes, the checks of
@@ -50,6 +50,7 @@ rsc_case_create(rsc_case** new_case)
 rsc_case_copy(rsc_case** new_case, const rsc_case* original)
 rsc_case_destroy(rsc_case** old_case)
 rsc_case_read(rsc_case* a_case, const char* text)
+rsc_case_read_file(rsc_case* a_case, const char* path)
 rsc_case_set(rsc_case* a_case, const char* name, const char* value)
 rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length)
 rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length)
@@ -83,6 +84,8 @@ rsc_contact_indent(rsc_contact* contact, double separation, double* force)
 rsc_contact_press(rsc_contact* contact, double force, double* separation)
 rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts)
 rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations, int64_t* overlapping_pairs, double* residual)
+rsc_contact_answer(rsc_contact* contact, double* separation, double* force, double* stiffness, double* area, double* energy, double* lateral_x, double* lateral_y, int32_t* level_status, int64_t* contacts, int64_t* overlapping_pairs, int64_t* large_contacts, int64_t* beyond_law, int64_t* edge_contacts)
+rsc_contact_value(rsc_contact* contact, const char* name, double* value)
 rsc_contact_stiffness(rsc_contact* contact, double* stiffness)
 rsc_contact_energy(const rsc_contact* contact, double* energy)
 rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration)
@@ -418,6 +421,8 @@ Spots = _record("Spots", "asperity force radius penetration", "Contacts: indices
                 "contact radius a, the area being pi a^2 [length], and penetration [length]; arrays of shape (n,).")
 FrictionState = _record("FrictionState", "separation x y force force_x force_y energy tangential_energy lost stick_separation", "Where the path of a Friction has led: separation Z0 and slide x, y [length]; force N, tangential force Q as force_x, force_y [force]; elastic energy of the normal problem and of the slide, work lost to friction since the path began [force length]; the separation whose spots stick [length].")
 SpotSlip = _record("SpotSlip", "asperity radius stick_radius force_x force_y", "Arrays, a value a spot: index of the asperity, contact radius, radius of the part that sticks [length], share of the tangential force [force].")
+Answer = _record("Answer", "separation force stiffness area energy lateral_x lateral_y status contacts overlapping_pairs large_contacts beyond_law edge_contacts",
+                 "The answer of a level: see Contact.answer.")
 _Result = collections.namedtuple("_Result", "separation force area contacts")
 _Tip = collections.namedtuple("_Tip", "x0 y0")
 
@@ -489,6 +494,10 @@ class Case(_Object):
         """Replaces all keys by what the namelist `text` says, defaults where it says nothing. Raises ArgumentError, the case then being
         unchanged."""
         _call("rsc_case_read", self, text)
+
+    def read_file(self, path):
+        """The same from the file `path`. Raises ArgumentError as read does, and for a file that cannot be read."""
+        _call("rsc_case_read_file", self, os.fspath(path))
 
     def update(self, source):
         """Sets the keys of a dictionary `source`, {"surface": {"sigma": 0.01}} or {"surface%sigma": 0.01}. Raises ArgumentError, the case then
@@ -729,6 +738,17 @@ class Contact(_Object):
     def level(self):
         """How the last level was reached, a Level. Raises Error (no result)."""
         return _numbers("rsc_contact_level", self, Level)
+
+    def answer(self):
+        """The last level in one call, an Answer: separation Z0 [length], force N [force], stiffness dN/dZ0 [force/length], area A [length^2],
+        energy W [force length], lateral_x and lateral_y, the force that pushes the sphere sideways, -dW/d(x0, y0) [force], status (of
+        LEVELS), and numbers: contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts. Raises Error (no result)."""
+        return _numbers("rsc_contact_answer", self, Answer)
+
+    def value(self, name):
+        """One quantity of the last level by its name in the result file, as "residual" or "large_contacts", or "lateral_force_x", ... Raises
+        ArgumentError for an unknown name, whose message lists all, Error (no result)."""
+        return _number("rsc_contact_value", self, name)
 
     def stiffness(self):
         """dN/dZ0 of the last level, negative, 0 without contact [force/length]. Raises Error (no result)."""

@@ -82,12 +82,12 @@ module rsc_results
 contains
 
   !> Reads the result file `file` into `result`. With `stat` a failure is reported in it (0: read; otherwise not zero, and `result` is
-  !> not to be used) and, as text, in `errmsg`; without `stat` a failure stops the program with its message.
+  !> not to be used) and, as text, in `errmsg`, which otherwise keeps its value; without `stat` a failure stops the program with its message.
   subroutine rsc_read_result(file, result, stat, errmsg)
     character(*), intent(in) :: file
     type(rsc_result), intent(out) :: result
     integer, intent(out), optional :: stat
-    character(:), allocatable, intent(out), optional :: errmsg
+    character(*), intent(inout), optional :: errmsg
     type(reader) :: r
     character(:), allocatable :: message
 
@@ -104,10 +104,7 @@ contains
     end if
 
     if (present(stat)) stat = r%status
-    if (r%status == nf90_noerr) then
-      if (present(errmsg)) errmsg = ''
-      return
-    end if
+    if (r%status == nf90_noerr) return
     message = "cannot read the result file '" // trim(file) // "'"
     if (len(r%what) > 0) message = message // ', ' // r%what
     if (len(r%what) == 0 .or. index(r%what, 'variable') == 1) message = message // ': ' // trim(nf90_strerror(r%status))

@@ -120,9 +120,15 @@ RSC_API int32_t rsc_case_destroy(rsc_case** old_case);
  * the case is unchanged. */
 RSC_API int32_t rsc_case_read(rsc_case* a_case, const char* text);
 
+/* The same from a file, which messages call by its name.
+ * a_case: the case; path: the file. Errors: -1, -2 null; -2 a file that cannot be read, or whatever is wrong with its text;
+ * RSC_NO_MEMORY. On failure the case is unchanged. */
+RSC_API int32_t rsc_case_read_file(rsc_case* a_case, const char* path);
+
 /* Sets one key.
  * a_case: the case; name: "group%key", "group%key(2)" or "group%key(1:2)", in any case; value: in namelist syntax (texts in
- * quotes). Errors: -1 null; -2 null or unknown name; -3 null or a value that is refused; RSC_NO_MEMORY. On failure the case is
+ * quotes). A key with a fixed number of values (solids%E has two) takes all of them, "1e5, 2e5", or one by its subscript.
+ * Errors: -1 null; -2 null or unknown name; -3 null or a value that is refused; RSC_NO_MEMORY. On failure the case is
  * unchanged. Relations between keys are looked at where the case is used. */
 RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value);
 
@@ -153,9 +159,12 @@ RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
 /* ---- surfaces
  * ------------------------------------------------------------------------------------------------------------------ */
 
-/* A random surface by the keys of &surface and run%seed, on run%threads threads: the same as realization number `realization` of
- * the program, whatever the threads. It is periodic, on x = i L/n, y = j L/n. surface (out): the handle; a_case: the case, null
- * for the defaults; realization: any number. Errors: -1 null; -2 keys of &surface or &run that are refused; RSC_NO_MEMORY. */
+/* The surface that &surface names, as the program has it. source = 'synthetic': a random one by the keys of &surface and run%seed, on
+ * run%threads threads, the same as realization number `realization` of the program, whatever the threads; its heights are periodic, on
+ * x = i L/n, y = j L/n (a contact sees one period: what is pressed beyond its border finds nothing). source = 'heights': the map in
+ * surface%file, its form removed; the same for every realization. surface (out): the handle; a_case: the case, null for the defaults;
+ * realization: any number. Errors: -1 null; -2 keys of &surface or &run that are refused, a file that cannot be used, or a source that has
+ * no heights ('asperities': rsc_asperities_make); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization);
 
 /* A surface of given heights, copied. Separations are measured from z = 0: see rsc_surface_detrend.
@@ -201,10 +210,10 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
  * such a law (rsc_asperities_make can); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case);
 
-/* The asperities of rsc_surface_synthesize, the very same, found without storing the surface: faster, in half the memory.
- * With another asperities%law than 'hertz' as rsc_asperities_find says, on any grid.
- * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number.
- * Errors: -1 null; -2 keys of &surface, &asperities or &run that are refused; RSC_NO_MEMORY. */
+/* The asperities of whatever &surface source names, as the program has them: those of the surface of rsc_surface_synthesize, a synthetic
+ * one not being stored (faster, in half the memory, and on any grid for every asperities%law), or the list in surface%file.
+ * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number, without effect on what is read.
+ * Errors: -1 null; -2 keys of &surface, &asperities or &run that are refused, or a file that cannot be used; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization);
 
 /* Given asperities, copied.
@@ -244,13 +253,14 @@ RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int6
  * contact (out): the handle; asperities: copied by reference, may be destroyed at once; E_star: E* > 0, finite [force/length^2];
  * R: radius > 0, Infinity for a flat [length]; x0, y0: place of the tip [length]; a_case: keys of &solver, asperities%law,
  * indentation%selection, indentation%selection_factor and, where they need an rms height, surface%sigma (unless set: that of the
- * surface the asperities come from, otherwise of their heights); null for the defaults.
+ * surface the asperities come from, otherwise of their heights); for asperities that were given, surface%L, the side of the square
+ * surface they stand on (unless set: the smallest square that holds them), from which their mean spacing follows; null for the defaults.
  * Errors: -1, -2 null; -3, -4 out of range; -5, -6 not finite; -7 keys that are refused; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
                                    const rsc_case* a_case);
 
 /* The same with E* and R from the keys of &solids, and the tip at indentation%centre, by default above the middle of the surface
- * (of the smallest rectangle that holds them, for asperities that were given). contact (out): the handle; asperities: as above;
+ * (for asperities that were given: of the smallest rectangle that holds them, or of [0, surface%L]^2 if that holds them). contact (out): the handle; asperities: as above;
  * a_case: the case, null for the defaults. Errors: -1, -2 null; -3 keys that are refused; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case);
 
@@ -273,7 +283,7 @@ RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* 
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
 /* Computes the contact at a separation. The answer depends on the separation and the tip alone; a level near the last one is
- * computed faster.
+ * computed faster, and the last one itself, with the tip where it was, is there at once.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, results then being those of the last iterate; RSC_NO_MEMORY,
  * RSC_INTERNAL, the contact then holding no result. */
@@ -296,6 +306,25 @@ RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separatio
  * RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
                                   int64_t* overlapping_pairs, double* residual);
+
+/* The answer of the last level in one call, for codes that ask at every step. All outputs may be null. contact: the contact;
+ * separation: Z0 [length]; force: N [force]; stiffness: dN/dZ0, negative, 0 without contact (takes one more solution of linear
+ * equations, unless null) [force/length]; area: A [length^2]; energy: W, dW/dZ0 = -N [force length]; lateral_x, lateral_y: force that
+ * pushes the sphere sideways at this separation, -dW/dx0, -dW/dy0 = -sum f_i (x_i - x0)/sqrt(R^2 - rho_i^2), alike in y [force];
+ * level_status: of RSC_LEVEL_LIST; contacts: their number, of which overlapping_pairs overlap, large_contacts have a radius above a
+ * quarter of the mean spacing, beyond_law lie past the range of the law, edge_contacts within a mean spacing of the border of the
+ * surface. All are those at the tip's place when the level was computed.
+ * Errors: -1 null; RSC_NO_RESULT, also if stiffness or energy is no finite number; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force, double* stiffness, double* area, double* energy,
+                                   double* lateral_x, double* lateral_y, int32_t* level_status, int64_t* contacts,
+                                   int64_t* overlapping_pairs, int64_t* large_contacts, int64_t* beyond_law, int64_t* edge_contacts);
+
+/* One quantity of the last level by its name in the result file: "force", "contact_area", "contacts", "candidates", "iterations",
+ * "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ... ; "separation", "stiffness", "energy",
+ * "conductance_length" (2 |dN/dZ0|/E*), "lateral_force_x", "lateral_force_y". The message of an unknown name lists all.
+ * contact: the contact; name: the name; value (out): as a number. Errors: -1, -3 null; -2 null or unknown; RSC_NO_RESULT, also if it is no
+ * finite number; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);
 
 /* dN/dZ0 of the last level, negative, 0 without contact. It takes one more solution of linear equations.
  * contact: the contact; stiffness (out) [force/length]. Errors: -1, -2 null; RSC_NO_RESULT, also if it is no finite number;

@@ -62,6 +62,19 @@ int32_t rsc_case_read(rsc_case* a_case, const char* text) {
     });
 }
 
+int32_t rsc_case_read_file(rsc_case* a_case, const char* path) {
+    return guarded(2, [&] {
+        require(a_case, 1, "a_case");
+        require(path, 2, "path");
+        if (!*path) refuse(2, "path", "must not be empty");
+        rsc::Options options;
+        options.case_path = path;
+        rsc::ReadCase read = rsc::read_case(options);
+        if (read.study) refuse(2, "path", "must be a file with one case: &study belongs to the program");
+        a_case->settings = std::move(read.settings);
+    });
+}
+
 int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
     return guarded(3, [&] {
         require(a_case, 1, "a_case");
@@ -73,7 +86,7 @@ int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
             if (error.kind() == rsc::Failure::bad_input) throw Refusal{2, error.what()};
             throw;
         }
-        rsc::set_key(a_case->settings, name, value);
+        rsc::set_key(a_case->settings, name, value, true);
     });
 }
 

@@ -6,6 +6,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "contact/deflection.hpp"
+#include "observe/quantities.hpp"
 #include "rough/magnitude.hpp"
 
 namespace rsc::api {
@@ -32,7 +33,9 @@ template <class Compute>
 void compute(rsc_contact& contact, Compute&& level) {
     contact.level.reset();
     contact.level = level();
+    contact.moved = false;
     contact.energy = contact.contact.energy();
+    contact.lateral = lateral_force(contact.contact.indenter(), *contact.level);
 }
 
 void put_finite(double* to, double value) {
@@ -44,6 +47,45 @@ void tell_convergence(const rsc_contact& contact) {
     if (contact.level->status == LevelStatus::not_converged) {
         throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
+}
+
+double stiffness_of(rsc_contact& contact) {
+    double& known = contact.level->stiffness;
+    if (std::isnan(known)) known = contact.contact.stiffness();
+    return known;
+}
+
+// Quantities that are no plain members of a level, by the names of the result file (vectors by component).
+struct Derived {
+    std::string_view name;
+    double (*of)(rsc_contact&);
+};
+constexpr Derived kDerived[] = {
+    {"separation", [](rsc_contact& c) { return c.level->separation; }},
+    {"stiffness", stiffness_of},
+    {"energy", [](rsc_contact& c) { return c.energy; }},
+    {"conductance_length", [](rsc_contact& c) { return -2 * stiffness_of(c) / c.contact.indenter().E_star; }},
+    {"lateral_force_x", [](rsc_contact& c) { return c.lateral.x; }},
+    {"lateral_force_y", [](rsc_contact& c) { return c.lateral.y; }},
+};
+
+// What only maps know, which the library does not make.
+bool of_map(std::string_view name) { return name == "crowded_cells" || name == "contacts_outside_map"; }
+
+std::string known_values() {
+    std::string names;
+    for (const Derived& d : kDerived) names += (names.empty() ? "" : ", ") + std::string(d.name);
+    for (const LevelQuantity& q : level_quantities()) {
+        const bool derived = std::any_of(std::begin(kDerived), std::end(kDerived), [&](const Derived& d) { return d.name == q.name; });
+        if (!derived && !of_map(q.name)) names += std::string(", ") + q.name;
+    }
+    return names;
+}
+
+// A number of contacts or pairs by its name in the result file.
+std::int64_t count_of(const Level& level, std::string_view name) {
+    const LevelQuantity* quantity = find_quantity(name);
+    return quantity ? static_cast<std::int64_t>(quantity->of(level)) : 0;
 }
 
 }  // namespace
@@ -103,6 +145,7 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
         contact->contact.move_tip(x0, y0);
+        contact->moved = true;
     });
 }
 
@@ -128,7 +171,9 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
     return guarded(2, [&] {
         require(contact, 1, "contact");
         require_finite(separation, 2, "separation");
-        compute(*contact, [&] { return contact->contact.at_separation(separation); });
+        // Asked again for what it just answered, it says the same.
+        const bool same = contact->level && !contact->moved && contact->level->separation == separation;
+        if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
         put(force, contact->level->force);
         tell_convergence(*contact);
     });
@@ -172,7 +217,7 @@ int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness) {
     return guarded(0, [&] {
         (void)level_of(contact);
         require(stiffness, 2, "stiffness");
-        put_finite(stiffness, contact->contact.stiffness());
+        put_finite(stiffness, stiffness_of(*contact));
     });
 }
 
@@ -181,6 +226,44 @@ int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
         (void)level_of(contact);
         require(energy, 2, "energy");
         put_finite(energy, contact->energy);
+    });
+}
+
+int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force, double* stiffness, double* area, double* energy,
+                           double* lateral_x, double* lateral_y, int32_t* level_status, int64_t* contacts, int64_t* overlapping_pairs,
+                           int64_t* large_contacts, int64_t* beyond_law, int64_t* edge_contacts) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        double dN_dZ0 = 0, W = 0;  // nothing is written before all is known to be a number
+        if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
+        if (energy) put_finite(&W, contact->energy);
+        put(separation, level.separation);
+        put(force, level.force);
+        put(stiffness, dN_dZ0);
+        put(area, level.area);
+        put(energy, W);
+        put(lateral_x, contact->lateral.x);
+        put(lateral_y, contact->lateral.y);
+        put(level_status, level.status);
+        put(contacts, level.contacts);
+        put(overlapping_pairs, level.overlapping_pairs);
+        put(large_contacts, level.large_contacts);
+        put(beyond_law, level.beyond_law);
+        put(edge_contacts, count_of(level, "edge_contacts"));
+    });
+}
+
+int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value) {
+    return guarded(0, [&] {
+        const rsc::Level& level = level_of(contact);
+        require(name, 2, "name");
+        require(value, 3, "value");
+        const std::string_view asked = name;
+        for (const Derived& quantity : kDerived)
+            if (quantity.name == asked) return put_finite(value, quantity.of(*contact));
+        const rsc::LevelQuantity* quantity = rsc::find_quantity(asked);
+        if (!quantity || of_map(asked)) refuse(2, "name", ("must be one of " + known_values()).c_str());
+        put_finite(value, quantity->of(level));
     });
 }
 

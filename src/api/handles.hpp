@@ -10,6 +10,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/friction.hpp"
+#include "contact/lateral.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
 
@@ -32,7 +33,10 @@ struct rsc_contact {
     rsc::SolverOptions options;
     rsc::AsperityContact contact;
     std::optional<rsc::Level> level;
+    // Of that level; the tip may have moved since.
+    bool moved = false;
     double energy = 0;
+    rsc::Vec2 lateral;
 };
 
 struct rsc_friction {

@@ -303,8 +303,16 @@ std::string out_of_bounds(Case& settings, const Key& key) {
 
 }  // namespace
 
-void set_key(Case& settings, std::string_view name, std::string_view value) {
+void set_key(Case& settings, std::string_view name, std::string_view value, bool whole) {
     const auto [key, assignment] = named(name, value);
+    if (whole && key->size > 1 && !key->list && !assignment.subscript) {
+        long given = 0;
+        for (const auto& item : assignment.items) given += item.repeat;
+        if (given > 0 && given < key->size) {
+            throw Error(Failure::bad_input, std::string(key->name) + " has " + std::to_string(key->size) +
+                                                " values: give all of them, or one as " + key->group + "%" + key->name + "(1)");
+        }
+    }
     Case changed = settings;
     Ledger ledger;
     std::vector<Fault> faults;

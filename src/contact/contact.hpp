@@ -63,6 +63,9 @@ private:
         double separation, force, slope;  // as solve() and slope() have them
     };
     std::optional<Trial> last_;  // the last level, where shift() > 0: a place to begin
+
+    void remember(const Level& level);
+    double last_force_ = 0;  // of the last level, 0 if it did not converge
 };
 
 }  // namespace rsc

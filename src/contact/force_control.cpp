@@ -10,6 +10,7 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFarAbove = 100;  // times the force asked for
 
 }  // namespace
 
@@ -17,8 +18,11 @@ Level Contact::at_separation(double Z0) {
     if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
     if (level.status != LevelStatus::not_converged) accept();
+    remember(level);
     return level;
 }
+
+void Contact::remember(const Level& level) { last_force_ = level.status == LevelStatus::not_converged ? 0.0 : level.force; }
 
 double Contact::slope() {
     const double S = stiffness();
@@ -74,10 +78,14 @@ Level Contact::at_force(double N) {
     // A first depth: what the place touched first would need alone.
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (first_place_force(depth) < N) depth *= 2;
-    double Z0 = likely_separation().value_or(above - 0.25 * depth);
-    if (last_ && last_->force > 0) {
-        Z0 = last_->separation + std::log(N / last_->force) * last_->force / last_->slope;
-        if (!(Z0 < above)) Z0 = above - 0.25 * depth;
+    double Z0 = above - 0.25 * depth;
+    // The last level is a start unless it failed, touched nothing, or lies so much deeper that coming down anew is the shorter way.
+    if (last_force_ > 0 && last_force_ < kFarAbove * N) {
+        Z0 = likely_separation().value_or(Z0);
+        if (last_ && last_->force > 0) {
+            Z0 = last_->separation + std::log(N / last_->force) * last_->force / last_->slope;
+            if (!(Z0 < above)) Z0 = above - 0.25 * depth;
+        }
     }
     Level level;
     int iterations = 0;
@@ -114,6 +122,7 @@ Level Contact::at_force(double N) {
     }
     level.iterations = iterations;
     level.products = products;
+    remember(level);
     return level;
 }
 

@@ -26,10 +26,12 @@ void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vect
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities) {
     if (past_.empty()) return;  // moved twice in a row: what was carried stays
-    carried_.phi.clear();
+    for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
+    carried_.known.clear();
     if (unique_ && v.size() == at(candidates.size())) {
         carried_.separation = past_.front().separation;
-        carried_.phi.assign(asperities, kUnknown);
+        carried_.phi.resize(asperities, kUnknown);
+        carried_.known = candidates.set.asperity;
         for (std::size_t k = 0; k < v.size(); ++k) carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
     }
     past_.clear();
@@ -39,7 +41,7 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
 bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& start) const {
     const auto& rank = candidates.rank;
     const Vector& g0 = candidates.set.g0;
-    if (past_.empty() && !carried_.phi.empty()) {
+    if (past_.empty() && !carried_.known.empty()) {
         start.resize(rank.size());
         bool any = false;
         for (std::size_t k = 0; k < rank.size(); ++k) {
@@ -84,7 +86,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
 
 std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
     if (!past_.empty()) return past_.front().separation;
-    if (!carried_.phi.empty() && carried_.separation < first_touch) return carried_.separation;
+    if (!carried_.known.empty() && carried_.separation < first_touch) return carried_.separation;
     return std::nullopt;
 }
 

@@ -38,7 +38,8 @@ private:
 
     struct Carried {
         double separation = 0;
-        std::vector<double> phi;  // B F by asperity; NaN: not known; empty: none
+        std::vector<double> phi;  // B F by asperity; NaN: not known
+        std::vector<int> known;   // whose is known; empty: none
     } carried_;
 };
 

@@ -1,7 +1,7 @@
 ! The Fortran module: values against closed forms, arrays of every kind, failures told and not told, copies, finalisers.
 program test_api
   use rsc
-  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   implicit none
   real(dp), parameter :: pi = acos(-1.0_dp), E = 2.0e5_dp, u = 1.0e-3_dp
   integer :: checks = 0, failures = 0
@@ -47,6 +47,18 @@ contains
     call check(options%get('solver%method') == "'direct'", 'text by name')
     call other%read(options%text())
     call check(other%text() == options%text(), 'case as text and back')
+    call options%set('surface%sigma', 0.1)
+    call check(options%get('surface%sigma') == '0.1', 'default real by name, as written')
+    call options%set('run%seed', 9000000000_c_int64_t)
+    call check(options%get('run%seed') == '9000000000', 'long integer by name')
+    call options%set('solids%E', [1.0e5_dp, 2.0e5_dp])
+    call check(options%get('solids%E') == '1e+05, 2e+05', 'array by name')
+    call options%set('solids%nu', [0.3, 0.25])
+    call check(options%get('solids%nu') == '0.3, 0.25', 'default real array by name')
+    call options%set('indentation%levels', [3, 2, 1])
+    call check(options%get('indentation%levels') == '3.0, 2.0, 1.0', 'integer array by name')
+    call options%set('solids%E', 1.0_dp, stat, errmsg)
+    call check(stat < 0 .and. index(errmsg, 'solids%E(1)') > 0, 'one value for two')
     call options%set('solids%E(1)', 1.0_dp / 3)  ! every bit of it
     other = options
     call options%set('solids%E(1)', 2.0_dp)
@@ -65,7 +77,8 @@ contains
     type(rsc_asperities) :: asperities
     type(rsc_contact) :: contact
     type(rsc_case) :: options
-    real(dp) :: N, f, Z, w(2)
+    real(dp) :: N, f, Z, w(2), dN, A, W_, F_x, F_y
+    integer :: large, stat
     real(dp), allocatable :: force(:), radius(:), penetration(:)
     integer, allocatable :: which(:)
     integer :: level_status, candidates
@@ -89,6 +102,19 @@ contains
     call close_to(w(2), f / (pi * E * 5) * (1 + 0.3_dp * u / 250), 1e-11_dp, 'deflection far away')
     call contact%level(level_status, candidates)
     call check(level_status == rsc_level_converged .and. candidates == 1, 'level status')
+    call contact%answer(Z, N, dN, A, W_, F_x, F_y, level_status, candidates, large_contacts=large)
+    call check(Z >= -u .and. Z <= -u .and. N >= contact%force() .and. N <= contact%force(), 'answer: Z0, N')
+    call close_to(dN, contact%stiffness(), 1e-15_dp, 'answer: dN/dZ0')
+    call close_to(A, contact%area(), 1e-15_dp, 'answer: A')
+    call close_to(W_, contact%energy(), 1e-15_dp, 'answer: W')
+    call check(abs(F_x) <= 0 .and. abs(F_y) <= 0 .and. level_status == 0 .and. candidates == 1 .and. large == 0, 'answer: the rest')
+    call close_to(contact%value('force'), N, 1e-15_dp, 'value by name')
+    call check(abs(contact%value('nothing', stat)) <= 0 .and. stat < 0, 'value of no name')
+    call contact%move_tip(0.1_dp, 0.0_dp)
+    call contact%indent(-0.01_dp, N)
+    call contact%answer(lateral_x=F_x, lateral_y=F_y)
+    call close_to(F_x, N * 0.1_dp / sqrt(25 - 0.01_dp), 1e-12_dp, 'answer: lateral force')
+    call contact%move_tip(0.0_dp, 0.0_dp)
     call contact%press(f, Z)
     call close_to(Z, -u, 1e-9_dp, 'separation under a force')
     call contact%move_tip(0.05_dp, 0.0_dp)

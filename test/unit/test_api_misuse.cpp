@@ -264,6 +264,8 @@ void test_contact() {
         CHECK(rsc_contact_stiffness(k, out) == RSC_NO_RESULT);
         CHECK(rsc_contact_energy(k, out) == RSC_NO_RESULT);
         CHECK(rsc_contact_spots(k, 3, which, out, out, out) == RSC_NO_RESULT);
+        CHECK(rsc_contact_value(k, "force", out) == RSC_NO_RESULT);
+        CHECK(rsc_contact_answer(k, out, out, out, out, out, out, out, which, &count, &count, &count, &count, &count) == RSC_NO_RESULT);
         CHECK(rsc_contact_per_asperity(k, 3, out, out, out) == RSC_NO_RESULT);
         CHECK(rsc_contact_deflection(k, 3, x.data(), y.data(), out) == RSC_NO_RESULT);
     };
@@ -279,6 +281,7 @@ void test_contact() {
     REFUSED(1, rsc_contact_stiffness(nullptr, out));
     REFUSED(1, rsc_contact_energy(nullptr, out));
     REFUSED(1, rsc_contact_spots(nullptr, 3, which, out, out, out));
+    REFUSED(1, rsc_contact_answer(nullptr, out, out, out, out, out, out, out, which, &count, &count, &count, &count, &count));
     REFUSED(1, rsc_contact_per_asperity(nullptr, 3, out, out, out));
     REFUSED(1, rsc_contact_deflection(nullptr, 3, x.data(), y.data(), out));
     for (const double bad : {kNaN, kInfinity, -kInfinity}) {
