@@ -60,9 +60,11 @@ if(RSC_FORTRAN)
   add_library(rsc::fortran ALIAS rsc_fortran)
   install(TARGETS rsc_fortran EXPORT rscFortranTargets ARCHIVE DESTINATION ${rsc_fortran_folder})
   install(EXPORT rscFortranTargets NAMESPACE rsc:: DESTINATION ${rsc_package_folder})
-  install(FILES ${modules}/rsc.mod ${PROJECT_SOURCE_DIR}/modules/rsc.f90 ${PROJECT_SOURCE_DIR}/modules/rsc_results.f90
-          DESTINATION ${rsc_fortran_folder})
+  install(FILES ${modules}/rsc.mod DESTINATION ${rsc_fortran_folder})
+else()
+  set(rsc_fortran_folder ${rsc_fortran_root})  # the source alone, for any compiler
 endif()
+install(FILES ${PROJECT_SOURCE_DIR}/modules/rsc.f90 ${PROJECT_SOURCE_DIR}/modules/rsc_results.f90 DESTINATION ${rsc_fortran_folder})
 
 # FORTRAN 77: subroutines with integer handles, in C, for any Fortran compiler.
 add_library(rsc_77 STATIC ${PROJECT_SOURCE_DIR}/modules/rsc77.c)

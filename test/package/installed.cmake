@@ -82,6 +82,28 @@ if(FORTRAN_COMPILER)
   must_run(${FOLDER}/own_fortran)
 endif()
 
+# A project in Fortran alone: static and shared library, the reader of results; and with a compiler that cannot read the .mod.
+find_program(FLANG NAMES flang-new-19 flang-new flang)
+foreach(compiler ${FORTRAN_COMPILER} ${FLANG})
+  get_filename_component(name ${compiler} NAME)
+  if(compiler STREQUAL FORTRAN_COMPILER)
+    set(results ON)
+  else()  # netcdf.mod, too, is for the compiler that wrote it
+    set(results OFF)
+  endif()
+  run(${CMAKE_COMMAND} -S ${SOURCE}/fortran_only -B ${FOLDER}/only_${name} "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_Fortran_COMPILER=${compiler}"
+      -DRSC_VERSION=${VERSION} -DRESULTS=${results})
+  run(${CMAKE_COMMAND} --build ${FOLDER}/only_${name})
+  must_run(${FOLDER}/only_${name}/only_shared)
+  must_run(${FOLDER}/only_${name}/only_static)
+  if(results)
+    execute_process(COMMAND ldd ${FOLDER}/only_${name}/only_static OUTPUT_VARIABLE needed ERROR_QUIET)
+    if(needed MATCHES "librsc")
+      message(FATAL_ERROR "only_static needs a shared librsc:\n${needed}")
+    endif()
+  endif()
+endforeach()
+
 # rsc.py from the installation, far from its source: it finds the library beside it.
 file(GLOB_RECURSE module ${prefix}/lib/python*/rsc.py)
 foreach(python python3 /usr/bin/python3)
