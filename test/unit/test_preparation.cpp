@@ -262,6 +262,10 @@ int main() {
     OK(rsc_contact_destroy(&k));
     OK(rsc_case_set(c, "surface%L", "0.1"));
     CHECK(rsc_contact_create_from_case(&k, a, c) == -3 && message().find("extent of the asperities") != std::string::npos);
+    // What a contact of asperities is not, it does not pretend to be.
+    OK(rsc_case_set(c, "surface%L", "1.0"));
+    if (rsc_case_set(c, "solver%model", "'elements'") == RSC_SUCCESS)
+        CHECK(rsc_contact_create_from_case(&k, a, c) == -3 && message().find("'elements'") != std::string::npos);
     OK(rsc_case_destroy(&c));
     OK(rsc_asperities_destroy(&a));
 
