@@ -18,12 +18,13 @@
 #include "run/job.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "run/twins.hpp"
 
 namespace rsc {
 namespace {
 
 void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, std::span<const LevelValues> levels, double seconds,
-               const std::string& file, bool replaces) {
+               const std::string& file, bool replaces, const std::string& twins) {
     const char* l = job.settings.run.length_unit.c_str();
     char line[600];
     out << '\n';
@@ -36,6 +37,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
         out << line;
     }
     print_remarks(out, levels, job.sigma);
+    if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
 }
 
@@ -106,11 +108,14 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     keep_contacts(result, r.levels, keep);
     const SurfaceStatistics statistics = r.statistics;
     result.asperities = std::move(r.asperities);
+    result.measured = job.measured;
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
     write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
 
+    const std::string twins = write_twins(job, settings.output.file);
+
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces);
+    if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces, twins);
     const LevelValues& last = record.levels.back();
     const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
     const RunSummary summary{static_cast<long>(record.levels.size()),
