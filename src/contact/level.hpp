@@ -35,7 +35,13 @@ struct LevelValues {
     double area = 0;                     // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
     double area_pixels = kNotComputed;   // elements: of all pixels under pressure, not corrected for their border [length^2]
     double residual = 0;                 // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
-    double stiffness = kNotComputed;     // dN/dZ0, negative [force/length]
+    // By add_answers (contact/answers.hpp):
+    double stiffness = kNotComputed;                                     // dN/dZ0, negative [force/length]
+    double energy = kNotComputed;                                        // elastic energy W, dW/dZ0 = -N [force length]
+    double lateral_x = kNotComputed, lateral_y = kNotComputed;           // what pushes the sphere sideways, -dW/d(x0, y0) [force]
+    double moment_x = kNotComputed, moment_y = kNotComputed;             // of the contact's forces about the tip [force length]
+    double conductance_length = kNotComputed;                            // -2 (dN/dZ0)/E* [length]
+    double resistance = kNotComputed;                                    // constriction; NaN without contact or resistivities
     std::int64_t products = 0;           // products with B (matrix-free methods), solves (dgesv)
     std::int64_t overlapping_pairs = 0;  // pairs with d < a_i + a_j
     std::int64_t beyond_law = 0;         // contacts past the range in which the law's profile describes a summit

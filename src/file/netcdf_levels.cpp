@@ -81,21 +81,52 @@ void ResultTable::levels() {
         }
         const std::vector<double> values = of_rows<double>([&](const LevelValues& l) { return q.of(l); });
         if (q.always)
-            add(q.name, dims, unit(q.length_power, q.force_power), q.meaning, values, attributes);
-        else if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
-            add_absent(q.name, dims, unit(q.length_power, q.force_power), q.meaning, values, q.comment);
+            add(q.name, dims, units(q), q.meaning, values, attributes);
+        else if (!computed(values))
+            continue;
+        else if (q.y)
+            add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
+                       pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })), q.comment);
+        else
+            add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
     }
+}
+
+bool ResultTable::computed(const std::vector<double>& values) {
+    return !std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+}
+
+// The components of a vector as the last dimension, which is declared here for all of them.
+std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::vector<double>& y) {
+    if (!components_) {
+        components_ = true;
+        file_.dimension("component", 2);
+        NetcdfAttributes attributes{{"flag_values", std::vector<std::int32_t>{1, 2}}, {"flag_meanings", "x y"}};
+        add("component", {"component"}, "1", "component of a vector", std::vector<std::int32_t>{1, 2}, std::move(attributes));
+    }
+    std::vector<double> both;
+    for (std::size_t k = 0; k < x.size(); ++k) both.push_back(x[k]), both.push_back(y[k]);
+    return both;
 }
 
 void ResultTable::means() {
     if (r_.force_control) add("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
     for (const LevelQuantity& q : level_quantities()) {
         if (!q.statistics) continue;
-        const LevelStatistics s = o_.statistics([&](const LevelValues& l) { return q.of(l); });
+        LevelStatistics s = o_.statistics([&](const LevelValues& l) { return q.of(l); });
+        if (!q.always && !computed(of_rows<double>([&](const LevelValues& l) { return q.of(l); }))) continue;
         const std::string name = q.name, of = std::string(q.plain) + " over realizations";
-        add(name + "_mean", {"step"}, unit(q.length_power, q.force_power), "mean " + of, s.mean);
-        add_absent(name + "_std", {"step"}, unit(q.length_power, q.force_power), "standard deviation of the " + of, s.deviation,
-                   "divisor M - 1 for M realizations");
+        Names dims{"step"};
+        if (q.y) {
+            const LevelStatistics y = o_.statistics([&](const LevelValues& l) { return l.*q.y; });
+            s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation)};
+            dims.push_back("component");
+        }
+        if (q.always)
+            add(name + "_mean", dims, units(q), "mean " + of, s.mean);
+        else
+            add_absent(name + "_mean", dims, units(q), "mean " + of, s.mean, "absent where a realization has none");
+        add_absent(name + "_std", dims, units(q), "standard deviation of the " + of, s.deviation, "divisor M - 1 for M realizations");
     }
 }
 
@@ -166,6 +197,26 @@ void ResultTable::regimes() {
                "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which);
     add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth sphere at force_mean (Hertz)", hertz,
                "pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for flat on flat");
+}
+
+void ResultTable::friction() {
+    const FrictionLoops& f = r_.friction;
+    if (f.points == 0) return;
+    file_.dimension("point", f.points);
+    std::vector<std::int32_t> point;
+    for (std::size_t k = 1; k <= f.points; ++k) point.push_back(static_cast<std::int32_t>(k));
+    add("point", {"point"}, "1", "point of a slide at constant separation", point,
+        {{"first_loading", std::vector<std::int32_t>{1, static_cast<std::int32_t>(f.first)}},
+         {"cycle", std::vector<std::int32_t>{static_cast<std::int32_t>(f.first) + 1, static_cast<std::int32_t>(f.points)}},
+         {"comment", "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 % of it, closed"}});
+    const Names loop{"step", "point"};
+    const std::string none = "absent without contact";
+    add_absent("tangential_displacement", loop, unit(1), "slide of the sphere against the surface", f.displacement, none);
+    add_absent("tangential_force", loop, unit(0, 1), "force that resists the slide", f.force,
+               "partial slip with the coefficient solids%friction at every point; at full slip it is that times the normal force; " + none);
+    add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness while all sticks", f.stiffness,
+               "4 G*/E* times -dN/dZ0; " + none);
+    add_absent("cycle_work", {"step"}, unit(1, 1), "work lost to friction in a cycle", f.cycle_work, "the area of the loop; " + none);
 }
 
 }  // namespace rsc

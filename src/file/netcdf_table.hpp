@@ -11,6 +11,7 @@
 #include "case/units.hpp"
 #include "file/netcdf_file.hpp"
 #include "file/result.hpp"
+#include "observe/quantities.hpp"
 
 namespace rsc {
 
@@ -38,6 +39,7 @@ public:
         measured();
         theory();
         regimes();
+        friction();
         maps();
         radial();
         distributions();
@@ -54,12 +56,17 @@ private:
     void global_attributes(const std::string& history);
     void axes();
     void levels();
+    static bool computed(const std::vector<double>& values);
+    std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y);
+    bool components_ = false;  // the dimension of vectors is declared
+    std::string units(const LevelQuantity& q) const { return q.unit ? q.unit : unit(q.length_power, q.force_power); }
     void means();
     void surfaces();
     void theory();
     void regimes();
     // netcdf_measured.cpp
     void measured();
+    void friction();
     // netcdf_observed.cpp
     void maps();
     void radial();

@@ -42,6 +42,13 @@ struct PackedContacts {
     std::vector<double> force, radius;
 };
 
+// First loading and the cycle at constant separation, a row a level (contact/friction.hpp). Levels without contact have NaN.
+struct FrictionLoops {
+    std::size_t first = 0, points = 0;          // of a row: of first loading, in all; 0: there is no friction
+    std::vector<double> displacement, force;    // [step][point] [length], [force]
+    std::vector<double> stiffness, cycle_work;  // [step] [force/length], [force length]
+};
+
 struct Result {
     std::string title, case_text, length_unit, force_unit;
     std::int64_t seed = 1;
@@ -53,6 +60,7 @@ struct Result {
     // Of one realization only:
     Asperities asperities;                     // empty: not written
     PackedContacts contacts;                   // empty: not written
+    FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
 };

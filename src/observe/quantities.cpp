@@ -52,7 +52,23 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "contacts_outside_map", .member = &V::outside_map,
      .meaning = "contacts outside the map: in force and contact_area, in no cell"},
     {.name = "stiffness", .member = &V::stiffness, .length_power = -1, .force_power = 1,
-     .meaning = "derivative of the force by the separation, dN/dZ0", .always = false},
+     .meaning = "derivative of the force by the separation, dN/dZ0", .always = false, .statistics = true, .plain = "stiffness"},
+    {.name = "energy", .member = &V::energy, .length_power = 1, .force_power = 1, .meaning = "elastic energy of the contact, W",
+     .comment = "dW/dZ0 = -N", .always = false, .statistics = true, .plain = "elastic energy"},
+    {.name = "lateral_force", .member = &V::lateral_x, .y = &V::lateral_y, .force_power = 1,
+     .meaning = "force that pushes the sphere sideways at fixed separation",
+     .comment = "-dW/dx0 and -dW/dy0: the normal forces of the contacts point to the sphere's centre; without friction", .always = false,
+     .statistics = true, .plain = "lateral force"},
+    {.name = "moment", .member = &V::moment_x, .y = &V::moment_y, .length_power = 1, .force_power = 1,
+     .meaning = "moment of the contact forces on the sphere about its tip", .comment = "about the axes x and y through the tip", .always = false,
+     .statistics = true, .plain = "moment about the tip"},
+    {.name = "conductance_length", .member = &V::conductance_length, .length_power = 1,
+     .meaning = "conductance of the contact times the sum of the resistivities, -2 (dN/dZ0)/E*",
+     .comment = "electrical or thermal (Barber 2003); 4 a for a single spot; the longer, the better it conducts", .always = false,
+     .statistics = true, .plain = "conductance length"},
+    {.name = "resistance", .member = &V::resistance, .unit = "ohm", .meaning = "constriction resistance of the contact",
+     .comment = "sum of solids%resistivity [ohm times run%length_unit] over conductance_length; thermal resistivities [K/W times "
+                "run%length_unit] make it K/W; absent without contact", .always = false, .statistics = true, .plain = "constriction resistance"},
 };
 // clang-format on
 

@@ -16,7 +16,9 @@ struct LevelQuantity {
                                 Method LevelValues::*, Fallback LevelValues::*>;
     const char* name;                       // of the variable in the file, and in calls by name
     Member member;                          // doubles may be NaN: not computed
+    double LevelValues::*y = nullptr;       // of a vector: `member` is x, files have a dimension more
     int length_power = 0, force_power = 0;  // of its unit
+    const char* unit = nullptr;             // a unit of its own instead
     const char* meaning = "";               // long_name
     const char* comment = "";
     bool always = true;       // false: files hold it only if some level has it

@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include "contact/answers.hpp"
+#include "contact/equivalent.hpp"
 #include "error.hpp"
 #include "read/file_list.hpp"
+#include "run/friction_loops.hpp"
 
 namespace rsc {
 namespace {
@@ -98,14 +101,21 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     r.asperities = std::move(ground.asperities);
     r.statistics = ground.statistics;
     AsperityContact contact(r.asperities, job.indenter, job.solver);
+    std::optional<FrictionRows> friction;
+    if (settings.solids.friction > 0) {
+        const auto another = [&] { return std::make_unique<AsperityContact>(r.asperities, job.indenter, job.solver); };
+        friction.emplace(Friction{settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, another(), another());
+    }
     r.levels.reserve(job.levels.size());
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (settings.indentation.control == Control::force) {
             r.levels.push_back(contact.at_force(job.levels[k]));
-            r.levels.back().stiffness = contact.stiffness();
         } else {
             r.levels.push_back(contact.at_separation(job.levels[k]));
         }
+        Level& level = r.levels.back();
+        add_answers(contact, level, settings.solids.resistivity);
+        if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     return r;

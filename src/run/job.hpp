@@ -39,6 +39,7 @@ struct Realization {
     SurfaceStatistics statistics;
     Asperities asperities;
     std::vector<Level> levels;
+    FrictionLoops friction;
     std::optional<HeightMap> heights;  // if the case wants them
 };
 

@@ -107,6 +107,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
     keep_contacts(result, r.levels, keep);
     const SurfaceStatistics statistics = r.statistics;
+    result.friction = std::move(r.friction);
     result.asperities = std::move(r.asperities);
     result.measured = job.measured;
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);

@@ -1,0 +1,38 @@
+#include "contact/answers.hpp"
+
+#include <cmath>
+
+namespace rsc {
+
+double conductance_length(double stiffness, double E_star) { return 0 - 2 * stiffness / E_star; }
+
+double constriction_resistance(double conductance_length, const double (&resistivity)[2]) {
+    const double sum = resistivity[0] + resistivity[1];
+    return sum > 0 && conductance_length > 0 ? sum / conductance_length : kNotComputed;
+}
+
+Vec2 tip_moment(const Indenter& indenter, const Level& level) {
+    if (!std::isinf(indenter.R)) {
+        const Vec2 force = lateral_force(indenter, level);
+        return {0 - indenter.R * force.y, indenter.R * force.x};
+    }
+    Vec2 sum;
+    for (std::size_t k = 0; k < level.f.size(); ++k) {
+        sum.x += level.f[k] * (level.y[k] - indenter.y0);
+        sum.y -= level.f[k] * (level.x[k] - indenter.x0);
+    }
+    return sum;
+}
+
+void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]) {
+    const Indenter& indenter = contact.indenter();
+    level.stiffness = contact.stiffness();
+    level.energy = contact.energy();
+    const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
+    level.lateral_x = force.x, level.lateral_y = force.y;
+    level.moment_x = moment.x, level.moment_y = moment.y;
+    level.conductance_length = conductance_length(level.stiffness, indenter.E_star);
+    level.resistance = constriction_resistance(level.conductance_length, resistivity);
+}
+
+}  // namespace rsc
