@@ -31,7 +31,8 @@ module rsc
     c_int32_t, c_int64_t
   implicit none
   private
-  public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version, rsc_stiffness_ratio
+  public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version
+  public :: rsc_stiffness_ratio, rsc_press_all
 
   !> Status codes.
   integer, parameter, public :: rsc_success = 0
@@ -131,6 +132,8 @@ module rsc
     procedure :: spots => contact_spots
     procedure :: per_asperity => contact_per_asperity
     procedure :: deflection => contact_deflection
+    procedure :: save => contact_save
+    procedure :: restore => contact_restore
     generic :: assignment(=) => copy
     procedure, private :: copy => contact_copy
     final :: contact_final
@@ -152,6 +155,8 @@ module rsc
     procedure :: slide => friction_slide
     procedure :: full_slip => friction_full_slip
     procedure :: spots => friction_spots
+    procedure :: save => friction_save
+    procedure :: restore => friction_restore
     generic :: assignment(=) => copy
     procedure, private :: copy => friction_copy
     final :: friction_final
@@ -525,6 +530,52 @@ module rsc
     function rsc_ticket_release(ticket) bind(c) result(code)
       import :: c_int32_t, c_int64_t
       integer(c_int64_t), intent(inout) :: ticket
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contacts_press(n, contacts, force, separation, status, threads) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      integer(c_int64_t), value :: n
+      type(c_ptr), intent(inout) :: contacts(*)
+      real(c_double), intent(in) :: force(*)
+      real(c_double), intent(inout), optional :: separation(*)
+      integer(c_int32_t), intent(inout), optional :: status(*)
+      integer(c_int32_t), value :: threads
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contacts_indent(n, contacts, separation, force, status, threads) bind(c) result(code)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      integer(c_int64_t), value :: n
+      type(c_ptr), intent(inout) :: contacts(*)
+      real(c_double), intent(in) :: separation(*)
+      real(c_double), intent(inout), optional :: force(*)
+      integer(c_int32_t), intent(inout), optional :: status(*)
+      integer(c_int32_t), value :: threads
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_save(contact, path) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_contact_restore(contact, asperities, path) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: contact
+      type(c_ptr), value :: asperities
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_friction_save(friction, path) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: friction
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: code
+    end function
+    function rsc_friction_restore(friction, asperities, path) bind(c) result(code)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), intent(inout) :: friction
+      type(c_ptr), value :: asperities
+      character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: code
     end function
     function rsc_tangential_ratio(E, nu, ratio) bind(c) result(code)
@@ -1574,6 +1625,32 @@ contains
     call finish(rsc_contact_deflection(reading(self%ticket), size(x, kind=c_int64_t), x, y, deflection), stat, errmsg)
   end subroutine
 
+  !> Keeps it in a file; see rsc.h.
+  subroutine contact_save(self, path, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_contact_save(changing(self%ticket), terminated(trim(path))), stat, errmsg)
+  end subroutine
+
+  !> What a file keeps, on the asperities it was saved with: both go on alike bit for bit.
+  subroutine contact_restore(self, asperities, path, stat, errmsg)
+    class(rsc_contact), intent(inout) :: self
+    class(rsc_asperities), intent(in) :: asperities
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_contact_restore(handle, reading(asperities%ticket), terminated(trim(path)))
+    call keep(self%ticket, rsc_kind_contact, handle, status)
+    if (status == rsc_success) status = rsc_asperities_count(reading(asperities%ticket), self%asperities)
+    call finish(status, stat, errmsg)
+  end subroutine
+
   subroutine contact_copy(self, original)
     class(rsc_contact), intent(inout) :: self
     class(rsc_contact), intent(in) :: original
@@ -1603,6 +1680,33 @@ contains
     type(rsc_contact), intent(inout) :: self
     integer(c_int32_t) :: status
     status = rsc_ticket_release(self%ticket)
+  end subroutine
+
+  !> Presses many contacts with a force each, shared out among threads (0: all the machine has); the separations, and what press tells of each.
+  subroutine rsc_press_all(contacts, force, separation, threads, each, stat, errmsg)
+    type(rsc_contact), intent(inout) :: contacts(:)
+    real(c_double), intent(in) :: force(:)
+    real(c_double), intent(inout), contiguous :: separation(:)
+    integer, intent(in), optional :: threads
+    integer(c_int32_t), intent(inout), contiguous, optional :: each(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handles(size(contacts))
+    integer :: i
+    integer(c_int32_t) :: team
+    logical :: same
+    same = size(force) == size(contacts) .and. size(separation) == size(contacts)
+    if (present(each)) same = same .and. size(each) == size(contacts)
+    if (.not. same) then
+      call refuse('rsc_press_all: the arrays are not of one size', stat, errmsg)
+      return
+    end if
+    team = 0
+    if (present(threads)) team = int(threads, c_int32_t)
+    do i = 1, size(contacts)
+      handles(i) = changing(contacts(i)%ticket)
+    end do
+    call finish(rsc_contacts_press(size(contacts, kind=c_int64_t), handles, force, separation, each, team), stat, errmsg)
   end subroutine
 
   ! --- friction ------------------------------------------------------------------------------------------------------------------------
@@ -1764,6 +1868,31 @@ contains
     if (present(force_x)) call move_alloc(force_x_, force_x)
     if (present(force_y)) call move_alloc(force_y_, force_y)
     if (present(asperity)) asperity = int(which) + 1
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Keeps it in a file; see rsc.h.
+  subroutine friction_save(self, path, stat, errmsg)
+    class(rsc_friction), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_friction_save(changing(self%ticket), terminated(trim(path))), stat, errmsg)
+  end subroutine
+
+  !> What a file keeps, on the asperities it was saved with: both go on alike bit for bit.
+  subroutine friction_restore(self, asperities, path, stat, errmsg)
+    class(rsc_friction), intent(inout) :: self
+    class(rsc_asperities), intent(in) :: asperities
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    type(c_ptr) :: handle
+    status = rsc_ticket_release(self%ticket)
+    handle = c_null_ptr
+    status = rsc_friction_restore(handle, reading(asperities%ticket), terminated(trim(path)))
+    call keep(self%ticket, rsc_kind_friction, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 

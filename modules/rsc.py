@@ -91,6 +91,12 @@ rsc_contact_energy(const rsc_contact* contact, double* energy)
 rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration)
 rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration)
 rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection)
+rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status, int32_t threads)
+rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status, int32_t threads)
+rsc_contact_save(rsc_contact* contact, const char* path)
+rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path)
+rsc_friction_save(rsc_friction* friction, const char* path)
+rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities, const char* path)
 rsc_tangential_ratio(const double* E, const double* nu, double* ratio)
 rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio)
 rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case)
@@ -787,6 +793,19 @@ class Contact(_Object):
         _call("rsc_contact_per_asperity", self, self._asperities, *spots[1:])
         return spots
 
+    def save(self, path):
+        """Keeps tip, options and last level in a file, from which restore() goes on bit for bit as this contact does. path: of the file. Raises
+        Error (file)."""
+        _call("rsc_contact_save", self, os.fspath(path))
+
+    @classmethod
+    def restore(cls, asperities, path):
+        """The contact of such a file. asperities: those it was saved with; path: of the file. Raises ArgumentError for other asperities or another
+        file, Error."""
+        self = cls._make("rsc_contact_restore", _given("asperities", asperities), os.fspath(path))
+        self._asperities = len(asperities)
+        return self
+
     def deflection(self, x, y):
         """The lowering of the surface by the contact forces [length], positive down, in the shape of x. x, y: places [length], numbers or
         arrays of float64 of equal shape. Raises ArgumentError if they are not finite or differ in shape, Error (no result)."""
@@ -868,6 +887,16 @@ class Friction(_Object):
         spots = SpotSlip(np.empty(n, np.int32), *np.empty((4, n)))
         _call("rsc_friction_spots", self, n, count, *spots)
         return spots
+
+    def save(self, path):
+        """Keeps the path and the committed state in a file, from which restore() goes on bit for bit. path: of the file. Raises Error (file)."""
+        _call("rsc_friction_save", self, os.fspath(path))
+
+    @classmethod
+    def restore(cls, asperities, path):
+        """The friction of such a file. asperities: those it was saved with; path: of the file. Raises ArgumentError for other asperities or another
+        file, Error."""
+        return cls._make("rsc_friction_restore", _given("asperities", asperities), os.fspath(path))
 
 
 def stiffness_ratio(E, nu):

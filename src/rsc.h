@@ -358,6 +358,33 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
+/* ---- many contacts, and contacts kept in files
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* rsc_contact_press for many contacts, shared out among threads. The answers do not depend on the threads.
+ * n: number of contacts, >= 0; contacts: different handles, which no other thread uses meanwhile; force: N >= 0 of each [force];
+ * separation (out, may be null): Z0 of each, unchanged where it failed [length]; status (out, may be null): what rsc_contact_press returns
+ * for each; threads: 1 or more, 0 for all the machine has. Errors: -1, -6 out of range; -2 null, a null handle, or one given twice; -3
+ * null with n > 0. Otherwise RSC_SUCCESS if all were, or the status of the first that was not, negative ones as -2. */
+RSC_API int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status,
+                                   int32_t threads);
+
+/* rsc_contact_indent for many contacts. Arguments and errors as above, with separation: Z0 of each [length]; force (out, may be null): N of
+ * each [force]. */
+RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status,
+                                    int32_t threads);
+
+/* Keeps a contact in a file: tip, options and the last level; not the asperities. The contact that was saved and the one restored go on
+ * alike bit for bit: for that, earlier levels stop to be starts for the next ones (answers after a save may differ from those without it
+ * by the tolerance). The file is of this machine's kind and of this version of the library. An existing file is replaced at once or not
+ * at all. contact: the contact, elastic; path: the file. Errors: -1 null, or not elastic; -2 null or empty; RSC_FILE; RSC_NO_MEMORY;
+ * RSC_INTERNAL. */
+RSC_API int32_t rsc_contact_save(rsc_contact* contact, const char* path);
+
+/* The contact of such a file. contact (out): the handle; asperities: those it was saved with, or ones equal to them bit for bit; path: the
+ * file. Errors: -1, -2 null; -2 other asperities; -3 null, empty, or no such file of this version; RSC_FILE; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path);
+
 /* ---- friction
  * ------------------------------------------------------------------------------------------------------------------
  * A contact led along any path of separation Z0 and slide (x, y): the displacement of the sphere's body sideways against that of the
@@ -443,6 +470,13 @@ RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* sli
  * RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius, double* stick_radius,
                                    double* force_x, double* force_y);
+
+/* Keeps friction with its path, and the committed state, in a file, as rsc_contact_save does. friction: the friction; path: the file.
+ * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_friction_save(rsc_friction* friction, const char* path);
+
+/* The friction of such a file. friction (out): the handle; asperities, path and errors as of rsc_contact_restore. */
+RSC_API int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities, const char* path);
 
 #ifdef __cplusplus
 }

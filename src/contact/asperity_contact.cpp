@@ -212,6 +212,13 @@ void AsperityContact::accept() {
     if (impl_->law->path_dependent()) impl_->law->commit(set.size(), set.asperity.data(), impl_->solution.v.data());
 }
 
+void AsperityContact::forget() {
+    impl_->earlier = {};
+    impl_->candidates = {};
+    impl_->solution.clear();
+    impl_->ranking.assign(impl_->asperities, impl_->indenter);
+}
+
 bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
 
 double AsperityContact::tolerance() const { return impl_->options.tolerance; }

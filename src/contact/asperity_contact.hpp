@@ -28,6 +28,9 @@ public:
     const Indenter& indenter() const override;
     bool path_dependent() const override;
 
+    // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
+    void forget();
+
 protected:
     // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is
     // proved unique, and not otherwise.

@@ -20,6 +20,9 @@ public:
     double stiffness(double delta) override;
     double approach(double force) override;
 
+    // The levels at hand are asked for anew, as by a curve newly made. The contacts have to forget theirs, too.
+    void forget() { last_[0].reset(), last_[1].reset(); }
+
     // Levels computed so far, and those of them that did not converge.
     long levels() const { return levels_; }
     long failed() const { return failed_; }

@@ -1,7 +1,7 @@
 ! The Fortran module: values against closed forms, arrays of every kind, failures told and not told, copies, finalisers.
 program test_api
   use rsc
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   implicit none
   real(dp), parameter :: pi = acos(-1.0_dp), E = 2.0e5_dp, u = 1.0e-3_dp
   integer :: checks = 0, failures = 0
@@ -201,7 +201,11 @@ contains
   subroutine friction()
     type(rsc_asperities) :: asperities
     type(rsc_contact) :: contact
-    type(rsc_friction) :: path, other
+    type(rsc_friction) :: path, other, again
+    type(rsc_contact) :: kept(2)
+    real(dp) :: places(2)
+    integer(c_int32_t) :: each(2)
+    integer :: unit
     real(dp), parameter :: r = 2.0e-3_dp, mu = 0.3_dp, z = 0.01_dp
     real(dp) :: N, Q(2), m, slide, most, force(3), stick(3), k(2, 2), lost, energies(2), before
     real(dp), allocatable :: radius(:), inner(:), share(:)
@@ -240,6 +244,25 @@ contains
     call check(before >= Q(1) .and. before <= Q(1), 'a copy goes its own way')
     call close_to(energies(1), 0.4_dp * N * u, 1e-9_dp, 'energy')
     call check(energies(2) > 0 .and. lost > 0, 'stored and lost')
+    call path%save('test_api_friction.kept')
+    call again%restore(asperities, 'test_api_friction.kept')
+    call again%state(force_x=share(1))
+    call path%state(force_x=before)
+    call check(share(1) >= before .and. share(1) <= before, 'friction from a file')
+    call contact%indent(z - u)
+    call contact%save('test_api_friction.kept')
+    call kept(2)%restore(asperities, 'test_api_friction.kept')
+    call check(kept(2)%force() >= contact%force() .and. kept(2)%force() <= contact%force(), 'contact from a file')
+    call again%restore(asperities, 'test_api_friction.kept', stat, errmsg)
+    call check(stat == -3 .and. index(errmsg, 'friction') > 0, 'a contact is no friction')
+    open (newunit=unit, file='test_api_friction.kept')
+    close (unit, status='delete')
+    kept(1) = contact
+    call rsc_press_all(kept, [N, 2 * N], places, threads=2, each=each)
+    call contact%press(2 * N, separation=before)
+    call check(places(2) >= before .and. places(2) <= before .and. all(each == 0), 'pressed together')
+    call rsc_press_all(kept, [N, -N], places, each=each, stat=stat)
+    call check(stat == -2 .and. each(2) == -2 .and. each(1) == 0, 'one of them refused')
     call path%rollback()
     call path%state(force_x=before)
     call check(abs(before) <= 0, 'rolled back')

@@ -406,6 +406,15 @@ class TestFriction(unittest.TestCase):
         spots = friction.spots()
         self.assertEqual(spots.asperity.tolist(), [0])
         np.testing.assert_allclose(spots.stick_radius / spots.radius, np.sqrt(1 - x[2] / slide), rtol=1e-6)
+        with tempfile.TemporaryDirectory() as folder:
+            friction.save(os.path.join(folder, "friction"))
+            contact.indent(0.0095)
+            contact.save(os.path.join(folder, "contact"))
+            again = rsc.Friction.restore(asperities, os.path.join(folder, "friction"))
+            self.assertEqual(again.state(), friction.state())
+            self.assertEqual(rsc.Contact.restore(asperities, os.path.join(folder, "contact")).force, contact.force)
+            with self.assertRaisesRegex(rsc.ArgumentError, "contact with friction"):
+                rsc.Friction.restore(asperities, os.path.join(folder, "contact"))
         copy = friction.copy()
         friction.rollback()
         self.assertEqual((friction.state().force_x, copy.state().force_x), (0, Qx))
