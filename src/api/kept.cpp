@@ -121,6 +121,14 @@ void visit_state(Archive& archive, State& state) {
     archive(state.begun), archive(state.delta), archive(state.xi), archive(state.nodes), archive(state.lost), archive(state.step_lost);
 }
 
+// What a handle knows of its last level beside the level itself.
+template <class Archive, class Handle>
+void visit_known(Archive& archive, Handle& contact) {
+    archive(contact.energy);
+    if constexpr (requires { contact.moved; }) archive(contact.moved);
+    if constexpr (requires { contact.lateral; }) archive(contact.lateral);
+}
+
 // What makes a contact of the same asperities.
 void put_making(Writer& writer, const rsc_contact& contact) {
     writer(digest(contact.on->asperities));
@@ -205,7 +213,7 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
         writer(contact->level.has_value());
         if (contact->level) {
             visit(writer, std::as_const(*contact->level));
-            writer(contact->energy);
+            visit_known(writer, *contact);
         }
         write(path, "a contact", writer.bytes);
         contact->contact.forget();
@@ -226,7 +234,7 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
             if (has_level) {
                 rsc::Level level;
                 visit(reader, level);
-                reader(made->energy);
+                visit_known(reader, *made);
                 (void)made->contact.at_separation(level.separation);
                 made->level = std::move(level);
             }
