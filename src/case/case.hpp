@@ -76,7 +76,14 @@ struct Case {
         int max_iterations = 100;
         double delta0 = 0.01;
         Interaction interaction = Interaction::point;
+        Model model = Model::asperities;
     } solver;
+    struct Elements {
+        double points_per_wave = 8;
+    } elements;
+    struct Compare {
+        std::vector<double> levels;  // in `unit` of the indentation; empty: nothing is compared
+    } compare;
     struct Output {
         std::string file = "output/rsc.nc";
         Format format = Format::netcdf4;

@@ -155,6 +155,20 @@ std::vector<Key> make_registry() {
         one_of("solver", "interaction", names(kInteractionNames), "how an asperity lowers the surface elsewhere: as a point force, or not",
                RSC_CHOICE(solver.interaction)),
 
+        one_of(
+            "solver", "model", names(kModelNames),
+            "what touches: the summits as asperities, or every point of the surface (no asperities; slower, and the truth they approximate)",
+            RSC_CHOICE(solver.model)),
+
+        scalar("elements", "points_per_wave", real, "1", between(4, 64),
+               "grid steps in the shortest wavelength for model = 'elements' and &compare; a measured map is taken as it is",
+               RSC_SLOT(elements.points_per_wave)),
+
+        list("compare", "levels", 1000, "`unit` of the indentation", "nothing is compared",
+             "after the run the level nearest to each of these once more by elements, on the first realization: the error of the asperity "
+             "model on this very surface",
+             RSC_SLOT(compare.levels)),
+
         changing(Changes::file, text("output", "file", 4096, "the result file", RSC_SLOT(output.file))),
         changing(Changes::file, one_of("output", "format", names(kFormatNames), "format of the result file", RSC_CHOICE(output.format))),
         one_of("output", "contacts", names(kContactsNames),
@@ -181,6 +195,8 @@ constexpr std::pair<const char*, const char*> kGroups[] = {
     {"asperities", "what becomes of its summits"},
     {"indentation", "the levels of the indentation"},
     {"solver", "how the contact problem is solved"},
+    {"elements", "the grid of the surface where no asperities stand for it"},
+    {"compare", "asperities against elements"},
     {"output", "the result file"},
     {"study", "lists of values for any keys, a run for each: surface%sigma = 0.001, 0.01  mode = 'product' ('zip')"},
 };

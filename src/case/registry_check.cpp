@@ -23,6 +23,7 @@ public:
         check_units();
         check_solids();
         check_surface();
+        check_elements();
         check_levels();
         check_sizes();
         return std::move(problems_);
@@ -133,6 +134,26 @@ private:
                          "centre = " + get_key(c_, "indentation%centre") + ": must lie on the surface, 0 to L = " + namelist::from_real(L));
                 break;
             }
+    }
+
+    void check_elements() {
+        const bool elements = c_.solver.model == Model::elements, compare = !c_.compare.levels.empty();
+        if (!elements && !compare) return;
+        const char* const key = elements ? "solver%model" : "compare%levels";
+        const std::string what = elements ? "model = 'elements'" : "levels";
+        if (c_.surface.source == Source::asperities)
+            complain({key, "surface%source"}, what + ": elements need a surface, and source = 'asperities' has only summits");
+        if (elements && compare)
+            complain({"compare%levels", "solver%model"}, "levels: they are of the asperity model, and model = 'elements' has none");
+        if (elements && c_.solver.method != Method::automatic)
+            complain({"solver%method", "solver%model"},
+                     "method = " + get_key(c_, "solver%method") + ": is one of model = 'asperities'; elements have one way, 'auto'");
+        if (c_.solver.interaction != Interaction::point)
+            complain({key, "solver%interaction"}, what + ": elements act on each other, interaction = 'none' is for asperities");
+        if (c_.surface.source == Source::synthetic && c_.elements.points_per_wave * c_.surface.L_lambda_s > 32768)
+            complain({"elements%points_per_wave", "surface%L_lambda_s"},
+                     "points_per_wave = " + namelist::from_real(c_.elements.points_per_wave) + ": makes a grid of " +
+                         count(std::ceil(c_.elements.points_per_wave * c_.surface.L_lambda_s)) + " points a side, and 32768 is the most");
     }
 
     void check_levels() {

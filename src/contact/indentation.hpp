@@ -14,6 +14,8 @@ namespace rsc {
 // Enumerations with their spellings, in their order, as the namelist and result files have them.
 enum class Method : std::int32_t { automatic, dgesv, direct, mesh };
 inline constexpr std::array kMethodNames = {"auto", "dgesv", "direct", "mesh"};
+enum class Model : std::int32_t { asperities, elements };  // asperity_contact.hpp, element_contact.hpp
+inline constexpr std::array kModelNames = {"asperities", "elements"};
 enum class Selection { overlap, paper };
 inline constexpr std::array kSelectionNames = {"overlap", "paper"};
 enum class Interaction { point, none };

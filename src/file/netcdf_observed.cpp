@@ -202,14 +202,51 @@ void ResultTable::contacts() {
     };
     NetcdfAttributes start = from_one;
     append(start, comment("level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"));
-    add("contact_start", {"step"}, "1", "first contact of the level in contact_asperity, contact_force, contact_radius", plus_one(c.start),
-        start);
+    add("contact_start", {"step"}, "1", "first contact of the level in the variables of dimension contact", plus_one(c.start), start);
     add("contact_count", {"step"}, "1", "contacts kept of the level", c.count);
-    if (c.asperity.empty()) return;
-    file_.dimension("contact", c.asperity.size());
-    add("contact_asperity", {"contact"}, "1", "asperity of the contact", plus_one(c.asperity), from_one);
+    if (c.force.empty()) return;
+    file_.dimension("contact", c.force.size());
+    if (!c.asperity.empty()) add("contact_asperity", {"contact"}, "1", "asperity of the contact", plus_one(c.asperity), from_one);
+    if (!c.x.empty()) {
+        const std::string what = " of the middle of the contact's pressure";
+        add("contact_x", {"contact"}, unit(1), "x" + what, c.x);
+        add("contact_y", {"contact"}, unit(1), "y" + what, c.y, comment("a contact is a set of pixels connected by their sides"));
+    }
     add("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
     add("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
+}
+
+void ResultTable::compared() {
+    const ComparedLevels& c = r_.compared;
+    if (c.step.empty()) return;
+    file_.dimension("compare", c.step.size());
+    std::vector<std::int32_t> step = c.step;
+    for (std::int32_t& s : step) ++s;
+    const Names dims{"compare"};
+    const std::string by = " by elements";
+    add("compare_step", dims, "1", "number of the level that was solved once more by elements", step,
+        {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "of the first realization"}});
+    add("compare_separation", dims, unit(1), "separation of that level, Z0", c.separation);
+    add("compare_force", dims, unit(0, 1), "normal force" + by, c.force);
+    add("compare_contact_area", dims, unit(2), "true contact area" + by, c.area);
+    add("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, not corrected for their border", c.area_pixels);
+    add("compare_contacts", dims, "1", "number of contacts" + by, c.contacts, comment("sets of pixels connected by their sides"));
+    add("compare_residual", dims, "1", "what the conditions of contact miss", c.residual);
+    const std::string over = "of asperities over that of elements, less 1";
+    add_absent("force_error", dims, "1", "force " + over, c.force_error);
+    add_absent("area_error", dims, "1", "contact area " + over, c.area_error);
+    add_absent("contacts_error", dims, "1", "number of contacts " + over, c.contacts_error);
+    const LevelPixels& p = c.pixels;
+    if (p.index.empty()) return;
+    file_.dimension("compare_pixel", p.index.size());
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < p.index.size(); ++k) x.push_back(p.x(k)), y.push_back(p.y(k));
+    const std::string last = " of the last level compared";
+    add("compare_pixel_x", {"compare_pixel"}, unit(1), "x of the pixels under pressure" + last, x,
+        {{"pixel_size", std::vector<double>{p.dx}}});
+    add("compare_pixel_y", {"compare_pixel"}, unit(1), "y of the pixels under pressure" + last, y,
+        {{"pixel_size", std::vector<double>{p.dy}}});
+    add("compare_pixel_pressure", {"compare_pixel"}, unit(-2, 1), "pressure on those pixels", p.pressure);
 }
 
 void ResultTable::heights() {

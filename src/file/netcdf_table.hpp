@@ -45,6 +45,7 @@ public:
         distributions();
         asperities();
         contacts();
+        compared();
         heights();
         return std::move(file_);
     }
@@ -80,6 +81,7 @@ private:
     void spot_area();
     void asperities();
     void contacts();
+    void compared();
     void heights();
 
     std::string unit(int length_power, int force_power = 0) const { return unit_of(length_, length_power, force_, force_power); }

@@ -64,13 +64,18 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         const Level& level = levels[s];
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
         const std::size_t count = kept ? level.asperity.size() : 0;
-        if (packed.asperity.size() + count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+        if (packed.force.size() + count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
             throw Error(Failure::bad_input,
                         "&output contacts: more contacts than the result file can number; use contacts='last' or 'none'");
-        packed.start.push_back(static_cast<std::int32_t>(packed.asperity.size()));
+        packed.start.push_back(static_cast<std::int32_t>(packed.force.size()));
         packed.count.push_back(static_cast<std::int32_t>(count));
         if (!kept) continue;
-        packed.asperity.insert(packed.asperity.end(), level.asperity.begin(), level.asperity.end());
+        if (level.pixels.index.empty()) {
+            packed.asperity.insert(packed.asperity.end(), level.asperity.begin(), level.asperity.end());
+        } else {
+            packed.x.insert(packed.x.end(), level.x.begin(), level.x.end());
+            packed.y.insert(packed.y.end(), level.y.begin(), level.y.end());
+        }
         packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
         packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
     }

@@ -38,7 +38,8 @@ struct Domain {
 // and from 1 in the file.
 struct PackedContacts {
     std::vector<std::int32_t> start, count;  // [step]; empty: contacts are not kept
-    std::vector<std::int32_t> asperity;      // index of the asperity, from 0
+    std::vector<std::int32_t> asperity;      // index of the asperity, from 0; elements: empty
+    std::vector<double> x, y;                // centroid of the contact's pressure; asperities: empty
     std::vector<double> force, radius;
 };
 
@@ -47,6 +48,16 @@ struct FrictionLoops {
     std::size_t first = 0, points = 0;          // of a row: of first loading, in all; 0: there is no friction
     std::vector<double> displacement, force;    // [step][point] [length], [force]
     std::vector<double> stiffness, cycle_work;  // [step] [force/length], [force length]
+};
+
+// Levels of the asperity model once more by elements (&compare), a value each.
+struct ComparedLevels {
+    std::vector<std::int32_t> step;  // the level, from 0
+    std::vector<std::int32_t> contacts;
+    std::vector<double> separation, force, area, area_pixels, residual;
+    std::vector<double> force_error, area_error, contacts_error;  // asperities over elements - 1
+    LevelPixels pixels;                                           // of the last one
+    long failed = 0;                                              // levels at which elements did not converge
 };
 
 struct Result {
@@ -63,6 +74,7 @@ struct Result {
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
+    ComparedLevels compared;                   // empty: not written
 };
 
 // What the case keeps of the contacts: `automatic` resolved to all for one realization and none for more.

@@ -39,6 +39,26 @@ void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
     }
 }
 
+// The pressures of pixels, each with its area; contacts are what is independent of each other.
+void add_pixels(AreaHistogram& h, const Level& level, double width) {
+    const LevelPixels& pixels = level.pixels;
+    const double area = pixels.dx * pixels.dy;
+    std::vector<double> of_contact(level.a.size(), 0.0);
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+        const double p = pixels.pressure[k], position = p / width;
+        if (position < static_cast<double>(h.area.size()))
+            h.area[static_cast<std::size_t>(position)] += area;
+        else
+            h.overflow += area;
+        h.total += area;
+        of_contact[static_cast<std::size_t>(pixels.contact[k])] += area;
+        double power = area;
+        for (double& sum : h.power) sum += power *= p;
+    }
+    if (!pixels.index.empty())
+        for (double a : of_contact) h.squares += a * a;
+}
+
 void add(CountHistogram& a, const CountHistogram& b) {
     for (std::size_t i = 0; i < a.count.size(); ++i) a.count[i] += b.count[i];
     a.overflow += b.overflow;
@@ -98,8 +118,9 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         const double p = level.f[k] / area;
         count_value(d.mean_pressure, p, bins.mean_pressure_width());
         count_value(d.spot_area, area, bins.area_width());
-        spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
+        if (level.pixels.index.empty()) spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
     }
+    add_pixels(d.pressure, level, bins.pressure_width());
     return d;
 }
 

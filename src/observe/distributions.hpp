@@ -56,7 +56,7 @@ struct Distributions {
 };
 
 // One level. Mean pressure p = f/(pi a^2); each contact gives the point pressure its own density 2 p/p0^2 on [0, p0], p0 = 1.5
-// f/(pi a^2), integrated exactly over each bin. Contacts of no area are left out.
+// f/(pi a^2), integrated exactly over each bin. Contacts of no area are left out. A level with pixels gives the point pressures of those.
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step);
 
 // a += b, in the fixed order the caller gives.

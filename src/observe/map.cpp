@@ -34,18 +34,24 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
 MapLevel map_level(const MapGrid& grid, const Level& level) {
     struct Entry {
         std::int32_t cell;
-        std::size_t contact;
+        std::size_t place;
     };
     MapLevel map;
     std::vector<Entry> entries;
-    entries.reserve(level.asperity.size());
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        const int cell = grid.cell(level.x[k], level.y[k]);
-        if (cell < 0)
-            ++map.outside;
-        else
-            entries.push_back({cell, k});
+    // What a level puts on the map: its pixels where it has them, each with its share of its contact's area, or its contacts.
+    const LevelPixels& pixels = level.pixels;
+    const bool by_pixels = !pixels.index.empty();
+    const std::size_t n = by_pixels ? pixels.index.size() : level.asperity.size();
+    entries.reserve(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const int cell = by_pixels ? grid.cell(pixels.x(k), pixels.y(k)) : grid.cell(level.x[k], level.y[k]);
+        if (cell >= 0) entries.push_back({cell, k});
     }
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) map.outside += grid.cell(level.x[k], level.y[k]) < 0;
+    std::vector<double> share(by_pixels ? level.a.size() : 0, 0.0);
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) share[static_cast<std::size_t>(pixels.contact[k])] += 1;
+    const auto area_of = [&](std::size_t contact) { return std::numbers::pi * level.a[contact] * level.a[contact]; };
+    for (std::size_t c = 0; c < share.size(); ++c) share[c] = area_of(c) / share[c];
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
     for (const Entry& e : entries) {
         if (map.cell.empty() || map.cell.back() != e.cell) {
@@ -53,8 +59,8 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
             map.area.push_back(0);
             map.force.push_back(0);
         }
-        map.area.back() += std::numbers::pi * level.a[e.contact] * level.a[e.contact];
-        map.force.back() += level.f[e.contact];
+        map.area.back() += by_pixels ? share[static_cast<std::size_t>(pixels.contact[e.place])] : area_of(e.place);
+        map.force.back() += by_pixels ? pixels.pressure[e.place] * pixels.dx * pixels.dy : level.f[e.place];
     }
     return map;
 }

@@ -37,7 +37,7 @@ struct MapLevel {
     std::int32_t outside = 0;   // contacts outside the map: in the level's sums, in no cell
 };
 
-// Sums run over the contacts in their order in `level`.
+// Sums run over the contacts, or the pixels of a level that has them, in their order in `level`.
 MapLevel map_level(const MapGrid& grid, const Level& level);
 
 // The area fraction beyond which a cell of contacts counts as crowded: spots in a square array touch at pi/4; interaction by

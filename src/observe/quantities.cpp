@@ -12,16 +12,21 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "force", .member = &V::force, .force_power = 1, .meaning = "normal force on the sphere, N",
      .comment = "N = sum of the forces f of the contacts", .statistics = true, .plain = "force", .heading = "N", .width = 14, .digits = 8},
     {.name = "contact_area", .member = &V::area, .length_power = 2, .meaning = "true contact area, A",
-     .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area of the union of their elliptic spots",
+     .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area of the union of their elliptic spots; "
+                "elements: pixels under pressure, corrected for their border",
      .statistics = true, .plain = "contact area", .heading = "A", .width = 14, .digits = 8},
-    {.name = "contacts", .member = &V::contacts, .meaning = "number of asperities in contact",
+    {.name = "contact_area_pixels", .member = &V::area_pixels, .length_power = 2,
+     .meaning = "area of the pixels under pressure, not corrected for their border",
+     .comment = "elements: contact_area is this less (pi - 1 + ln 2)/24 of a pixel for each side of the border", .always = false},
+    {.name = "contacts", .member = &V::contacts, .meaning = "number of contacts",
      .heading = "contacts", .width = 9},
-    {.name = "candidates", .member = &V::candidates, .meaning = "number of asperities given to the solver", .heading = "candidates", .width = 10},
-    {.name = "iterations", .member = &V::iterations, .meaning = "Newton iterations",
+    {.name = "candidates", .member = &V::candidates, .meaning = "number of places (asperities, pixels) given to the solver", .heading = "candidates", .width = 10},
+    {.name = "iterations", .member = &V::iterations, .meaning = "Newton iterations; elements: sets of pixels under pressure tried",
      .heading = "steps", .width = 5},
     {.name = "residual", .member = &V::residual,
      .meaning = "relative residual of F - C<G0 - B F>^(3/2)",
-     .comment = "unregularised, over all candidates: it says whether the forces are right", .heading = "residual", .width = 9},
+     .comment = "unregularised, over all candidates: it says whether the forces are right; elements: rms of the gap under pressure and of "
+                "penetrations left, over the mean overlap under pressure", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "how the level ended",
      .comment = "1: contacts with a > <d>/4, beyond the law or near the border (large_contacts, beyond_law, edge_contacts), contact_area above "
                 "nominal_area, or Z0 below -3 sigma; 2: contacts overlap, d < a_i + a_j; 3: a local "

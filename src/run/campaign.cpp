@@ -17,6 +17,7 @@
 #include "run/campaign_archive.hpp"
 #include "run/campaign_screen.hpp"
 #include "run/checkpoint.hpp"
+#include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "version.h"
@@ -147,7 +148,13 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 
     if (state.added() != total) throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
     Observations observations = state.sums().finish();
+    const std::vector<LevelValues> first(observations.rows.begin(),
+                                         observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
+    ComparedLevels compared = compare_levels(*job, settings.run.first_realization, 1, first, table, [] { return caught_signal() != 0; });
+    if (const int signal = caught_signal())
+        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; " + how_far(state, settings) + ": " + kGoesOn);
     Result result = make_result(settings, case_text(settings), job->indenter, job->sigma, job->theory, std::move(observations));
+    result.compared = std::move(compared);
     try {
         write_result(result, file, {settings.output.format, settings.output.compression, options.command});
     } catch (const Error& error) {
@@ -155,7 +162,8 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
                                       ": the same command with --resume writes the file without computing them again");
     }
     checkpoint.remove();
-    const RunSummary summary = campaign_summary(result.observations);
+    RunSummary summary = campaign_summary(result.observations);
+    summary.failed += result.compared.failed;
     if (table) print_campaign_summary(*table, *job, result.observations, seconds(), file, replaces);
     tell_failed(options, summary);
     return summary;

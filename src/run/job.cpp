@@ -1,8 +1,11 @@
 #include "run/job.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "contact/answers.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"
 #include "read/file_list.hpp"
@@ -51,6 +54,8 @@ void move_to(const Domain& place, Ground& ground, std::int64_t number) {
 Job prepare(const Case& settings) {
     Job job;
     job.settings = settings;
+    const bool elements = settings.solver.model == Model::elements;
+    if (elements || !settings.compare.levels.empty()) require_element_memory(settings);
     double sqrt_m4;
     if (has_spectrum(settings)) {
         job.spectrum = spectrum_of(settings);
@@ -61,14 +66,14 @@ Job prepare(const Case& settings) {
         Ground ground;
         if (settings.surface.source == Source::heights) {
             Surface surface = make_surface(settings, settings.run.first_realization, 1);
-            ground = make_ground(surface, settings, 1);
-            if (settings.output.heights) job.given_heights = std::move(surface.map);
+            ground = elements ? make_bare_ground(surface) : make_ground(surface, settings, 1);
+            if (settings.output.heights || elements || !settings.compare.levels.empty()) job.given_heights = std::move(surface.map);
         } else {
             ground = make_ground(settings, 1, 1);
         }
         job.site = ground.site;
         job.measured = ground.measured;
-        sqrt_m4 = ground.statistics.m4 > 0 ? std::sqrt(ground.statistics.m4) : typical_sqrt_m4(ground.asperities);
+        sqrt_m4 = ground.statistics.m4 > 0 ? std::sqrt(ground.statistics.m4) : elements ? 0.0 : typical_sqrt_m4(ground.asperities);
         if (!differs_by_realization(settings) || settings.run.realizations == 1) job.given = std::move(ground);
         if (differs_by_realization(settings)) require_maps(settings);
     }
@@ -93,14 +98,27 @@ Job prepare(const Case& settings) {
 Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
-    Ground ground = job.spectrum ? make_ground(settings, *job.spectrum, number, threads)
-                    : job.given  ? *job.given
-                                 : make_ground(settings, number, threads);
-    if (settings.surface.source == Source::heights) move_to(job.site.domain, ground, number);
-    r.asperities = std::move(ground.asperities);
-    r.statistics = ground.statistics;
-    AsperityContact contact(r.asperities, job.indenter, job.solver);
+    std::unique_ptr<Contact> contact;
+    if (settings.solver.model == Model::elements) {
+        if (job.given) {
+            r.statistics = job.given->statistics;
+        } else {
+            Surface surface = make_element_surface(settings, number, threads);
+            if (!job.spectrum) surface.map.x0 = job.site.domain.x0, surface.map.y0 = job.site.domain.y0;  // one of several maps
+            r.statistics = make_bare_ground(surface).statistics;
+            r.heights = std::move(surface.map);
+        }
+        contact = std::make_unique<ElementContact>(job.given ? *job.given_heights : *r.heights, job.indenter, job.solver);
+    } else {
+        if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
+        Ground ground = job.spectrum ? make_ground(settings, *job.spectrum, number, threads)
+                        : job.given  ? *job.given
+                                     : make_ground(settings, number, threads);
+        if (settings.surface.source == Source::heights) move_to(job.site.domain, ground, number);
+        r.asperities = std::move(ground.asperities);
+        r.statistics = ground.statistics;
+        contact = std::make_unique<AsperityContact>(r.asperities, job.indenter, job.solver);
+    }
     std::optional<FrictionRows> friction;
     if (settings.solids.friction > 0) {
         const auto another = [&] { return std::make_unique<AsperityContact>(r.asperities, job.indenter, job.solver); };
@@ -109,15 +127,17 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     r.levels.reserve(job.levels.size());
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (settings.indentation.control == Control::force) {
-            r.levels.push_back(contact.at_force(job.levels[k]));
+            r.levels.push_back(contact->at_force(job.levels[k]));
         } else {
-            r.levels.push_back(contact.at_separation(job.levels[k]));
+            r.levels.push_back(contact->at_separation(job.levels[k]));
         }
         Level& level = r.levels.back();
-        add_answers(contact, level, settings.solids.resistivity);
+        add_answers(*contact, level, settings.solids.resistivity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
         if (on_level && !on_level(k, r.levels.back())) break;
     }
+    contact.reset();
+    if (!settings.output.heights) r.heights.reset();
     return r;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "contact/asperity_contact.hpp"
+#include "contact/contact.hpp"
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
@@ -28,7 +28,7 @@ struct Job {
     // What was read, if it is the same in every realization.
     std::optional<Ground> given;
     std::shared_ptr<const Measured> measured;  // of a measured map, the first of several
-    std::optional<HeightMap> given_heights;    // if the case wants them
+    std::optional<HeightMap> given_heights;    // if the case, or its elements, want them
 };
 
 // Reads what the case names, works out levels, domain and ranges. Throws Error(bad_input) for what cannot be run.

@@ -1,5 +1,7 @@
 #include "run/prepare.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -104,7 +106,8 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
     surface.origin.sigma = spectrum.sigma;
     surface.origin.points_per_wave = keys.n / spectrum.L_lambda_s;
     surface.origin.theory = theoretical_moments(spectrum);
-    surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, nullptr, threads);
+    surface.origin.sampled.emplace();
+    surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, &*surface.origin.sampled, threads);
     return surface;
 }
 
@@ -112,6 +115,38 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
     if (has_spectrum(settings)) return make_surface(settings, spectrum_of(settings), number, threads);
     if (settings.surface.source == Source::heights) return read_map(settings, map_file(settings.surface.file, number));
     throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
+}
+
+int element_points(const Case& settings) {
+    // The next even number whose transforms are fast.
+    int n = static_cast<int>(std::ceil(settings.elements.points_per_wave * spectrum_of(settings).L_lambda_s));
+    for (n += n % 2;; n += 2) {
+        int rest = n;
+        for (int factor : {2, 3, 5, 7})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
+
+void require_element_memory(const Case& settings) {
+    if (!has_spectrum(settings)) return;
+    const int n = element_points(settings);
+    const double bytes = 8.0 * n * n, memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    constexpr double beside = 1.5;  // the modes of the surface while it is made, the pixels in contact later
+    if (!(memory > 0) || beside * bytes <= memory) return;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "&elements points_per_wave = %g: the heights, %d x %d points, take %.3g GB, and the machine has %.3g GB of memory; take "
+                  "fewer points a wave or a smaller surface%%L_lambda_s",
+                  settings.elements.points_per_wave, n, n, 1e-9 * bytes, 1e-9 * memory);
+    throw Error(Failure::bad_input, text);
+}
+
+Surface make_element_surface(const Case& settings, std::int64_t number, int threads) {
+    if (!has_spectrum(settings)) return make_surface(settings, number, threads);
+    Case finer = settings;
+    finer.surface.n = element_points(settings);
+    return make_surface(finer, number, threads);
 }
 
 Site synthetic_site(const Spectrum& spectrum) {
@@ -145,25 +180,38 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     ground.asperities =
         find_asperities(map, settings.asperities.curvature, &count, threads, detail_of(settings), surface.origin.points_per_wave);
     if (const auto& measured = surface.origin.measured) {
-        ground.measured = measured;
         drop_near_filled(ground.asperities, count, map, measured->filled, measured->shortest_wave());
     }
     require_summits(ground, surface.origin.name,
                     map.periodic                          ? ""
                     : detail_of(settings) == Detail::grid ? " inside the map"
                                                           : " " + std::to_string(kMeasuredReach) + " or more points inside the map");
+    const Ground bare = make_bare_ground(surface);
+    ground.site = bare.site;
+    ground.statistics = bare.statistics;
+    ground.measured = bare.measured;
+    if (!surface.origin.theory) ground.site.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(ground.asperities.size()));
+    count_summits(count, ground.statistics);
+    return ground;
+}
+
+Ground make_bare_ground(const Surface& surface) {
+    const HeightMap& map = surface.map;
+    Ground ground;
+    ground.measured = surface.origin.measured;
     ground.site.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
     ground.site.sigma = surface.origin.sigma;
-    if (surface.origin.theory)
-        ground.site.mean_spacing = surface.origin.theory->mean_spacing();
-    else
-        ground.site.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(ground.asperities.size()));
+    if (surface.origin.theory) ground.site.mean_spacing = surface.origin.theory->mean_spacing();
     auto& s = ground.statistics;
     const Moments grid = grid_moments(map);
     s.sigma = surface.origin.sigma;
     s.m2 = s.m2_grid = grid.m2;
     s.m4 = s.m4_grid = grid.m4;
-    count_summits(count, s);
+    if (surface.origin.sampled) {
+        s.sigma = std::sqrt(surface.origin.sampled->m0);
+        s.m2 = surface.origin.sampled->m2;
+        s.m4 = surface.origin.sampled->m4;
+    }
     return ground;
 }
 

@@ -30,6 +30,7 @@ struct Origin {
     double sigma = 0;                          // rms height that is meant: the one asked for, or what detrending left [length]
     double points_per_wave = 0;                // grid steps in the shortest wave of a synthetic surface; 0: not known
     std::optional<Moments> theory;             // of a synthetic surface
+    std::optional<Moments> sampled;            // of a synthetic surface by its modes
     std::string name = "the surface";          // what messages call it
     std::shared_ptr<const Measured> measured;  // what was done to a measured map; null for others
 };
@@ -44,6 +45,15 @@ struct Surface {
 // Throws Error(bad_input) for a source that has no heights, and as synthesize and read_heights do.
 Surface make_surface(const Case& settings, std::int64_t number, int threads);
 Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
+
+// Points a side of the grid of elements on a synthetic surface: points_per_wave in the shortest wave, or a few more.
+int element_points(const Case& settings);
+
+// Throws Error(bad_input) saying how much memory that grid takes when the machine has less.
+void require_element_memory(const Case& settings);
+
+// The same surface for elements: on that grid, or as measured.
+Surface make_element_surface(const Case& settings, std::int64_t number, int threads);
 
 // What a contact has to know of the surface beside its asperities.
 struct Site {
@@ -82,6 +92,9 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
 // Throws Error(bad_input) unless the tip at (x, y) is above the surface: on its rectangle, or where that is guessed no farther from it
 // than the sphere's radius R. For every place where a tip is put.
 void require_tip_above(const Site& site, double R, double x, double y);
+
+// The same without asperities, for elements: summits are not looked for.
+Ground make_bare_ground(const Surface& surface);
 
 // E* and R from &solids, the tip above indentation%centre, by default the middle of the surface.
 Indenter indenter_of(const Case& settings, const Site& site);

@@ -15,6 +15,7 @@
 #include "file/netcdf_writer.hpp"
 #include "observe/regimes.hpp"
 #include "run/campaign_team.hpp"
+#include "run/compare.hpp"
 #include "run/job.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
@@ -28,8 +29,11 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     const char* l = job.settings.run.length_unit.c_str();
     char line[600];
     out << '\n';
-    std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %zu levels in %s\n", static_cast<long long>(s.summits),
-                  static_cast<long long>(s.saddles), levels.size(), duration(seconds).c_str());
+    if (job.settings.solver.model == Model::elements)
+        std::snprintf(line, sizeof line, "elements, %zu levels in %s\n", levels.size(), duration(seconds).c_str());
+    else
+        std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %zu levels in %s\n", static_cast<long long>(s.summits),
+                      static_cast<long long>(s.saddles), levels.size(), duration(seconds).c_str());
     out << line;
     if (s.m2 > 0) {
         const double slope = std::sqrt(2 * s.m2);
@@ -104,12 +108,18 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     Accumulators sums(job.observe, job.levels.size());
     const RealizationRecord record = observe(job, settings.run.first_realization, r);
     sums.add(record);
+    const auto stopped = [&] { return caught_signal() != 0 || (options.abandoned && *options.abandoned); };
+    ComparedLevels compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, stopped);
+    if (const int signal = caught_signal())
+        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+    if (options.abandoned && *options.abandoned) throw Interrupted(0, "abandoned");
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
     keep_contacts(result, r.levels, keep);
     const SurfaceStatistics statistics = r.statistics;
     result.friction = std::move(r.friction);
     result.asperities = std::move(r.asperities);
     result.measured = job.measured;
+    result.compared = std::move(compared);
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
     write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
 
@@ -120,7 +130,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const LevelValues& last = record.levels.back();
     const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
     const RunSummary summary{static_cast<long>(record.levels.size()),
-                             static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)), last.separation,
+                             static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) + result.compared.failed,
+                             last.separation,
                              last.force, last.area};
     tell_failed(options, summary);
     return summary;

@@ -239,6 +239,8 @@ public:
         return matrices_[generation];
     }
 
+    const std::vector<std::vector<double>>& made(std::size_t generation) const { return matrices_[generation]; }
+
 private:
     void make_matrices() {
         const std::size_t generation = matrices_.size();
@@ -393,7 +395,6 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         loaded_[l].assign(generations[l].boxes.size(), 0);
         if (!generations[l].pair_from.empty()) interpolation.matrices(l);
     }
-#pragma omp parallel for schedule(dynamic, 64) if (tiles > kThreads)
     for (std::size_t t = 0; t < tiles; ++t) {
         const std::size_t b = source_begin_[t], m = source_begin_[t + 1] - b;
         if (m > 0) interpolation.up_from_tile(m, sources_.data() + b, up_[0].data() + t * points);
@@ -409,37 +410,39 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         }
     }
     const PixelKernels& kernels = pixel_kernels();
-    for (std::size_t l = 0; l < levels; ++l) {
+    // Threads are started twice a product: between boxes of all sizes, and at last for the tiles.
+    std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
+    for (std::size_t l = 0; l < levels; ++l)
+        for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
+#pragma omp parallel for schedule(dynamic, 1) if (tiles > kThreads)
+    for (std::size_t job = 0; job < chunks.size(); ++job) {
+        const auto [l, c] = chunks[job];
         const Generation& g = generations[l];
         if (g.pair_from.empty()) continue;
-        const auto& matrices = interpolation.matrices(l);
-        const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
-#pragma omp parallel for schedule(dynamic, 1) if (g.boxes.size() > kThreads)
-        for (std::size_t c = 0; c < chunks; ++c) {
-            std::vector<const double*> from;
-            std::vector<double*> to;
-            for (std::size_t o = 0; o < kOffsets; ++o) {
-                from.clear();
-                to.clear();
-                for (std::size_t k = g.pair_begin[c * kOffsets + o]; k < g.pair_begin[c * kOffsets + o + 1]; ++k) {
-                    if (!loaded_[l][at(g.pair_from[k])]) continue;
-                    from.push_back(up_[l].data() + at(g.pair_from[k]) * points);
-                    to.push_back(down_[l].data() + at(g.pair_to[k]) * points);
-                }
-                if (!from.empty())
-                    kernels.translate(static_cast<int>(points), q * q, matrices[o].data(), from.size(), from.data(), to.data());
+        std::vector<const double*> from;
+        std::vector<double*> to;
+        for (std::size_t o = 0; o < kOffsets; ++o) {
+            from.clear();
+            to.clear();
+            for (std::size_t k = g.pair_begin[c * kOffsets + o]; k < g.pair_begin[c * kOffsets + o + 1]; ++k) {
+                if (!loaded_[l][at(g.pair_from[k])]) continue;
+                from.push_back(up_[l].data() + at(g.pair_from[k]) * points);
+                to.push_back(down_[l].data() + at(g.pair_to[k]) * points);
             }
+            if (!from.empty())
+                kernels.translate(static_cast<int>(points), q * q, interpolation.made(l)[o].data(), from.size(), from.data(), to.data());
         }
     }
-    for (std::size_t l = levels - 1; l-- > 0;) {
+    const auto down = [&](std::size_t l, std::size_t k) {
         const Generation& g = generations[l];
-#pragma omp parallel for schedule(static) if (g.boxes.size() > kThreads)
-        for (std::size_t k = 0; k < g.boxes.size(); ++k)
-            interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
-                               down_[l].data() + k * points);
-    }
-#pragma omp parallel for schedule(dynamic, 16) if (tiles > kThreads)
+        interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
+                           down_[l].data() + k * points);
+    };
+    for (std::size_t l = levels - 1; l-- > 1;)
+        for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
+#pragma omp parallel for schedule(dynamic, 32) if (tiles > kThreads)
     for (std::size_t t = 0; t < tiles; ++t) {
+        if (levels > 1) down(0, t);
         double* values = tiles_.data() + t * size;
         std::fill_n(values, size, 0.0);
         interpolation.down_to_tile(down_[0].data() + t * points, values);

@@ -1,0 +1,71 @@
+#include "run/compare.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "contact/element_contact.hpp"
+
+namespace rsc {
+namespace {
+
+void print(std::ostream& out, const Job& job, const ComparedLevels& c, const LevelValues& asperities) {
+    const std::size_t k = c.step.size() - 1;
+    const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    char line[400];
+    std::snprintf(line, sizeof line, "level %d, Z0/sigma %.5g: elements N = %.6g %s, A = %.5g %s2, %d contacts; asperities ", c.step[k] + 1,
+                  c.separation[k] / job.sigma, c.force[k], f, c.area[k], l, c.contacts[k]);
+    out << line;
+    if (std::isnan(c.force_error[k]) && c.contacts[k] > 0)
+        std::snprintf(line, sizeof line, "not compared: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n");
+    else if (c.contacts[k] > 0)
+        std::snprintf(line, sizeof line, "N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
+                      100 * c.contacts_error[k]);
+    else
+        std::snprintf(line, sizeof line, "N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f, asperities.area, l,
+                      asperities.contacts);
+    out << line;
+}
+
+}  // namespace
+
+ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,
+                              const std::function<bool()>& stop) {
+    ComparedLevels c;
+    if (job.settings.compare.levels.empty() || levels.empty()) return c;
+    std::optional<Surface> made;
+    if (!job.given) made = make_element_surface(job.settings, number, threads);
+    const HeightMap& map = made ? made->map : *job.given_heights;
+    ElementContact contact(map, job.indenter, job.solver);
+    if (table) *table << "\ncompared with elements on " << map.nx << " x " << map.ny << " points (asperities over elements - 1):\n";
+    const bool by_force = job.settings.indentation.control == Control::force;
+    const double unit = !by_force && job.settings.indentation.unit == LevelUnit::sigma ? job.sigma : 1.0;
+    for (const double wanted : job.settings.compare.levels) {
+        std::size_t step = 0;
+        const auto miss = [&](std::size_t k) { return std::abs((by_force ? levels[k].force : levels[k].separation) - wanted * unit); };
+        for (std::size_t k = 1; k < levels.size(); ++k) {
+            if (miss(k) < miss(step)) step = k;
+        }
+        const LevelValues& level = levels[step];
+        Level truth = contact.at_separation(level.separation);
+        const bool found = truth.status != LevelStatus::not_converged;
+        c.failed += !found;
+        const auto error = [&](double model, double elements) { return found && elements > 0 ? model / elements - 1 : kNotComputed; };
+        c.step.push_back(static_cast<std::int32_t>(step));
+        c.contacts.push_back(truth.contacts);
+        c.separation.push_back(truth.separation);
+        c.force.push_back(truth.force);
+        c.area.push_back(truth.area);
+        c.area_pixels.push_back(truth.area_pixels);
+        c.residual.push_back(truth.residual);
+        c.force_error.push_back(error(level.force, truth.force));
+        c.area_error.push_back(error(level.area, truth.area));
+        c.contacts_error.push_back(error(level.contacts, truth.contacts));
+        c.pixels = std::move(truth.pixels);
+        if (table) print(*table, job, c, level);
+        if (stop()) break;
+    }
+    return c;
+}
+
+}  // namespace rsc

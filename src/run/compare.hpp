@@ -1,0 +1,19 @@
+// &compare: levels of the asperity model once more by elements, on the same surface at the same separation.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <vector>
+
+#include "file/result.hpp"
+#include "run/job.hpp"
+
+namespace rsc {
+
+// `levels` are those of realization `number`; of each level asked for the nearest one is taken. A line for each goes to `table`, if there
+// is one; once `stop` says so, the rest is left out. Errors are NaN where elements do not converge.
+ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,
+                              const std::function<bool()>& stop);
+
+}  // namespace rsc
