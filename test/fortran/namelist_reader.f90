@@ -25,6 +25,8 @@ program namelist_reader
     call read_asperities()
     call read_indentation()
     call read_solver()
+    call read_elements()
+    call read_compare()
     call read_output()
     close (unit_in)
   end do
@@ -229,16 +231,17 @@ contains
   end subroutine
 
   subroutine read_solver()
-    character(len=32) :: method, interaction
+    character(len=32) :: method, interaction, model
     real(real64) :: tolerance, delta0
     integer(int32) :: max_iterations
     integer :: ios
-    namelist /solver/ method, tolerance, max_iterations, delta0, interaction
+    namelist /solver/ method, tolerance, max_iterations, delta0, interaction, model
     method = 'auto'
     tolerance = 1.0e-6_real64
     max_iterations = 100
     delta0 = 0.01_real64
     interaction = 'point'
+    model = 'asperities'
     read (unit_in, nml=solver, iostat=ios)
     call status('solver', ios)
     call put_text('solver%method', method)
@@ -246,6 +249,27 @@ contains
     call put_integer('solver%max_iterations', int(max_iterations, int64))
     call put_real('solver%delta0', delta0)
     call put_text('solver%interaction', interaction)
+    call put_text('solver%model', model)
+  end subroutine
+
+  subroutine read_elements()
+    real(real64) :: points_per_wave
+    integer :: ios
+    namelist /elements/ points_per_wave
+    points_per_wave = 8
+    read (unit_in, nml=elements, iostat=ios)
+    call status('elements', ios)
+    call put_real('elements%points_per_wave', points_per_wave)
+  end subroutine
+
+  subroutine read_compare()
+    real(real64) :: levels(1000)
+    integer :: ios
+    namelist /compare/ levels
+    levels = unset
+    read (unit_in, nml=compare, iostat=ios)
+    call status('compare', ios)
+    call put_list('compare%levels', levels)
   end subroutine
 
   subroutine read_output()

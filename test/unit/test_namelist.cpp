@@ -179,6 +179,8 @@ void test_bounds() {
         {"solver%tolerance", {"1e-14", "0.1"}, {"9e-15", "0", "-1", "0.1001", "Infinity", "NaN"}},
         {"solver%max_iterations", {"1", "1000000"}, {"0", "1000001"}},
         {"solver%delta0", {"1e-50", "1000"}, {"0", "-1", "1000.1", "NaN"}},
+        {"elements%points_per_wave", {"4", "64"}, {"3.999", "64.001", "NaN"}},
+        {"compare%levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
         {"output%map_cells", {"1", "4096"}, {"0", "4097"}},
         {"output%radial_bins", {"1", "100000"}, {"0", "100001"}},
         {"output%pdf_levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
