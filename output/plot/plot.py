@@ -16,6 +16,7 @@ import sys
 import textwrap
 from collections import namedtuple
 
+import plot_compare
 import plot_curves
 import plot_distributions
 import plot_maps
@@ -25,7 +26,7 @@ from plot_style import WIDTHS, plt
 
 # To add a picture, write a function of (results, options) that returns a figure, or None where the results do not hold what it draws.
 PICTURES = {"load": plot_curves.load, "area": plot_curves.area, "flats": plot_curves.flats, "friction": plot_curves.friction, "study": plot_study.study,
-            "map": plot_maps.maps, "radial": plot_maps.radial, "spots": plot_maps.spots, "distributions": plot_distributions.distributions,
+            "map": plot_maps.maps, "radial": plot_maps.radial, "spots": plot_maps.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions,
             "spectrum": plot_distributions.spectrum}
 
 Options = namedtuple("Options", "width step say", defaults=(150.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)))

@@ -71,6 +71,10 @@ struct LevelPixels {
     double y(std::size_t k) const { return y0 + index[k] / columns * dy; }
 };
 
+// With more than this share of the contacts beyond the law, spots cover much of each other and the contact area is far too low: measured
+// against elements (README).
+inline constexpr double kMuchBeyondLaw = 0.3;
+
 // A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
 struct Level : LevelValues {
     std::vector<int> asperity;  // index of the asperity (0-based), or of the spot's pixel that carries the most

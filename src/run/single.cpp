@@ -40,7 +40,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
         std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, slope, slope_remark(slope));
         out << line;
     }
-    print_remarks(out, levels, job.sigma);
+    print_remarks(out, levels, job);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
 }

@@ -17,8 +17,8 @@ struct ElementsOutcome {
 };
 
 // Primal-dual active set: pixels whose pressure falls below 0 leave, pixels that penetrate enter, some steps of conjugate gradients on
-// the pixels under pressure in between, preconditioned by every spot solved alone. The energy falls in every round, so that rounds
-// cannot repeat. Pixels far from pressure stay outside a working set, and are checked at the end.
+// the pixels under pressure in between, preconditioned by every spot solved alone. Where the sets do not settle in some rounds, the
+// energy is made to fall in every round, so that rounds cannot repeat. Pixels far from pressure stay outside a working set, and are checked at the end.
 class ElementsSolver {
 public:
     // Pressures are bounded by `highest` (the hardness; Infinity: none): where p = highest, w may be negative.

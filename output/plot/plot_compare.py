@@ -1,0 +1,97 @@
+"""Asperities against elements (&compare): the spots of both over each other, the pressure of both along a line, and the error at every level compared."""
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+
+from plot_results import names
+from plot_style import STYLES, plt
+
+
+def _spots(result, step):
+    """x, y, radius, force, ratio of the axes and angle of the asperities in contact at level `step`; None where the file does not hold them."""
+    if "contact_asperity" not in result or int(result["contact_count"][step]) == 0:
+        return None
+    at = int(result["contact_start"][step]) - 1 + np.arange(int(result["contact_count"][step]))
+    asperity = np.asarray(result["contact_asperity"])[at].astype(int) - 1
+    ratio, angle = np.ones(asperity.size), np.zeros(asperity.size)
+    if "asperity_kappa1" in result and result.case.get("asperities%law", "'hertz'").strip("'") != "hertz":
+        ratio = (np.asarray(result["asperity_kappa1"])[asperity] / np.asarray(result["asperity_kappa2"])[asperity]) ** (2 / 3)  # near enough for a picture
+        angle = np.asarray(result["asperity_angle"])[asperity]
+    return (np.asarray(result["asperity_x"])[asperity], np.asarray(result["asperity_y"])[asperity], np.asarray(result["contact_radius"])[at],
+            np.asarray(result["contact_force"])[at], ratio, angle)
+
+
+def _line(result, spots, y, x0, x1):
+    """Hertz's pressures of the spots along the line at y from x0 to x1."""
+    x = np.linspace(x0, x1, 2000)
+    p = np.zeros_like(x)
+    for sx, sy, a, f, ratio, angle in zip(*spots):
+        major, minor = a * np.sqrt(ratio), a / np.sqrt(ratio)
+        u = (x - sx) * np.cos(angle) + (y - sy) * np.sin(angle)
+        v = -(x - sx) * np.sin(angle) + (y - sy) * np.cos(angle)
+        inside = 1 - (u / major) ** 2 - (v / minor) ** 2
+        p += np.where(inside > 0, 1.5 * f / (np.pi * a * a) * np.sqrt(np.maximum(inside, 0)), 0)
+    return x, p
+
+
+def compare(results, options):
+    """What &compare found, of the first result that has it."""
+    with_elements = [r for r in results if "compare_step" in r]
+    if not with_elements:
+        return None
+    result = with_elements[0]
+    if len(with_elements) > 1:
+        options.say(f"compare: {names(results)[0]} is drawn, give one file at a time for the others")
+    steps = np.asarray(result["compare_step"]).astype(int) - 1
+    pixels = "compare_pixel_x" in result
+    figure, axes = plt.subplots(1, 3 if pixels else 1, figsize=(options.width / 25.4, options.width / 25.4 * (0.40 if pixels else 0.7)), constrained_layout=True, squeeze=False)
+    axes = axes[0]
+    errors = axes[-1]
+    for k, (name, label) in enumerate([("force_error", "$N$"), ("area_error", "$A$"), ("contacts_error", "contacts")]):
+        marker, line, colour = STYLES[k]
+        errors.plot(np.asarray(result["separation_sigma"])[steps] if np.ndim(result["separation_sigma"]) == 1 else steps + 1, 100 * np.asarray(result[name]), marker + line, color=colour, ms=3,
+                    label=label)
+    errors.axhline(0, color="k", lw=0.6)
+    errors.set_xlabel(r"$Z_0/\sigma$" if np.ndim(result["separation_sigma"]) == 1 else "level")
+    errors.set_ylabel("asperities over elements $-$ 1 [%]")
+    errors.legend()
+    if not pixels:
+        return figure
+    # Around the pixel of the highest pressure.
+    step = int(steps[-1])
+    px, py, pressure = (np.asarray(result["compare_pixel_" + name]) for name in ("x", "y", "pressure"))
+    h = float(np.ravel(result.attribute("compare_pixel_x", "pixel_size"))[0])
+    spots = _spots(result, step)
+    peak = int(np.argmax(pressure))
+    half = 60 * h
+    x0, x1, y0, y1 = px[peak] - half, px[peak] + half, py[peak] - half, py[peak] + half
+    near = (px > x0) & (px < x1) & (py > y0) & (py < y1)
+    axis = axes[0]
+    image = np.zeros((120, 120))
+    column, row = ((px[near] - x0) / h).astype(int), ((py[near] - y0) / h).astype(int)
+    image[np.clip(row, 0, 119), np.clip(column, 0, 119)] = 1
+    axis.imshow(image, extent=(x0, x1, y0, y1), cmap="Greys", vmin=0, vmax=2, interpolation="nearest")
+    if spots is not None:
+        x, y, a, _, ratio, angle = spots
+        some = (x > x0 - half) & (x < x1 + half) & (y > y0 - half) & (y < y1 + half)
+        axis.add_collection(EllipseCollection(2 * (a * np.sqrt(ratio))[some], 2 * (a / np.sqrt(ratio))[some], np.degrees(angle)[some], units="x", offsets=np.c_[x, y][some],
+                                              transOffset=axis.transData, facecolors="none", edgecolors="#c1440e", linewidths=0.8))
+    axis.axhline(py[peak], color="#0b3c5d", lw=0.6, ls=":")
+    axis.set(xlim=(x0, x1), ylim=(y0, y1), xlabel=f"$x${result.unit('compare_pixel_x')}", ylabel=f"$y${result.unit('compare_pixel_y')}")
+    axis.set_title("grey: elements; red: asperities", fontsize=7)
+    axis.tick_params(labelsize=6)
+    line = axes[1]
+    at = np.abs(py - py[peak]) < 0.25 * h
+    order = np.argsort(px[at])
+    grid = x0 + h * (np.arange(121))
+    values = np.zeros(120)
+    inside = (px[at][order] > x0) & (px[at][order] < x1)
+    values[np.clip(((px[at][order][inside] - x0) / h).astype(int), 0, 119)] = pressure[at][order][inside]
+    line.stairs(values, grid, color="#0b3c5d", label="elements")
+    if spots is not None:
+        line.plot(*_line(result, spots, py[peak], x0, x1), "--", color="#c1440e", label="asperities")
+    line.set(xlabel=f"$x${result.unit('compare_pixel_x')}", ylabel=f"pressure{result.unit('compare_pixel_pressure')}", xlim=(x0, x1))
+    line.tick_params(labelsize=6)
+    line.legend(loc="upper left")
+    figure.suptitle(result.heading(f"Asperities and elements at {result.level_name(step)}"), fontsize=8)
+    return figure

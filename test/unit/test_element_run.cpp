@@ -1,0 +1,158 @@
+// Elements in a run: the surface they stand on, what observations make of them, and &compare beside the asperity model.
+#include <cmath>
+#include <sstream>
+
+#include "case/registry.hpp"
+#include "check.hpp"
+#include "error.hpp"
+#include "run/compare.hpp"
+#include "run/job.hpp"
+
+using namespace rsc;
+
+namespace {
+
+Case small() {
+    Case c;
+    c.surface.n = 64;
+    c.surface.L_lambda_l = 4;
+    c.surface.L_lambda_s = 24;
+    c.indentation.levels = {2.0, 1.0, -0.5};
+    return c;
+}
+
+double sum(const std::vector<double>& values) {
+    double total = 0;
+    for (double v : values) total += v;
+    return total;
+}
+
+// The grid of elements has points_per_wave points in the shortest wave, and holds the surface of the asperities' grid.
+void surface() {
+    Case c = small();
+    CHECK(element_points(c) == 192);
+    c.elements.points_per_wave = 8.1;
+    CHECK(element_points(c) == 196);  // the next even number without prime factors above 7
+    c.elements.points_per_wave = 16;
+    CHECK(element_points(c) == 384);
+    const Surface fine = make_element_surface(c, 3, 1), coarse = make_surface(small(), 3, 1);
+    double worst = 0;
+    // sigma is exact over the points of each grid (normalise = 'sample'): the two differ by a factor next to 1.
+    const double factor = coarse.map(5, 7) / fine.map(30, 42);
+    for (int j = 0; j < 64; ++j)
+        for (int i = 0; i < 64; ++i) worst = std::max(worst, std::abs(coarse.map(i, j) - factor * fine.map(6 * i, 6 * j)));
+    CHECK(worst <= 1e-12);
+    CHECK_CLOSE(factor, 1.0, 1e-2);
+}
+
+// What pixels carry is on the map and in the distributions, all of it; nothing depends on the number of threads.
+void observations() {
+    Case c = small();
+    c.solver.model = Model::elements;
+    c.output.pdf_levels = {1.0};
+    const Job job = prepare(c);
+    const Realization r = realize(job, 1, 1);
+    CHECK(r.asperities.size() == 0);
+    CHECK(!r.heights);
+    const RealizationRecord record = observe(job, 1, r);
+    CHECK(record.levels.size() == 3);
+    for (std::size_t s = 0; s < 3; ++s) {
+        CHECK(record.levels[s].status == LevelStatus::converged);
+        CHECK(record.levels[s].contacts > 0);
+        CHECK_RELATIVE(sum(record.maps[s].force), record.levels[s].force, 1e-12);
+        CHECK_RELATIVE(sum(record.maps[s].area), record.levels[s].area, 1e-12);
+        CHECK(record.levels[s].area_pixels > record.levels[s].area);
+    }
+    // A contact as large as several cells of the map is not heaped into one of them.
+    const MapLevel& deep = record.maps[2];
+    double fullest = 0;
+    for (double a : deep.area) fullest = std::max(fullest, a);
+    CHECK(fullest <= 1.1 * job.observe.map.side * job.observe.map.side);  // 4 x 4 pixels, whose middles lie in a cell of 3.84 x 3.84
+    CHECK(record.distributions.size() == 1);
+    const AreaHistogram& p = record.distributions[0].pressure;
+    CHECK_RELATIVE(p.total, record.levels[1].area_pixels, 1e-12);
+    CHECK_RELATIVE(sum(p.area) + p.overflow, p.total, 1e-12);
+    CHECK_RELATIVE(p.power[0], record.levels[1].force, 1e-12);  // area times pressure
+    CHECK(p.squares > 0 && p.squares <= p.total * p.total);
+    const Realization again = realize(job, 1, 2);
+    for (std::size_t s = 0; s < 3; ++s)
+        CHECK(again.levels[s].force == r.levels[s].force && again.levels[s].pixels.pressure == r.levels[s].pixels.pressure);
+    // By force: the same level.
+    c.indentation.control = Control::force;
+    c.indentation.levels = {r.levels[1].force};
+    const Realization pressed = realize(prepare(c), 1, 1);
+    CHECK_RELATIVE(pressed.levels[0].separation, r.levels[1].separation, 1e-5);
+    CHECK(pressed.levels[0].stiffness < 0);
+}
+
+void comparison() {
+    Case c = small();
+    c.asperities.law = LawKind::fourth_order;
+    c.compare.levels = {0.9, 2.2};  // the nearest levels are the second and the first
+    const Job job = prepare(c);
+    const RealizationRecord record = observe(job, 1, realize(job, 1, 1));
+    std::ostringstream screen;
+    const ComparedLevels compared = compare_levels(job, 1, 1, record.levels, &screen, [] { return false; });
+    CHECK((compared.step == std::vector<std::int32_t>{1, 0}));
+    CHECK(compared.failed == 0);
+    Case truth = small();
+    truth.solver.model = Model::elements;
+    const Realization elements = realize(prepare(truth), 1, 1);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto s = static_cast<std::size_t>(compared.step[k]);
+        CHECK_RELATIVE(compared.force[k], elements.levels[s].force, 1e-5);
+        CHECK(compared.contacts[k] == elements.levels[s].contacts);
+        CHECK_RELATIVE(compared.force_error[k], record.levels[s].force / compared.force[k] - 1, 1e-12);
+        CHECK_RELATIVE(compared.area_error[k], record.levels[s].area / compared.area[k] - 1, 1e-12);
+        CHECK(std::abs(compared.force_error[k]) < 0.2);  // it is the same surface
+    }
+    double N = 0;
+    for (double p : compared.pixels.pressure) N += p * compared.pixels.dx * compared.pixels.dy;
+    CHECK_RELATIVE(N, compared.force[1], 1e-12);  // pixels are those of the last one
+    CHECK(screen.str().find("192 x 192 points") != std::string::npos);
+    CHECK(compare_levels(prepare(small()), 1, 1, record.levels, nullptr, [] { return false; }).step.empty());
+}
+
+bool refused(const Case& c, const char* what) {
+    for (const Problem& problem : check_case(c))
+        if (problem.text.find(what) != std::string::npos) return true;
+    return false;
+}
+
+void refusals() {
+    Case c = small();
+    c.solver.model = Model::elements;
+    CHECK(check_case(c).empty());
+    c.surface.source = Source::asperities;
+    c.surface.file = "list.txt";
+    CHECK(refused(c, "'asperities' has only summits"));
+    c = small();
+    c.compare.levels = {1.0};
+    CHECK(check_case(c).empty());
+    c.solver.model = Model::elements;
+    CHECK(refused(c, "model = 'elements' has none"));
+    c = small();
+    c.solver.model = Model::elements;
+    c.solver.method = Method::dgesv;
+    CHECK(refused(c, "method = 'dgesv'"));
+    c = small();
+    c.solver.model = Model::elements;
+    c.solver.interaction = Interaction::none;
+    CHECK(refused(c, "interaction = 'none'"));
+    c = small();
+    c.solver.model = Model::elements;
+    c.surface.n = 2048;
+    c.surface.L_lambda_s = 600;
+    c.elements.points_per_wave = 64;
+    CHECK(refused(c, "38400 points a side"));
+}
+
+}  // namespace
+
+int main() {
+    surface();
+    observations();
+    comparison();
+    refusals();
+    return check::summary();
+}
