@@ -207,11 +207,15 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
  * asperities (out): the handle, never empty; surface: the surface; a_case: asperities%curvature decides on the radius; null for
  * the defaults. With another asperities%law than 'hertz' the summits between the points, with curvatures and biharmonic by longer
  * stencils. Errors: -1 null; -2 null, or a surface without summits, or one synthesized with fewer than 4 points in lambda_s for
- * such a law (rsc_asperities_make can); RSC_NO_MEMORY. */
+ * such a law (rsc_asperities_make can); RSC_NO_MEMORY.
+ * With solver%model = 'elements' in the case the handle holds a copy of all points of the surface instead, and no asperities: contacts
+ * made from it, with a case that says so, too, are of elements. Their spots are sets of pixels connected by sides; in place of an
+ * asperity rsc_contact_spots gives the pixel with the highest pressure, row*nx + column from 0. */
 RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case);
 
 /* The asperities of whatever &surface source names, as the program has them: those of the surface of rsc_surface_synthesize, a synthetic
- * one not being stored (faster, in half the memory, and on any grid for every asperities%law), or the list in surface%file.
+ * one not being stored (faster, in half the memory, and on any grid for every asperities%law), or the list in surface%file; with
+ * solver%model = 'elements' the points of the surface on the grid of elements%points_per_wave.
  * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number, without effect on what is read.
  * Errors: -1 null; -2 keys of &surface, &asperities or &run that are refused, or a file that cannot be used; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization);

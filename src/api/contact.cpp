@@ -27,6 +27,14 @@ void require_contact_keys(const Case& settings) {
     }
 }
 
+// What a contact stands on was made by one model: another one asked for is refused rather than ignored.
+void require_model(const Ground& on, const Case& settings, int argument) {
+    const bool elements = settings.solver.model == Model::elements;
+    if (elements && !on.points) refuse(argument, "a_case", "asks for solver%model = 'elements', and the asperities were made without it");
+    if (!elements && on.points)
+        refuse(argument, "a_case", "asks for asperities, and what it is given was made with solver%model = 'elements'");
+}
+
 const Level& level_of(const rsc_contact* contact) {
     require(contact, 1, "contact");
     if (!contact->level) throw Outcome{RSC_NO_RESULT, "the contact holds no result: indent or press first"};
@@ -112,6 +120,7 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             const rsc::Case& settings = settings_of(a_case);
             require_contact_keys(settings);
             const auto& on = asperities->ground;
+            require_model(*on, settings, 7);
             return new rsc_contact(on, {E_star, R, x0, y0}, rsc::solver_of(settings, site_of(settings, *on)));
         });
     });
@@ -125,6 +134,7 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
             require_contact_keys(settings);
             require_sound(settings, {"solids"});
             const auto& on = asperities->ground;
+            require_model(*on, settings, 3);
             const rsc::Site site = site_of(settings, *on);
             return new rsc_contact(on, rsc::indenter_of(settings, site), rsc::solver_of(settings, site));
         });
@@ -288,6 +298,7 @@ int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperi
 int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
+        if (contact->on->points) refuse(1, "contact", "has no asperities: it is made of elements");
         if (n != static_cast<int64_t>(contact->on->asperities.size())) refuse(2, "n", "must be the number of asperities");
         const auto spread = [&](double* output, const std::vector<double>& values) {
             if (!output) return;

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "case/case.hpp"
-#include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/friction.hpp"
 #include "contact/lateral.hpp"
@@ -28,10 +27,11 @@ struct rsc_asperities {
 
 struct rsc_contact {
     rsc_contact(std::shared_ptr<const rsc::Ground> on_, const rsc::Indenter& indenter, const rsc::SolverOptions& options_)
-        : on(std::move(on_)), options(options_), contact(on->asperities, indenter, options) {}
+        : on(std::move(on_)), options(options_), model(rsc::make_contact(*on, indenter, options)), contact(*model) {}
     std::shared_ptr<const rsc::Ground> on;
     rsc::SolverOptions options;
-    rsc::AsperityContact contact;
+    std::unique_ptr<rsc::Contact> model;
+    rsc::Contact& contact;
     std::optional<rsc::Level> level;
     // Of that level; the tip may have moved since.
     bool moved = false;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/interaction/love.hpp"
+
 namespace rsc {
 namespace {
 
@@ -41,6 +43,11 @@ double spot_deflection(double force, double radius, double distance, double E_st
 
 double deflection(const Level& level, double E_star, double x, double y) {
     double sum = 0;
+    const LevelPixels& pixels = level.pixels;
+    for (std::size_t k = 0; k < pixels.index.size(); ++k)
+        sum += pixels.pressure[k] * pixels.dx *
+               pixel_kernel((x - pixels.x(k)) / pixels.dx, (y - pixels.y(k)) / pixels.dx, pixels.dy / pixels.dx);
+    if (!pixels.index.empty()) return sum / (std::numbers::pi * E_star);
     for (std::size_t k = 0; k < level.f.size(); ++k) {
         const double dx = x - level.x[k], dy = y - level.y[k];
         sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), E_star);

@@ -11,7 +11,7 @@ namespace rsc {
 double spot_deflection(double force, double radius, double distance, double E_star);
 
 // The sum over the contacts of a level at (x, y) [length], positive down. Spots that are no circles, and pressures that are not
-// Hertz's (laws 'elliptic', 'fourth_order'), are taken as Hertz's over the circle of the same area: exact far away.
+// Hertz's (laws 'elliptic', 'fourth_order'), are taken as Hertz's over the circle of the same area: exact far away. Of pixels it is Love's.
 double deflection(const Level& level, double E_star, double x, double y);
 
 }  // namespace rsc

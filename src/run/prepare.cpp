@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/law/law.hpp"
 #include "error.hpp"
@@ -176,6 +178,15 @@ Site list_site(const Asperities& asperities, std::optional<double> L, const std:
 Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     const HeightMap& map = surface.map;
     Ground ground;
+    if (settings.solver.model == Model::elements) {
+        ground = make_bare_ground(surface);
+        auto copy = std::make_shared<HeightMap>();
+        copy->allocate(map.nx, map.ny, map.nx);
+        copy->dx = map.dx, copy->dy = map.dy, copy->x0 = map.x0, copy->y0 = map.y0, copy->periodic = map.periodic;
+        for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, copy->row(j));
+        ground.points = std::move(copy);
+        return ground;
+    }
     SummitCount count;
     ground.asperities =
         find_asperities(map, settings.asperities.curvature, &count, threads, detail_of(settings), surface.origin.points_per_wave);
@@ -235,6 +246,13 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
 }
 
 Ground make_ground(const Case& settings, std::int64_t number, int threads) {
+    if (settings.solver.model == Model::elements) {
+        require_element_memory(settings);
+        Surface surface = make_element_surface(settings, number, threads);
+        Ground ground = make_bare_ground(surface);
+        ground.points = std::make_shared<HeightMap>(std::move(surface.map));
+        return ground;
+    }
     switch (settings.surface.source) {
         case Source::synthetic:
         case Source::spectrum: return make_ground(settings, spectrum_of(settings), number, threads);
@@ -274,6 +292,11 @@ Indenter indenter_of(const Case& settings, const Site& site) {
         throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
     }
     return indenter;
+}
+
+std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options) {
+    if (ground.points) return std::make_unique<ElementContact>(*ground.points, indenter, options);
+    return std::make_unique<AsperityContact>(ground.asperities, indenter, options);
 }
 
 double sigma_of(const Case& settings, const Site& site) { return settings.surface.sigma.value_or(site.sigma); }

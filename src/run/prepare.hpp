@@ -8,6 +8,7 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "contact/contact.hpp"
 #include "contact/indentation.hpp"
 #include "file/result.hpp"
 #include "observe/record.hpp"
@@ -63,9 +64,10 @@ struct Site {
     double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
 };
 
-// Asperities, and what is known of where they come from.
+// Asperities, or the points of the surface themselves, and what is known of where they come from.
 struct Ground {
     Asperities asperities;
+    std::shared_ptr<const HeightMap> points;  // solver%model = 'elements'; there are no asperities then
     Site site;
     SurfaceStatistics statistics;
     bool list = false;                         // given one by one: the site is then a guess, which surface%L may better
@@ -80,7 +82,8 @@ Site synthetic_site(const Spectrum& spectrum);
 // asperities they are when L is less than their extent.
 Site list_site(const Asperities& asperities, std::optional<double> L, const std::string& whose);
 
-// The summits of a surface by the keys of &asperities. Never empty: throws Error(bad_input) for a surface without summits.
+// The summits of a surface by the keys of &asperities. Never empty: throws Error(bad_input) for a surface without summits. With
+// model = 'elements' a copy of its points.
 Ground make_ground(const Surface& surface, const Case& settings, int threads);
 
 // Realization `number` of the asperities that &surface source names, whatever it is. Those of a synthetic surface are found while
@@ -101,6 +104,9 @@ Indenter indenter_of(const Case& settings, const Site& site);
 
 // The length that unit='sigma' and delta0 mean.
 double sigma_of(const Case& settings, const Site& site);
+
+// The contact of a sphere with that ground, which must outlive it.
+std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options);
 
 // The keys of &solver, and of &asperities and &indentation that the solver looks at. Throws Error(bad_input) where it needs an rms
 // height and there is none.

@@ -26,7 +26,7 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
 
 // The methods the levels were solved with, and why others than asked for; how often each status came, with what it means and what to do;
 // what else to be wary of.
-void print_remarks(std::ostream& out, std::span<const LevelValues> levels, double sigma);
+void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job);
 
 // What an rms slope means for the results; empty for the small ones that the theory is for.
 const char* slope_remark(double rms_slope);
