@@ -351,6 +351,24 @@ void ensemble(const Folder& folder) {
     }
 }
 
+// Under force control the levels are the forces, and the stiffness is the slope of the force over the separation, with the sign its
+// own description gives it.
+void force_control(const Folder& folder) {
+    const std::string text =
+        "&surface n = 128, L_lambda_l = 4, L_lambda_s = 32 /\n&indentation control = 'force', levels = 4.995, 5.0, 5.005 /\n"
+        "&solver tolerance = 1e-12 /\n";
+    CHECK(run(text, folder / "force.nc") == 0);
+    const Reader file(folder / "force.nc");
+    const Vector N = file.values("force"), Z = file.values("separation"), S = file.values("stiffness");
+    CHECK_RELATIVE(N[0], 4.995, 1e-9);
+    CHECK_RELATIVE(N[2], 5.005, 1e-9);
+    const double slope = (N[2] - N[0]) / (Z[2] - Z[0]);
+    const bool opposite = file.text("stiffness", "long_name").find("-dN/dZ0") != std::string::npos;
+    CHECK(slope < 0);
+    CHECK_RELATIVE(S[1], opposite ? -slope : slope, 1e-4);  // a centred difference over a thousandth of the force
+    CHECK(file.text("stiffness", "units") == "N mm-1");
+}
+
 // A measured map, wider than high, of other steps in y than in x, tilted, away from the origin.
 void measured(const Folder& folder) {
     constexpr std::size_t nx = 48, ny = 30;
@@ -428,6 +446,7 @@ int main() {
     synthetic(folder);
     levels(folder);
     ensemble(folder);
+    force_control(folder);
     measured(folder);
     return check::summary();
 }

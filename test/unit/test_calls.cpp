@@ -21,6 +21,7 @@
 #include "case/study.hpp"
 #include "check.hpp"
 #include "file/netcdf_writer.hpp"
+#include "result_reader.hpp"
 #include "rsc.h"
 #include "run/campaign_manifest.hpp"
 #include "run/checkpoint.hpp"
@@ -129,12 +130,19 @@ void results(const Folder& folder) {
 }
 
 void manifests(const Folder& folder) {
-    ReadCase read = read_case_text("&study surface%sigma = 0.01, 0.02 /", "case.nml");
+    ReadCase read = read_case_text("&study surface%sigma = 0.01, 0.02  run%realizations = 3, 5 /", "case.nml");
     read.settings.output.file = folder / "study.nc";
     calls.clear();
     write_manifest(read, expand_study(read.settings, *read.study), "");
     named_after_the_disk_has_it(folder / "study_manifest.nc", true);
     named_after_the_disk_has_it(folder / "study_manifest.txt", false);
+    // And it says which member is what, whole numbers as such.
+    const Reader file(folder / "study_manifest.nc");
+    CHECK(file.values("member") == (std::vector<double>{1, 2, 3, 4}));
+    CHECK(file.values("surface_sigma") == (std::vector<double>{0.01, 0.01, 0.02, 0.02}) && file.text("surface_sigma", "units") == "mm");
+    CHECK(file.values("run_realizations") == (std::vector<double>{3, 5, 3, 5}));
+    nc_type type = NC_NAT;
+    CHECK(nc_inq_vartype(file.id(), file.var("run_realizations"), &type) == NC_NOERR && type == NC_INT);
 }
 
 void checkpoints(const Folder& folder) {

@@ -245,6 +245,17 @@ void power() {
     CHECK_RELATIVE(p.sdq, 0.3 * 2 * kPi / std::sqrt(2.0), 0.01);
     CHECK_CLOSE(isotropy_ratio(grooves), 0.0, 1e-9);
     CHECK(isotropy_ratio(map) > 0.95);
+    // Two waves of one length at right angles, one three times as high: rms slopes as 1 to 3, however the pair is turned.
+    for (const auto& [kx, ky] : {std::pair{3, 0}, {0, 3}, {2, 2}, {2, -1}}) {
+        HeightMap waves;
+        waves.allocate(64, 64, 64);
+        waves.dx = waves.dy = 0.1;
+        waves.periodic = true;
+        const double unit = 2 * std::numbers::pi / 64;
+        for (int j = 0; j < 64; ++j)
+            for (int i = 0; i < 64; ++i) waves.row(j)[i] = std::sin(unit * (kx * i + ky * j)) + 3 * std::cos(unit * (-ky * i + kx * j));
+        CHECK_CLOSE(isotropy_ratio(waves), 1.0 / 3, 0.03);  // the slopes are those of cells between the points inside the map
+    }
 }
 
 void whole() {

@@ -214,6 +214,19 @@ void test_many_realizations(const Folder& folder) {
         for (std::size_t k = 0; k < 3; ++k) expected += contacts[k * sample::kSteps + static_cast<std::size_t>(step[d]) - 1];
         CHECK(total == expected && expected > 0);
     }
+    for (std::size_t d = 0; d < 2; ++d) {
+        const GammaFit& fit = r.observations.distributions[d].gamma;
+        const std::pair<const char*, double> parameters[] = {{"alpha", fit.alpha},
+                                                             {"alpha_error", fit.alpha_error},
+                                                             {"beta", fit.beta},
+                                                             {"beta_error", fit.beta_error},
+                                                             {"delta", fit.delta},
+                                                             {"delta_error", fit.delta_error},
+                                                             {"gamma", fit.gamma},
+                                                             {"gamma_error", fit.gamma_error},
+                                                             {"ks_distance", fit.ks_distance}};
+        for (const auto& [name, value] : parameters) CHECK(std::isfinite(value) && file.numbers("pressure_pdf", name).at(d) == value);
+    }
     CHECK(file.numbers("pressure_pdf", "alpha").size() == 2 && file.numbers("pressure_mean_pdf", "rayleigh_scale").size() == 2);
 }
 
