@@ -122,7 +122,7 @@ void told_only_where_it_is_so() {
             p.x.push_back(side * uniform(random));
             p.y.push_back(side * uniform(random));
             p.z.push_back(0);
-            p.radius.push_back(wide ? std::pow(10.0, -1 + 5 * uniform(random)) : 0.3 + uniform(random));
+            p.radius.push_back(wide ? std::pow(10.0, -1 + 8 * uniform(random)) : 0.3 + uniform(random));
             g0.push_back(wide ? std::pow(10.0, -2 * uniform(random)) : uniform(random));
             all.push_back(static_cast<int>(i));
         }

@@ -284,8 +284,13 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     Vector alone(v), relief(n), high, low(n), f(n), a(n);
     couple(close, force, relief);
     if (!distant.empty()) {
-        const auto rivals = [&](std::size_t i, std::size_t j, double d) {  // might j, let by i, be large enough?
-            const double A = std::sqrt(law.area(asperity[j], v[j] + relief[j] + force[i] * kernel.at(d, 0)) / std::numbers::pi);
+        Vector all(relief);  // what would let go of each if every partner did
+        for (const Pair& p : distant) {
+            all[p.i] += force[p.j] * kernel.at(p.d, 0);
+            all[p.j] += force[p.i] * kernel.at(p.d, 0);
+        }
+        const auto rivals = [&](std::size_t i, std::size_t j, double d) {  // might j be large enough then?
+            const double A = std::sqrt(law.area(asperity[j], v[j] + all[j]) / std::numbers::pi);
             return 2 / std::numbers::pi * std::sqrt(radius[i] * A) > far * d;
         };
         for (const Pair& p : distant) {
