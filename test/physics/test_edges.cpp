@@ -256,6 +256,7 @@ void units() {
                 sane(level, "units");
                 CHECK(level.status == reference.status);
                 CHECK(level.f.size() == reference.f.size());
+                if (method == Method::dgesv) CHECK(std::abs(level.iterations - reference.iterations) <= 1);  // it ends for the same reason
                 CHECK_RELATIVE(level.force / e / s / s, reference.force, 1e-8);
                 CHECK_RELATIVE(level.area / s / s, reference.area, 1e-8);
             }
