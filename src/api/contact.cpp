@@ -121,7 +121,8 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             require_contact_keys(settings);
             const auto& on = asperities->ground;
             require_model(*on, settings, 7);
-            return new rsc_contact(on, {E_star, R, x0, y0}, rsc::solver_of(settings, site_of(settings, *on)));
+            const rsc::Site site = site_of(settings, *on);
+            return new rsc_contact(on, {E_star, R, x0, y0, rsc::period_of(settings, site)}, rsc::solver_of(settings, site));
         });
     });
 }
@@ -319,8 +320,9 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
-        const double E_star = contact->contact.indenter().E_star;
-        for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(level, E_star, x[i], y[i]);
+        const auto& indenter = contact->contact.indenter();
+        const auto kernel = rsc::make_kernel(rsc::Interaction::point, indenter.E_star, indenter.period);
+        for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(level, *kernel, x[i], y[i]);
     });
 }
 

@@ -17,10 +17,12 @@ namespace rsc {
 // Enumerations with the spellings of their values, in their order. Those of the contact stand in contact/indentation.hpp.
 enum class Source { synthetic, heights, asperities, spectrum };
 inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities", "spectrum"};
-enum class Control { separation, force };
-inline constexpr std::array kControlNames = {"separation", "force"};
-enum class LevelUnit { sigma, length };
-inline constexpr std::array kLevelUnitNames = {"sigma", "length"};
+enum class Boundary { free, periodic };
+inline constexpr std::array kBoundaryNames = {"free", "periodic"};
+enum class Control { separation, force, pressure };
+inline constexpr std::array kControlNames = {"separation", "force", "pressure"};
+enum class LevelUnit { sigma, length, relative, pressure };
+inline constexpr std::array kLevelUnitNames = {"sigma", "length", "relative", "pressure"};
 enum class Spacing { linear, log };
 inline constexpr std::array kSpacingNames = {"linear", "log"};
 enum class Format { netcdf4, cdf5, classic };
@@ -60,6 +62,7 @@ struct Case {
         LawKind law = LawKind::hertz;
     } asperities;
     struct Indentation {
+        Boundary boundary = Boundary::free;
         Control control = Control::separation;
         double start = 4.0, stop = 1.0;
         int steps = 100;

@@ -16,6 +16,10 @@
 
 namespace rsc {
 
+// A nominal pressure in E* sqrt(2 m2) from which on there is no gap to speak of between two flats: less than 5 % of the area by Persson's
+// erf(sqrt(2) p/(E* h')).
+inline constexpr double kClosingPressure = 1;
+
 // What another value of a key may change in a result: its numbers; only how the file holds them; nothing at all.
 enum class Changes { numbers, file, nothing };
 

@@ -25,6 +25,7 @@ public:
         check_surface();
         check_elements();
         check_levels();
+        check_boundary();
         check_sizes();
         return std::move(problems_);
     }
@@ -174,8 +175,40 @@ private:
         };
         if (i.control == Control::force)
             positive("with control = 'force'");
+        else if (i.control == Control::pressure)
+            positive("with control = 'pressure'");
         else if (!explicit_levels && i.spacing == Spacing::log)
             positive("with spacing = 'log'");
+    }
+
+    void check_boundary() {
+        const Case::Indentation& i = c_.indentation;
+        const bool periodic = i.boundary == Boundary::periodic, relative = i.unit == LevelUnit::relative;
+        if (periodic && !(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])))
+            complain({"indentation%boundary", "solids%R"},
+                     "boundary = 'periodic': is for two flats, and R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
+        if (periodic && i.selection == Selection::paper)
+            complain({"indentation%selection", "indentation%boundary"},
+                     "selection = 'paper': is a circle under a sphere, and two flats have none");
+        if (periodic && c_.surface.source == Source::asperities && !c_.surface.L)
+            complain({"surface%L", "indentation%boundary"}, "L: a list of asperities has no period of its own; give its side");
+        if (periodic && (c_.solver.model == Model::elements || !c_.compare.levels.empty()))
+            complain({"indentation%boundary", c_.solver.model == Model::elements ? "solver%model" : "compare%levels"},
+                     "boundary = 'periodic': elements that repeat are not available yet");
+        if (i.control == Control::pressure && !periodic)
+            complain({"indentation%control", "indentation%boundary"},
+                     "control = 'pressure': a nominal pressure needs a nominal area, that of boundary = 'periodic'");
+        const bool of_pressure = relative || i.unit == LevelUnit::pressure;
+        if (of_pressure != (i.control == Control::pressure))
+            complain({"indentation%unit", "indentation%control"}, "unit = " + get_key(c_, "indentation%unit") +
+                                                                      ": with control = " + get_key(c_, "indentation%control") + " it is " +
+                                                                      (of_pressure ? "'sigma' or 'length'" : "'relative' or 'pressure'"));
+        if (!(i.control == Control::pressure && relative)) return;
+        const double most = i.levels.empty() ? std::max(i.start, i.stop) : *std::max_element(i.levels.begin(), i.levels.end());
+        if (most >= kClosingPressure)
+            complain({i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
+                     "a pressure of " + namelist::from_real(most) +
+                         " E* sqrt(2 m2) closes the gap altogether: levels must be below 1 with unit = 'relative'");
     }
 
     void check_sizes() {

@@ -28,7 +28,8 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, int can
     if (kernel.none()) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
     if (options.method != Method::automatic) return options.method;
     // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
-    constexpr double contacts_per_candidate = 0.4, pairs_per_second = 6e9, mesh_overhead = 4;
+    constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
+    const double pairs_per_second = kernel.lattice() ? 2e8 : 6e9;  // with images there are no sums in single precision
     const double contacts = contacts_per_candidate * static_cast<double>(candidates);
     const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates), 1e-3);
     return contacts * contacts / pairs_per_second > mesh_cost ? Method::mesh : Method::direct;

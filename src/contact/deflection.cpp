@@ -41,7 +41,8 @@ double spot_deflection(double force, double radius, double distance, double E_st
     return force / (std::numbers::pi * E_star * distance) * sum;
 }
 
-double deflection(const Level& level, double E_star, double x, double y) {
+double deflection(const Level& level, const Kernel& kernel, double x, double y) {
+    const Period period = kernel.period();
     double sum = 0;
     const LevelPixels& pixels = level.pixels;
     for (std::size_t k = 0; k < pixels.index.size(); ++k)
@@ -49,8 +50,9 @@ double deflection(const Level& level, double E_star, double x, double y) {
                pixel_kernel((x - pixels.x(k)) / pixels.dx, (y - pixels.y(k)) / pixels.dx, pixels.dy / pixels.dx);
     if (!pixels.index.empty()) return sum / (std::numbers::pi * E_star);
     for (std::size_t k = 0; k < level.f.size(); ++k) {
-        const double dx = x - level.x[k], dy = y - level.y[k];
-        sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), E_star);
+        const double dx = period.nearest_x(x - level.x[k]), dy = period.nearest_y(y - level.y[k]);
+        sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), kernel.modulus());
+        if (kernel.lattice()) sum += level.f[k] / (std::numbers::pi * kernel.modulus()) * kernel.lattice()->rest(dx, dy);
     }
     return sum;
 }

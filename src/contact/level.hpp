@@ -34,6 +34,8 @@ struct LevelValues {
     double force = 0;                    // N = sum f [force]
     double area = 0;                     // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
     double area_pixels = kNotComputed;   // elements: of all pixels under pressure, not corrected for their border [length^2]
+    double pressure = kNotComputed;      // two flats: nominal, N/A0 [force/length^2]
+    double area_fraction = kNotComputed; // two flats: A/A0
     double residual = 0;                 // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     // By add_answers (contact/answers.hpp):
     double stiffness = kNotComputed;                                     // dN/dZ0, negative [force/length]

@@ -195,6 +195,7 @@ void ResultTable::regimes() {
                "pi (3 r_g N/(4 E*))^(2/3), r_g = 0.737/sqrt(m4), with " + which);
     add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II", second,
                "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which);
+    if (r_.indenter.period.finite()) return two_flats(m);
     add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth sphere at force_mean (Hertz)", hertz,
                "pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for flat on flat");
 }
@@ -217,6 +218,28 @@ void ResultTable::friction() {
     add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness while all sticks", f.stiffness,
                "4 G*/E* times -dN/dZ0; " + none);
     add_absent("cycle_work", {"step"}, unit(1, 1), "work lost to friction in a cycle", f.cycle_work, "the area of the loop; " + none);
+}
+
+void ResultTable::two_flats(const Moments& m) {
+    const double E = r_.indenter.E_star, A0 = r_.indenter.period.area();
+    double summits = 0, kappa = 0;
+    for (const SurfaceStatistics& s : o_.surface) summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g;
+    const auto n = static_cast<double>(o_.surface.size());
+    const FlatSummits own{summits / n / A0, n / kappa, std::sqrt(std::max(0.0, m.m0 - kSummitVariance * m.m2 * m.m2 / m.m4))};
+    std::vector<double> persson, bush, greenwood;
+    for (double N : o_.force.mean) {
+        const double p = N / (A0 * E * std::sqrt(2 * m.m2));
+        persson.push_back(m.m2 > 0 ? area_persson(p) : kAbsent);
+        bush.push_back(m.m2 > 0 ? area_bgt(p) : kAbsent);
+        greenwood.push_back(own.usable() && std::isfinite(N) ? area_gw(N / (A0 * E), own) : kAbsent);
+    }
+    const std::string which = r_.theory ? "m2_theory" : "the mean of m2 over realizations";
+    add_absent("area_persson", {"step"}, "1", "area fraction at force_mean by Persson's theory", persson,
+               "erf(sqrt(2) p/(E* sqrt(2 m2))), with " + which);
+    add_absent("area_bgt", {"step"}, "1", "area fraction at force_mean by the asymptote of Bush, Gibson and Thomas", bush,
+               "sqrt(2 pi) p/(E* sqrt(2 m2)), with " + which);
+    add_absent("area_gw", {"step"}, "1", "area fraction at force_mean by Greenwood and Williamson", greenwood,
+               "summits of the surface's own density and radius 1/mean_kappa_g, Gaussian heights of variance m0 - 0.8968 m2^2/m4 (Nayak)");
 }
 
 }  // namespace rsc

@@ -68,6 +68,7 @@ private:
     // netcdf_measured.cpp
     void measured();
     void friction();
+    void two_flats(const Moments& moments);
     // netcdf_observed.cpp
     void maps();
     void radial();

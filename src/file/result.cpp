@@ -24,7 +24,7 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     options.tip_x = indenter.x0;
     options.tip_y = indenter.y0;
     options.map = make_map_grid(domain.x0, domain.y0, domain.Lx, domain.Ly, c.output.map_cells);
-    options.radial_bins = c.output.radial_bins;
+    options.radial_bins = indenter.period.finite() ? 0 : c.output.radial_bins;  // two flats have no centre
     if (c.output.pdf_levels.empty() || !(sigma > 0) || !(sqrt_m4 > 0))
         return options;  // nothing to measure the ranges by: no distributions
     for (double level : c.output.pdf_levels) options.pdf_levels.push_back(level * sigma);
@@ -46,7 +46,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
     result.length_unit = c.run.length_unit;
     result.force_unit = c.run.force_unit;
     result.seed = c.run.seed;
-    result.force_control = c.indentation.control == Control::force;
+    result.force_control = c.indentation.control != Control::separation;
     result.indenter = indenter;
     result.sigma = sigma > 0 ? sigma : kAbsent;
     result.theory = theory;

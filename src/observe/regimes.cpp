@@ -44,4 +44,35 @@ double transition_force(const Moments& moments, double E_star, double beta) {
     return 9.0 / 16.0 * r_g * r_g * root * root * root * E_star;
 }
 
+double area_persson(double p_star) { return std::erf(std::sqrt(2.0) * p_star); }
+
+double area_bgt(double p_star) { return std::sqrt(2 * pi) * p_star; }
+
+namespace {
+
+// F_n(h) by Simpson's rule in w, t = h + w^2, whose integrand is smooth for n = 1 and 3/2.
+double greenwood_williamson(double n, double h) {
+    const double end = std::sqrt(std::max(0.0, -h) + 9);
+    constexpr int steps = 400;
+    double sum = 0;
+    for (int k = 0; k <= steps; ++k) {
+        const double w = end * k / steps, t = h + w * w;
+        sum += (k == 0 || k == steps ? 1 : k % 2 ? 4 : 2) * 2 * std::pow(w, 2 * n + 1) * std::exp(-t * t / 2) / std::sqrt(2 * pi);
+    }
+    return sum * end / (3 * steps);
+}
+
+}  // namespace
+
+double area_gw(double p_over_E_star, const FlatSummits& s) {
+    if (!(p_over_E_star > 0)) return 0;
+    const double unit = 4.0 / 3 * s.density * std::sqrt(s.radius) * s.deviation * std::sqrt(s.deviation);
+    double low = -50, high = 12;
+    for (int k = 0; k < 60; ++k) {
+        const double h = 0.5 * (low + high);
+        (unit * greenwood_williamson(1.5, h) > p_over_E_star ? low : high) = h;
+    }
+    return pi * s.density * s.radius * s.deviation * greenwood_williamson(1, low);
+}
+
 }  // namespace rsc

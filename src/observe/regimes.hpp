@@ -30,4 +30,20 @@ double area_proportional(double force, double m2, double E_star, double beta = k
 // The force at which A_I = A_II with r_g of the moments: 212.66 m2^(3/2) E* / m4 for beta = 0.2 [force].
 double transition_force(const Moments& moments, double E_star, double beta = kRegimeBeta);
 
+// Two flats under a nominal pressure, p* = p/(E* sqrt(2 m2)): area fractions.
+double area_persson(double p_star);  // Persson 2001: erf(sqrt(2) p*)
+double area_bgt(double p_star);      // the asymptote of Bush, Gibson, Thomas 1975: sqrt(2 pi) p*
+
+// Summits as Greenwood and Williamson (1966) see them: all of one radius, heights Gaussian.
+struct FlatSummits {
+    double density;    // [1/length^2]
+    double radius;     // [length]
+    double deviation;  // of the heights [length]
+    bool usable() const { return density > 0 && radius > 0 && deviation > 0; }
+};
+// Variance of the summits' heights is m0 - this m2^2/m4 (Nayak 1971; Greenwood 2006).
+inline constexpr double kSummitVariance = 0.8968;
+// A/A0 = pi D R s F_1(h) at the h where p/E* = (4/3) D sqrt(R) s^(3/2) F_{3/2}(h), F_n(h) = int_h^inf (t - h)^n phi(t) dt.
+double area_gw(double p_over_E_star, const FlatSummits& summits);
+
 }  // namespace rsc

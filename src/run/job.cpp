@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
@@ -91,6 +92,23 @@ Job prepare(const Case& settings) {
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) {
         for (double& level : job.levels) level *= job.sigma;
     }
+    if (indentation.control == Control::pressure) {
+        // Into forces. m2 is the spectrum's, so that a pressure is the same for every realization, or that of the map read.
+        const double m2 = job.theory ? job.theory->m2 : job.given->statistics.m2, full = job.indenter.E_star * std::sqrt(2 * m2);
+        const bool relative = indentation.unit == LevelUnit::relative;
+        if (relative && !(m2 > 0)) {
+            throw Error(Failure::bad_input,
+                        "indentation%unit = 'relative': the surface's rms slope is not known, only summits; use unit = 'pressure'");
+        }
+        for (double& level : job.levels) {
+            if (relative) level *= full;
+            if (level >= kClosingPressure * full) {
+                throw Error(Failure::bad_input, "indentation: a pressure of " + std::to_string(level) +
+                                                    " closes the gap altogether: it must be below E* sqrt(2 m2) = " + std::to_string(full));
+            }
+            level *= job.indenter.period.area();
+        }
+    }
     job.observe = observe_options(settings, job.site.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
@@ -126,7 +144,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     }
     r.levels.reserve(job.levels.size());
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
-        if (settings.indentation.control == Control::force) {
+        if (settings.indentation.control != Control::separation) {
             r.levels.push_back(contact->at_force(job.levels[k]));
         } else {
             r.levels.push_back(contact->at_separation(job.levels[k]));
@@ -134,6 +152,10 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         Level& level = r.levels.back();
         add_answers(*contact, level, settings.solids.resistivity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
+        if (job.indenter.period.finite()) {
+            level.pressure = level.force / job.indenter.period.area();
+            level.area_fraction = level.area / job.indenter.period.area();
+        }
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     contact.reset();

@@ -115,7 +115,11 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
 
 Surface make_surface(const Case& settings, std::int64_t number, int threads) {
     if (has_spectrum(settings)) return make_surface(settings, spectrum_of(settings), number, threads);
-    if (settings.surface.source == Source::heights) return read_map(settings, map_file(settings.surface.file, number));
+    if (settings.surface.source == Source::heights) {
+        Surface surface = read_map(settings, map_file(settings.surface.file, number));
+        surface.map.periodic = settings.indentation.boundary == Boundary::periodic;
+        return surface;
+    }
     throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
 }
 
@@ -285,13 +289,17 @@ Indenter indenter_of(const Case& settings, const Site& site) {
     const auto& centre = settings.indentation.centre;
     const Domain& d = site.domain;
     const Indenter indenter{equivalent_modulus(settings.solids.E, settings.solids.nu), equivalent_radius(settings.solids.R),
-                            centre[0].value_or(d.x0 + 0.5 * d.Lx), centre[1].value_or(d.y0 + 0.5 * d.Ly)};
+                            centre[0].value_or(d.x0 + 0.5 * d.Lx), centre[1].value_or(d.y0 + 0.5 * d.Ly), period_of(settings, site)};
     try {
         require_tip_above(site, indenter.R, indenter.x0, indenter.y0);
     } catch (const Error& error) {
         throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
     }
     return indenter;
+}
+
+Period period_of(const Case& settings, const Site& site) {
+    return settings.indentation.boundary == Boundary::periodic ? Period{site.domain.Lx, site.domain.Ly} : Period{};
 }
 
 std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options) {

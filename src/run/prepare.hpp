@@ -102,6 +102,9 @@ Ground make_bare_ground(const Surface& surface);
 // E* and R from &solids, the tip above indentation%centre, by default the middle of the surface.
 Indenter indenter_of(const Case& settings, const Site& site);
 
+// The sides of the surface with indentation%boundary = 'periodic'.
+Period period_of(const Case& settings, const Site& site);
+
 // The length that unit='sigma' and delta0 mean.
 double sigma_of(const Case& settings, const Site& site);
 

@@ -34,6 +34,8 @@ const char* fallback_text(Fallback fallback) {
 }
 
 const char* name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+// Columns of what only two flats have are theirs alone.
+bool shown(const LevelQuantity& q, const Job& job) { return q.heading && (q.always || job.indenter.period.finite()); }
 
 }  // namespace
 
@@ -51,8 +53,12 @@ void print_case(std::ostream& out, const Job& job) {
     const char* l = run.length_unit.c_str();
     const char* f = run.force_unit.c_str();
     if (!run.title.empty()) out << run.title << '\n';
-    out << format("sphere R = %g %s on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.R, l, job.indenter.E_star, f, l,
-                  job.sigma, l);
+    if (const Period& period = job.indenter.period; period.finite())
+        out << format("two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = %g %s\n", period.x, period.y, l,
+                      job.indenter.E_star, f, l, job.sigma, l);
+    else
+        out << format("sphere R = %g %s on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.R, l, job.indenter.E_star, f,
+                      l, job.sigma, l);
     if (job.theory) {
         const Moments& m = *job.theory;
         out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s, transition force N* %.5g %s\n",
@@ -74,7 +80,7 @@ void print_heading(std::ostream& out, const Job& job) {
     const std::string l = job.settings.run.length_unit, f = job.settings.run.force_unit;
     out << format("\n%5s %12s %9s", "level", format("Z0 [%s]", l.c_str()).c_str(), "Z0/sigma");
     for (const LevelQuantity& q : level_quantities()) {
-        if (!q.heading) continue;
+        if (!shown(q, job)) continue;
         std::string heading = q.heading;
         if (q.length_power != 0 || q.force_power != 0) heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
         out << format(" %*s", q.width, heading.c_str());
@@ -85,7 +91,7 @@ void print_heading(std::ostream& out, const Job& job) {
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
     out << format("%5zu %12.6g %9.5f", number + 1, level.separation, level.separation / job.sigma);
     for (const LevelQuantity& q : level_quantities()) {
-        if (!q.heading) continue;
+        if (!shown(q, job)) continue;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
             out << "  " << status_text(level.status)
                 << (level.fallback == Fallback::none ? ""

@@ -198,12 +198,13 @@ contains
   end subroutine
 
   subroutine read_indentation()
-    character(len=32) :: control, unit, spacing, selection
+    character(len=32) :: boundary, control, unit, spacing, selection
     real(real64) :: start, stop, centre(2), selection_factor
     real(real64), save :: levels(10000)
     integer(int32) :: steps
     integer :: ios, k
-    namelist /indentation/ control, start, stop, steps, unit, spacing, levels, centre, selection, selection_factor
+    namelist /indentation/ boundary, control, start, stop, steps, unit, spacing, levels, centre, selection, selection_factor
+    boundary = 'free'
     control = 'separation'
     start = 4
     stop = 1
@@ -216,6 +217,7 @@ contains
     selection_factor = 1.5_real64
     read (unit_in, nml=indentation, iostat=ios)
     call status('indentation', ios)
+    call put_text('indentation%boundary', boundary)
     call put_text('indentation%control', control)
     call put_real('indentation%start', start)
     call put_real('indentation%stop', stop)

@@ -65,7 +65,7 @@ void asperities_and_images() {
 
 void methods_agree() {
     constexpr double kMethods = 1e-8;
-    for (unsigned seed : {1u, 2u}) {
+    for (unsigned seed : {1u}) {
         const Asperities a = on_square(250, seed);
         for (double Z0 : {0.02, 0.008, 0.0}) {
             double force = 0;
@@ -80,11 +80,25 @@ void methods_agree() {
     }
 }
 
+// Enough asperities for a mesh.
+void direct_and_mesh() {
+    const Asperities a = on_square(700, 5, 0.005, 4e-4);
+    double force[2];
+    int k = 0;
+    for (Method method : {Method::direct, Method::mesh}) {
+        AsperityContact contact(a, flats(1), options(method, 1e-9));
+        const Level level = contact.at_separation(0.0);
+        CHECK(level.status != LevelStatus::not_converged && level.candidates > 300 && level.method == method);
+        force[k++] = level.force;
+    }
+    CHECK_RELATIVE(force[1], force[0], 1e-8);
+}
+
 // Everything moved by a vector, and put back into the cell.
 void translations() {
     constexpr double kMoved = 1e-9;
     for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
-        Asperities a = on_square(600, 11, 0.0, 6e-3);
+        Asperities a = on_square(400, 11, 0.0, 2e-2);
         for (std::size_t i = 0; i < a.size(); ++i) {
             const double ratio = 0.3 + 0.6 * std::fmod(0.618 * static_cast<double>(i), 1.0);
             a.kappa1.push_back(1 / a.radius[i] / std::sqrt(ratio));
@@ -178,6 +192,7 @@ void series() {
 int main() {
     asperities_and_images();
     methods_agree();
+    direct_and_mesh();
     translations();
     large_periods();
     controls_and_derivatives();

@@ -5,11 +5,12 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "contact/interaction/mesh_far.hpp"
-#include "contact/interaction/pairs.hpp"
+#include "contact/interaction/pair_sums.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -71,12 +72,14 @@ struct Choice {
 
 // The mesh spacing of least cost. The longest side must be some cutoffs long, or there is no far field worth a mesh.
 template <class Pairs>
-Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, double length_y, Pairs pairs) {
+Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, double length_y, bool periodic, Pairs pairs) {
     Choice best;
     best.cost = std::numeric_limits<double>::infinity();
-    const double largest = std::max(length_x, length_y) / 8;
+    // A mesh that repeats is wider than a window, and some cutoffs of any design wide.
+    const double largest = periodic ? std::min(length_x, length_y) / 32 : std::max(length_x, length_y) / 8;
     for (double spacing = largest; spacing > largest * 1e-7; spacing *= 0.84) {
-        const double mesh = FarField::points_needed(design, length_x / spacing, length_y / spacing);
+        const double mesh =
+            periodic ? length_x / spacing * (length_y / spacing) : FarField::points_needed(design, length_x / spacing, length_y / spacing);
         if (mesh > kMeshPointsAtMost && best.spacing > 0) break;
         const double near = pairs(design.cutoff * spacing);
         const double cost = kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
@@ -89,7 +92,8 @@ Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, 
 
 struct MeshPotential::Parts {
     std::size_t n = 0;
-    PairSet direct;  // for few points or points all at one place, instead of everything else
+    std::optional<Lattice> lattice;  // where everything repeats
+    PairSums direct;                 // for few points or points all at one place, instead of everything else
 
     const MeshDesign* design = nullptr;
     Choice choice;
@@ -99,6 +103,9 @@ struct MeshPotential::Parts {
     std::unique_ptr<FarField> far;
 
     // Points in strips of constant y, by x within a strip; x runs along the longer side. Strips are padded for the pair loops.
+    // Where everything repeats, the first `strips` of them are followed by copies: of the two lowest beyond the upper border, then of the
+    // left end of every strip so far beyond the right border.
+    std::size_t strips = 0;
     std::vector<std::size_t> strip_begin, strip_size;
     std::vector<std::uint32_t> point;  // [strip_begin[s] + k] the caller's number, k < strip_size[s]
     std::vector<double> x, y;          // for the near field, scaled
@@ -115,11 +122,14 @@ struct MeshPotential::Parts {
     std::unique_ptr<Scratch> take_scratch() const;
     void give_back(std::unique_ptr<Scratch> scratch) const;
     void make_strips(const double* px, const double* py, double x0, double y0, double length_y);
+    void near_strip(std::size_t s, const double* f, double* phi) const;
+    void repeat(std::size_t n, const double* px, const double* py, double relative_error);
     void spread(const double* f, double* mesh) const;
     void near_field(const double* f, double* phi) const;
 };
 
-MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error) : parts_(std::make_unique<Parts>()) {
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice)
+    : parts_(std::make_unique<Parts>()) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
         throw Error(Failure::bad_input, "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())
@@ -133,10 +143,18 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         x_min = std::min(x_min, x[i]), x_max = std::max(x_max, x[i]);
         y_min = std::min(y_min, y[i]), y_max = std::max(y_max, y[i]);
     }
+    if (lattice) {
+        p.lattice = *lattice;
+        p.direct = PairSums(&*p.lattice);
+    }
     if (n <= kDirect || (x_max == x_min && y_max == y_min)) {
         p.direct.assign(n, x, y);
         p.choice.pairs = static_cast<double>(n) * static_cast<double>(n);
         p.choice.cost = 1e-9 * p.choice.pairs;
+        return;
+    }
+    if (lattice) {
+        p.repeat(n, x, y, relative_error);
         return;
     }
     // The kernel does not know x from y.
@@ -144,7 +162,7 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
     const double length_x = x_max - x_min, length_y = y_max - y_min;
     if (!std::isfinite(length_x)) throw Error(Failure::bad_input, "mesh product: the extent of the points overflows");
     p.design = &mesh_design(relative_error);
-    p.choice = choose_spacing(*p.design, n, length_x, length_y, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
+    p.choice = choose_spacing(*p.design, n, length_x, length_y, false, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
     p.scale = std::ldexp(1.0, -std::ilogb(length_x) - 1);
     const double cutoff = p.design->cutoff * p.choice.spacing;
     p.kernel = near_kernel(*p.design, cutoff * p.scale);
@@ -158,34 +176,50 @@ MeshPotential::MeshPotential(MeshPotential&&) noexcept = default;
 MeshPotential& MeshPotential::operator=(MeshPotential&&) noexcept = default;
 
 void MeshPotential::Parts::make_strips(const double* px, const double* py, double x0, double y0, double length_y) {
-    // Half a cutoff high: points of a strip meet those of two strips on each side.
-    const double height = kernel.reach / scale / 2;
-    const std::size_t strips = static_cast<std::size_t>(length_y / height) + 1;
+    // Half a cutoff high at least: points of a strip meet those of two strips on each side.
+    double height = kernel.reach / scale / 2;
+    strips = static_cast<std::size_t>(length_y / height) + 1;
+    if (lattice) height = length_y / static_cast<double>(--strips);
     std::vector<std::uint32_t> strip(n);
-    strip_size.assign(strips, 0);
+    const std::size_t whole = lattice ? strips + 2 : strips, all = lattice ? 2 * whole : strips;
+    const double reach = kernel.reach / scale;
+    strip_size.assign(all, 0);
+    // Calls visit(segment) for a point's strip and its copies.
+    const auto segments = [&](std::size_t i, auto&& visit) {
+        const std::size_t s = strip[i];
+        visit(s);
+        if (!lattice) return;
+        const bool left = px[i] - x0 < reach;
+        if (left) visit(whole + s);
+        if (s < 2) visit(strips + s);
+        if (s < 2 && left) visit(whole + strips + s);
+    };
     for (std::size_t i = 0; i < n; ++i) {
-        strip[i] = static_cast<std::uint32_t>((py[i] - y0) / height);
-        ++strip_size[strip[i]];
+        strip[i] = std::min(static_cast<std::uint32_t>((py[i] - y0) / height), static_cast<std::uint32_t>(strips - 1));
+        segments(i, [&](std::size_t s) { ++strip_size[s]; });
     }
-    strip_begin.resize(strips + 1);
+    strip_begin.resize(all + 1);
     strip_begin[0] = 0;
-    for (std::size_t s = 0; s < strips; ++s)
+    for (std::size_t s = 0; s < all; ++s)
         strip_begin[s + 1] = strip_begin[s] + (strip_size[s] + 2 * kPairPadding - 1) / kPairPadding * kPairPadding;
-    point.resize(strip_begin[strips]);
+    point.resize(strip_begin[all]);
     std::vector<std::size_t> next(strip_begin.begin(), strip_begin.end() - 1);
-    for (std::size_t i = 0; i < n; ++i) point[next[strip[i]]++] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < n; ++i) segments(i, [&](std::size_t s) { point[next[s]++] = static_cast<std::uint32_t>(i); });
 
     for (auto* array : {&x, &y, &u, &v}) array->resize(point.size());
     const double offset = 0.5 * design->width;
+    const double dx = lattice ? lattice->period().x / static_cast<double>(far->columns()) : choice.spacing;
+    const double dy = lattice ? lattice->period().y / static_cast<double>(far->lines()) : choice.spacing;
 #pragma omp parallel for schedule(dynamic, 16) if (n > kThreads)
-    for (std::size_t s = 0; s < strips; ++s) {
+    for (std::size_t s = 0; s < all; ++s) {
+        const double right = s >= whole ? lattice->period().x : 0, up = s % whole >= strips ? lattice->period().y : 0;
         const auto begin = point.begin() + static_cast<std::ptrdiff_t>(strip_begin[s]);
         std::sort(begin, begin + static_cast<std::ptrdiff_t>(strip_size[s]),
                   [px](std::uint32_t a, std::uint32_t b) { return px[a] != px[b] ? px[a] < px[b] : a < b; });
         for (std::size_t k = strip_begin[s]; k < strip_begin[s] + strip_size[s]; ++k) {
             const std::uint32_t i = point[k];
-            x[k] = px[i] * scale, y[k] = py[i] * scale;
-            u[k] = (px[i] - x0) / choice.spacing + offset, v[k] = (py[i] - y0) / choice.spacing + offset;
+            x[k] = (px[i] + right) * scale, y[k] = (py[i] + up) * scale;
+            u[k] = (px[i] - x0) / dx + offset, v[k] = (py[i] - y0) / dy + offset;
         }
         // Pads: out of everyone's reach, the box being at most 1 wide.
         for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k) x[k] = x0 * scale + 4, y[k] = y0 * scale;
@@ -213,10 +247,30 @@ void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
     free_scratch.push_back(std::move(scratch));
 }
 
+// Points into the cell, and everything for a mesh that repeats.
+void MeshPotential::Parts::repeat(std::size_t count, const double* px, const double* py, double relative_error) {
+    const Period& period = lattice->period();
+    std::vector<double> inside_x(count), inside_y(count);
+    const auto inside = [](double value, double side) {
+        const double moved = value - side * std::floor(value / side);
+        return moved < side ? moved : 0.0;
+    };
+    for (std::size_t i = 0; i < count; ++i) inside_x[i] = inside(px[i], period.x), inside_y[i] = inside(py[i], period.y);
+    design = &mesh_design(relative_error);
+    choice = choose_spacing(*design, count, period.x, period.y, true,
+                            PairEstimate(count, inside_x.data(), inside_y.data(), 0, 0, period.x, period.y));
+    scale = std::ldexp(1.0, -std::ilogb(std::max(period.x, period.y)) - 1);
+    const double cutoff = design->cutoff * choice.spacing;
+    kernel = near_kernel(*design, cutoff * scale);
+    window = mesh_window(*design);
+    far = std::make_unique<FarField>(*design, *lattice, choice.spacing, cutoff);
+    make_strips(inside_x.data(), inside_y.data(), 0, 0, period.y);
+}
+
 // Bands of strips, the even ones at once and then the odd ones: no two at work touch the same rows, and every row gets its parts
 // in the same order whatever the threads.
 void MeshPotential::Parts::spread(const double* f, double* mesh) const {
-    const std::size_t strips = strip_size.size(), bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
+    const std::size_t bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
     const auto table = pair_kernels().spread;
 #pragma omp parallel if (n > kThreads)
     {
@@ -233,24 +287,33 @@ void MeshPotential::Parts::spread(const double* f, double* mesh) const {
     }
 }
 
-// The same with groups of strips: a group adds to its own strips and the two after it.
+// Pairs of a strip with itself and with the next two.
+void MeshPotential::Parts::near_strip(std::size_t s, const double* f, double* phi) const {
+    const PairKernels& table = pair_kernels();
+    const auto between = [&](std::size_t a, std::size_t b) {
+        const std::size_t i = strip_begin[a], j = strip_begin[b];
+        if (strip_size[a] == 0 || strip_size[b] == 0) return;
+        table.near_strips(kernel, strip_size[a], x.data() + i, y.data() + i, f + i, phi + i, strip_size[b], x.data() + j, y.data() + j,
+                          f + j, phi + j);
+    };
+    const std::size_t b = strip_begin[s], whole = lattice ? strips + 2 : strips;
+    table.near_own(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
+    if (lattice) between(s, whole + s);
+    for (std::size_t t = s + 1; t < std::min(whole, s + 3); ++t) {
+        between(s, t);
+        if (lattice) between(s, whole + t), between(t, whole + s);
+    }
+}
+
+// The same with groups of strips: a group adds to its own strips and the two after it, and to the copies of their left ends.
 void MeshPotential::Parts::near_field(const double* f, double* phi) const {
     constexpr std::size_t kGroup = 4;
-    const std::size_t strips = strip_size.size(), groups = (strips + kGroup - 1) / kGroup;
-    const PairKernels& table = pair_kernels();
+    const std::size_t groups = (strips + kGroup - 1) / kGroup;
 #pragma omp parallel if (n > kThreads)
     for (std::size_t odd = 0; odd < 2; ++odd) {
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t group = odd; group < groups; group += 2)
-            for (std::size_t s = group * kGroup; s < std::min(strips, (group + 1) * kGroup); ++s) {
-                const std::size_t b = strip_begin[s];
-                table.near_own(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
-                for (std::size_t t = s + 1; t < std::min(strips, s + 3); ++t) {
-                    const std::size_t c = strip_begin[t];
-                    table.near_strips(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b, strip_size[t], x.data() + c,
-                                      y.data() + c, f + c, phi + c);
-                }
-            }
+            for (std::size_t s = group * kGroup; s < std::min(strips, (group + 1) * kGroup); ++s) near_strip(s, f, phi);
     }
 }
 
@@ -260,10 +323,10 @@ void MeshPotential::apply(const double* f, double* phi) const {
     const Parts& p = *parts_;
     if (!p.far) return p.direct.apply(f, phi);
     auto scratch = p.take_scratch();
-    const std::size_t strips = p.strip_size.size();
+    const std::size_t strips = p.strips, all = p.strip_size.size();
     double *const sorted = scratch->f.data(), *const near = scratch->near.data(), *const far = scratch->far.data();
 #pragma omp parallel for schedule(static) if (p.n > kThreads)
-    for (std::size_t s = 0; s < strips; ++s) {
+    for (std::size_t s = 0; s < all; ++s) {
         const std::size_t b = p.strip_begin[s];
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // pads stay without force
         std::fill(near + b, near + p.strip_begin[s + 1], 0.0);
@@ -271,7 +334,7 @@ void MeshPotential::apply(const double* f, double* phi) const {
     p.near_field(sorted, near);
     p.spread(sorted, scratch->mesh.get());
     p.far->convolve(scratch->mesh.get());
-    const double far_unit = 1 / p.choice.spacing;
+    const double far_unit = p.lattice ? 1 : 1 / p.choice.spacing;
 #pragma omp parallel for schedule(static) if (p.n > kThreads)
     for (std::size_t s = 0; s < strips; ++s) {
         const std::size_t b = p.strip_begin[s];
@@ -279,6 +342,8 @@ void MeshPotential::apply(const double* f, double* phi) const {
                                    p.far->stride());
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * p.scale + far[k] * far_unit;
     }
+    for (std::size_t s = strips; s < all; ++s)  // what the copies got
+        for (std::size_t k = p.strip_begin[s]; k < p.strip_begin[s] + p.strip_size[s]; ++k) phi[p.point[k]] += near[k] * p.scale;
     p.give_back(std::move(scratch));
 }
 
@@ -297,7 +362,7 @@ double MeshPotential::estimated_cost(std::size_t n, double relative_error, doubl
     if (n <= kDirect) return 1e-9 * static_cast<double>(n) * static_cast<double>(n);
     const double side = std::min(aspect_ratio, 1 / aspect_ratio), count = static_cast<double>(n);
     const auto pairs = [&](double radius) { return count * std::min(count, count * 3.14159 * radius * radius / side); };
-    return choose_spacing(mesh_design(relative_error), n, 1, side, pairs).cost;
+    return choose_spacing(mesh_design(relative_error), n, 1, side, false, pairs).cost;
 }
 
 }  // namespace rsc

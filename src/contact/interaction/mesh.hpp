@@ -3,11 +3,14 @@
 // 1/d = [1/d - F(d)] + F(d), with F smooth and equal to 1/d from a cutoff on. The first part is a sum over near pairs. The second
 // is band limited: forces are spread onto a mesh, convolved with F by Fourier transforms on a mesh of twice the size (free
 // boundary: nothing is periodic), and read off again. The error is one of the band limit and of the spreading window, the same at
-// every density of points.
+// every density of points. Where everything repeats, the sum over images less 1/d to the nearest one is smooth and goes to the mesh
+// with F, which needs no doubling then.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+
+#include "contact/interaction/lattice.hpp"
 
 namespace rsc {
 
@@ -16,7 +19,8 @@ public:
     // n points with finite coordinates [length]. relative_error, 1e-10 to 1e-2: wanted bound on |phi - exact| / |phi| in the
     // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
     // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
-    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error);
+    // With a lattice (it is copied) everything repeats: Gamma - Gamma's least value takes the place of 1/d, and a point acts on itself.
+    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice = nullptr);
     ~MeshPotential();
     MeshPotential(MeshPotential&&) noexcept;
     MeshPotential& operator=(MeshPotential&&) noexcept;

@@ -36,6 +36,14 @@ std::vector<FftwArray> buffers(int threads, std::size_t n) {
     return all;
 }
 
+// F at the square distance d2 of a kernel's cutoff.
+double far_part(const NearKernel& kernel, double d2) {
+    if (d2 >= kernel.cutoff2) return 1 / std::sqrt(d2);
+    double value = 0;
+    for (int k = kernel.degree; k >= 0; --k) value = value * (kernel.cutoff2 - d2) + kernel.c[k];
+    return value;
+}
+
 fftw_complex* as_complex(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
 }  // namespace
@@ -57,6 +65,35 @@ FarField::FarField(const MeshDesign& design, double length_x, double length_y)
     const std::size_t complex_columns = std::max(period_x_ / 2 + 1, (static_cast<std::size_t>(length_x) + 2 + kWindowWidth) / 2 + 1);
     columns_ = (complex_columns + kColumns - 1) / kColumns * kColumns;
 
+    make_plans();
+    const NearKernel kernel = near_kernel(design, design.cutoff);
+    const auto squares = [&design](std::size_t period, double length) {
+        const auto size = static_cast<double>(period);
+        std::vector<double> square(period / 2 + 1);
+        for (std::size_t m = 0; m <= period / 2; ++m) square[m] = periodic_square(design, static_cast<double>(m), size, size / 2 - length);
+        return square;
+    };
+    const std::vector<double> x2 = squares(period_x_, length_x), y2 = squares(period_y_, length_y);
+    make_multiplier(design, [&](std::size_t m, std::size_t n) { return far_part(kernel, x2[m] + y2[n]); });
+}
+
+FarField::FarField(const MeshDesign& design, const Lattice& lattice, double spacing, double cutoff)
+    : period_x_(transform_length(lattice.period().x / spacing)),
+      period_y_(transform_length(lattice.period().y / spacing)),
+      periodic_(true) {
+    rows_ = period_y_ + static_cast<std::size_t>(design.width) + 1;
+    const std::size_t complex_columns = (period_x_ + 2 + kWindowWidth) / 2 + 1;
+    columns_ = (complex_columns + kColumns - 1) / kColumns * kColumns;
+    make_plans();
+    const NearKernel kernel = near_kernel(design, cutoff);
+    const double dx = lattice.period().x / static_cast<double>(period_x_), dy = lattice.period().y / static_cast<double>(period_y_);
+    make_multiplier(design, [&](std::size_t m, std::size_t n) {
+        const double x = static_cast<double>(m) * dx, y = static_cast<double>(n) * dy;
+        return far_part(kernel, x * x + y * y) + lattice.rest(x, y) - lattice.least();
+    });
+}
+
+void FarField::make_plans() {
     const int nx = static_cast<int>(period_x_), ny = static_cast<int>(period_y_), many = static_cast<int>(kColumns);
     const FftwArray row = fftw_array(stride()), block = fftw_array(2 * kColumns * period_y_);
     {
@@ -69,20 +106,32 @@ FarField::FarField(const MeshDesign& design, double length_x, double length_y)
     }
     if (!row_forward_ || !row_backward_ || !column_forward_ || !column_backward_)
         throw Error(Failure::internal, "FFTW made no plan for a mesh of " + std::to_string(nx) + " x " + std::to_string(ny));
-    make_multiplier(design, length_x, length_y);
+}
+
+// Before the transforms every point of the mesh stands once; afterwards windows reach across the border again.
+void FarField::fold(double* mesh) const {
+    for (std::size_t n = period_y_; n < rows_; ++n) {
+        double *from = mesh + n * stride(), *to = from - period_y_ * stride();
+        for (std::size_t m = 0; m < stride(); ++m) to[m] += from[m];
+    }
+    for (std::size_t n = 0; n < period_y_; ++n) {
+        double* row = mesh + n * stride();
+        for (std::size_t m = period_x_; m < stride(); ++m) row[m - period_x_] += row[m];
+    }
+}
+
+void FarField::unfold(double* mesh) const {
+    for (std::size_t n = 0; n < period_y_; ++n) {
+        double* row = mesh + n * stride();
+        for (std::size_t m = period_x_; m < stride(); ++m) row[m] = row[m - period_x_];
+    }
+    for (std::size_t n = period_y_; n < rows_; ++n) std::copy_n(mesh + (n - period_y_) * stride(), stride(), mesh + n * stride());
 }
 
 // Transform of F on the periodic mesh, times what makes up for spreading and interpolating: u^2 / (sum of squares of the window's
 // aliases)^2 with u^2 the window's transform squared, the choice of least error.
-void FarField::make_multiplier(const MeshDesign& design, double length_x, double length_y) {
+void FarField::make_multiplier(const MeshDesign& design, const std::function<double(std::size_t, std::size_t)>& value) {
     const std::size_t half_x = period_x_ / 2, half_y = period_y_ / 2;
-    const NearKernel kernel = near_kernel(design, design.cutoff);
-    const auto squares = [&design](std::size_t period, double length) {
-        const auto size = static_cast<double>(period);
-        std::vector<double> square(period / 2 + 1);
-        for (std::size_t m = 0; m <= period / 2; ++m) square[m] = periodic_square(design, static_cast<double>(m), size, size / 2 - length);
-        return square;
-    };
     const auto corrections = [&design](std::size_t period) {
         std::vector<double> correction(period / 2 + 1);
         for (std::size_t m = 0; m <= period / 2; ++m) {
@@ -91,7 +140,6 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
         }
         return correction;
     };
-    const std::vector<double> x2 = squares(period_x_, length_x), y2 = squares(period_y_, length_y);
     const std::vector<double> cx = corrections(period_x_), cy = corrections(period_y_);
 
     // Rows: the kernel is even, so half of them, and real transforms.
@@ -104,15 +152,9 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
 #pragma omp for schedule(static)
         for (std::size_t n = 0; n <= half_y; ++n) {
             for (std::size_t m = 0; m <= half_x; ++m) {
-                const double d2 = x2[m] + y2[n];
-                double value = 0;
-                if (d2 >= kernel.cutoff2) {
-                    value = 1 / std::sqrt(d2);
-                } else {
-                    for (int k = kernel.degree; k >= 0; --k) value = value * (kernel.cutoff2 - d2) + kernel.c[k];
-                }
-                row[m] = value;
-                if (m > 0) row[period_x_ - m] = value;
+                const double part = value(m, n);
+                row[m] = part;
+                if (m > 0) row[period_x_ - m] = part;
             }
             fftw_execute_dft_r2c(row_forward_.get(), row, as_complex(row));
             for (std::size_t m = 0; m <= half_x; ++m) half[n * (half_x + 1) + m] = row[2 * m] * cx[m];
@@ -140,12 +182,14 @@ void FarField::make_multiplier(const MeshDesign& design, double length_x, double
 
 void FarField::convolve(double* mesh) const {
     const std::size_t half_y = period_y_ / 2, blocks = columns_ / kColumns, used = (period_x_ / 2) / kColumns + 1;
+    const std::size_t rows = periodic_ ? period_y_ : rows_;
+    if (periodic_) fold(mesh);
     const int threads = threads_for(points());
     const std::vector<FftwArray> block_of = buffers(threads, 2 * kColumns * period_y_);
 #pragma omp parallel num_threads(threads)
     {
 #pragma omp for schedule(static)
-        for (std::size_t n = 0; n < rows_; ++n)
+        for (std::size_t n = 0; n < rows; ++n)
             fftw_execute_dft_r2c(row_forward_.get(), mesh + n * stride(), as_complex(mesh + n * stride()));
 
         // Columns, a few at a time: there and back while they are in the cache; the rows that hold no points are never stored.
@@ -153,8 +197,8 @@ void FarField::convolve(double* mesh) const {
 #pragma omp for schedule(static)
         for (std::size_t b = 0; b < std::min(blocks, used); ++b) {
             constexpr std::size_t kRow = 2 * kColumns;
-            for (std::size_t n = 0; n < rows_; ++n) std::copy_n(mesh + n * stride() + b * kRow, kRow, block + n * kRow);
-            std::fill(block + rows_ * kRow, block + period_y_ * kRow, 0.0);
+            for (std::size_t n = 0; n < rows; ++n) std::copy_n(mesh + n * stride() + b * kRow, kRow, block + n * kRow);
+            std::fill(block + rows * kRow, block + period_y_ * kRow, 0.0);
             fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
             const double* factors = multiplier_.get() + b * (half_y + 1) * kColumns;
             for (std::size_t n = 0; n < period_y_; ++n) {
@@ -163,13 +207,14 @@ void FarField::convolve(double* mesh) const {
                 for (std::size_t c = 0; c < kColumns; ++c) value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];
             }
             fftw_execute_dft(column_backward_.get(), as_complex(block), as_complex(block));
-            for (std::size_t n = 0; n < rows_; ++n) std::copy_n(block + n * kRow, kRow, mesh + n * stride() + b * kRow);
+            for (std::size_t n = 0; n < rows; ++n) std::copy_n(block + n * kRow, kRow, mesh + n * stride() + b * kRow);
         }
 
 #pragma omp for schedule(static)
-        for (std::size_t n = 0; n < rows_; ++n)
+        for (std::size_t n = 0; n < rows; ++n)
             fftw_execute_dft_c2r(row_backward_.get(), as_complex(mesh + n * stride()), mesh + n * stride());
     }
+    if (periodic_) unfold(mesh);
 }
 
 }  // namespace rsc

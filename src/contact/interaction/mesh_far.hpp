@@ -4,9 +4,11 @@
 #include <fftw3.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "contact/interaction/lattice.hpp"
 #include "contact/interaction/mesh_split.hpp"
 #include "rough/fftw_planner.hpp"
 
@@ -23,11 +25,16 @@ class FarField {
 public:
     // Points within length_x times length_y mesh spacings.
     FarField(const MeshDesign& design, double length_x, double length_y);
+    // Everything repeats: F = far part of the split for a cutoff [length], on a mesh of at least period_x/spacing x period_y/spacing
+    // points; convolve() then gives the sum of f (F + Gamma's rest - its least value) [force/length].
+    FarField(const MeshDesign& design, const Lattice& lattice, double spacing, double cutoff);
 
     // The mesh that carries points: `rows` rows of `stride` doubles, room for windows included. A point at distance (x, y) from
     // the corner of the points' box is at (u, v) = (x + width/2, y + width/2).
     std::size_t rows() const { return rows_; }
     std::size_t stride() const { return 2 * columns_; }
+    std::size_t columns() const { return period_x_; }  // of the mesh that repeats: points in the period
+    std::size_t lines() const { return period_y_; }
     std::size_t points() const { return period_x_ * period_y_; }
     std::size_t bytes() const { return (multiplier_size() + rows_ * stride()) * sizeof(double); }
 
@@ -41,11 +48,16 @@ private:
     static constexpr std::size_t kColumns = 8;  // transformed together
 
     std::size_t multiplier_size() const { return columns_ * (period_y_ / 2 + 1); }
-    void make_multiplier(const MeshDesign& design, double length_x, double length_y);
+    void make_plans();
+    // `value(m, n)`: the kernel m columns and n rows away.
+    void make_multiplier(const MeshDesign& design, const std::function<double(std::size_t, std::size_t)>& value);
+    void fold(double* mesh) const;    // adds what lies beyond a period to its images
+    void unfold(double* mesh) const;  // and gives it what they have
 
     std::size_t period_x_, period_y_;  // of the doubled mesh
-    std::size_t rows_, columns_;       // mesh rows in use, complex columns (padded to kColumns)
-    FftwArray multiplier_;             // [column block][wavenumber 0 ... period_y/2][column]
+    bool periodic_ = false;
+    std::size_t rows_, columns_;  // mesh rows in use, complex columns (padded to kColumns)
+    FftwArray multiplier_;        // [column block][wavenumber 0 ... period_y/2][column]
     FftwPlan row_forward_, row_backward_, column_forward_, column_backward_;
 };
 

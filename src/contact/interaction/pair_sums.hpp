@@ -3,15 +3,15 @@
 
 #include <vector>
 
-#include "contact/interaction/kernel.hpp"
+#include "contact/interaction/lattice.hpp"
 #include "contact/interaction/pairs.hpp"
 
 namespace rsc {
 
-// Sources that are targets, too, and other targets. The kernel must outlive it.
+// Sources that are targets, too, and other targets. The lattice, null where nothing repeats, must outlive it.
 class PairSums {
 public:
-    explicit PairSums(const Kernel& kernel) : lattice_(kernel.lattice()) {}
+    explicit PairSums(const Lattice* lattice = nullptr) : lattice_(lattice) {}
 
     void assign(std::size_t n, const double* x, const double* y);
     // phi[i] = sum_j f[j] G_ij/near(), what a source does to itself included, in full accuracy.

@@ -9,7 +9,8 @@ namespace {
 
 class Direct final : public Products {
 public:
-    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), scale_(kernel_->near()), sums_(*kernel_) {}
+    explicit Direct(std::shared_ptr<const Kernel> kernel)
+        : Products(std::move(kernel)), scale_(kernel_->near()), sums_(kernel_->lattice()) {}
 
     void set_points(int n, const double* x, const double* y) override {
         x_.assign(x, x + n);

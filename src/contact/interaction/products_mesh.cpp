@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "contact/interaction/mesh.hpp"
-#include "contact/interaction/pairs.hpp"
+#include "contact/interaction/pair_sums.hpp"
 #include "contact/interaction/products.hpp"
 
 namespace rsc {
@@ -12,7 +12,11 @@ namespace {
 class Mesh final : public Products {
 public:
     Mesh(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error)
-        : Products(std::move(kernel)), scale_(kernel_->near()), full_error_(full_error), inner_error_(inner_error) {}
+        : Products(std::move(kernel)),
+          scale_(kernel_->near()),
+          full_error_(full_error),
+          inner_error_(inner_error),
+          pairs_(kernel_->lattice()) {}
 
     void set_points(int n, const double* x, const double* y) override {
         const auto size = static_cast<std::size_t>(n);
@@ -20,12 +24,12 @@ public:
         y_.assign(y, y + n);
         f_.resize(size);
         phi_.resize(size);
-        inner_.emplace(size, x, y, inner_error_);
+        inner_.emplace(size, x, y, inner_error_, kernel_->lattice());
         exact_.reset();
         if (full_error_ < kFinest)
             pairs_.assign(size, x, y);
         else
-            exact_.emplace(size, x, y, full_error_);
+            exact_.emplace(size, x, y, full_error_, kernel_->lattice());
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -51,7 +55,9 @@ public:
             xa.push_back(x_[static_cast<std::size_t>(k)]);
             ya.push_back(y_[static_cast<std::size_t>(k)]);
         }
-        pair_potential_single(static_cast<std::size_t>(n), x, y, xa.size(), xa.data(), ya.data(), f, phi);
+        PairSums sums(kernel_->lattice());
+        sums.assign(xa.size(), xa.data(), ya.data());
+        sums.onto(true, static_cast<std::size_t>(n), x, y, f, phi);
         for (int k = 0; k < n; ++k) phi[k] *= scale_;
     }
 
@@ -84,7 +90,7 @@ private:
     bool precise_ = false;
     std::vector<double> x_, y_, f_, phi_;
     std::optional<MeshPotential> inner_, exact_;
-    PairSet pairs_;
+    PairSums pairs_;
 };
 
 }  // namespace

@@ -62,7 +62,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     const std::size_t size = static_cast<std::size_t>(n);
     const auto K = allocate_matrix(size);
     std::vector<int> pivots;
-    PairSums pairs(kernel);
+    PairSums pairs(kernel.lattice());
     pairs.assign(size, set.x.data(), set.y.data());
 
     Vector slope(size), R(size), work(size), target(size);
