@@ -41,7 +41,7 @@ struct Case {
     } run;
     struct Solids {
         double E[2] = {78.0e3, kInfinity}, nu[2] = {0.42, 0.0}, R[2] = {kInfinity, 2.5};
-        double resistivity[2] = {0.0, 0.0}, friction = 0.0;
+        double hardness = kInfinity, size_effect = 0.0, resistivity[2] = {0.0, 0.0}, friction = 0.0;
     } solids;
     struct Surface {
         Source source = Source::synthetic;

@@ -104,6 +104,14 @@ private:
     void check_solids() {
         if (std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
             complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform, one at most may be rigid");
+        if (std::isfinite(c_.solids.hardness)) {
+            if (std::isinf(c_.solids.E[0]))
+                complain({"solids%hardness", "solids%E"},
+                         "hardness: body 1 carries the asperities that yield, E(1) = Infinity makes it rigid");
+            if (c_.solids.friction > 0)
+                complain({"solids%hardness", "solids%friction"},
+                         "hardness: friction is that of elastic asperities, one of the two at a time");
+        }
     }
 
     void check_surface() {

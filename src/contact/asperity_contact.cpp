@@ -7,6 +7,7 @@
 #include "contact/candidates.hpp"
 #include "contact/interaction/mesh.hpp"
 #include "contact/interaction/products.hpp"
+#include "contact/law/hardness.hpp"
 #include "contact/ranking.hpp"
 #include "contact/solver/dgesv.hpp"
 #include "contact/solver/uniqueness.hpp"
@@ -60,7 +61,7 @@ struct AsperityContact::Impl {
           indenter(indenter_),
           options(options_),
           kernel(make_kernel(options_.interaction, indenter_.E_star, indenter_.period)),
-          law(make_law(options_.law, asperities_, indenter_.E_star)),
+          law(make_yielding(make_law(options_.law, asperities_, indenter_.E_star), asperities_, options_.hardness)),
           direct(make_direct_products(kernel)),
           newton(*law) {
         use(Method::direct);
@@ -138,13 +139,18 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (force[k] > 0) order.push_back(k);
     }
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return set.asperity[a] < set.asperity[b]; });
+    double extreme = 0;
     for (std::size_t k : order) {
         const double area = law->area(set.asperity[k], v[k]);
         level.add_contact(set.asperity[k], set.x[k], set.y[k], force[k], std::sqrt(area / std::numbers::pi), v[k]);
         level.force += force[k];
         level.area += area;
         level.beyond_law += law->beyond(set.asperity[k], v[k]);
+        level.yields.push_back(law->yields(set.asperity[k], v[k]));
+        level.plastic_contacts += level.yields.back();
+        if (force[k] > kExtreme * indenter.E_star * area) extreme += area;
     }
+    if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
     if (traits(options.law).elliptic_spots)
         level.area = union_area(spots(level), &level.overlapping_pairs, indenter.period);
     else
@@ -208,9 +214,24 @@ Level AsperityContact::solve(double Z0) {
     return level;
 }
 
-void AsperityContact::accept() {
-    const WorkingSet& set = impl_->candidates.set;
-    if (impl_->law->path_dependent()) impl_->law->commit(set.size(), set.asperity.data(), impl_->solution.v.data());
+void AsperityContact::accept(Level& level) {
+    Impl& my = *impl_;
+    if (!my.law->path_dependent()) return;
+    level.plastic_work = my.law->work_lost();
+    if (my.solution.v.empty()) return;
+    const WorkingSet& set = my.candidates.set;
+    my.law->commit(set.size(), set.asperity.data(), my.solution.v.data());
+    // The same forces; energy and stiffness from now on are those of unloading.
+    my.products->set_points(set.size(), set.x.data(), set.y.data());
+    my.newton.take(set, my.solution.v);
+    level.plastic_work = my.law->work_lost();
+}
+
+std::vector<double> AsperityContact::residual_depths() const {
+    std::vector<double> depths;
+    if (!path_dependent()) return depths;
+    for (std::size_t i = 0; i < impl_->asperities.size(); ++i) depths.push_back(impl_->law->residual_depth(static_cast<int>(i)));
+    return depths;
 }
 
 void AsperityContact::forget() {

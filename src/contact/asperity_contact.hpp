@@ -27,6 +27,7 @@ public:
     double first_touch() const override;
     const Indenter& indenter() const override;
     bool path_dependent() const override;
+    std::vector<double> residual_depths() const override;
 
     // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
     void forget();
@@ -35,7 +36,7 @@ protected:
     // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is
     // proved unique, and not otherwise.
     Level solve(double Z0) override;
-    void accept() override;
+    void accept(Level& level) override;
     double shift() const override;
     double tolerance() const override;
     double first_place_force(double depth) override;

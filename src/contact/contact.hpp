@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "contact/level.hpp"
 
@@ -34,14 +35,16 @@ public:
 
     virtual const Indenter& indenter() const = 0;
 
-    // Whether a level depends on those before it.
+    // Whether a level depends on those before it. Energy is then what would come back, and stiffness that of unloading.
     virtual bool path_dependent() const { return false; }
+    // How far each asperity stays pressed down without force [length]; empty where nothing does.
+    virtual std::vector<double> residual_depths() const { return {}; }
 
 protected:
     // A trial: the answer at Z0, which stiffness() and energy() then speak of.
     virtual Level solve(double Z0) = 0;
-    // The last level solved is accepted: what remembers its path goes on from here.
-    virtual void accept() {}
+    // The last level solved is accepted: what remembers its path goes on from here, and completes the level by what that cost.
+    virtual void accept(Level& level) { (void)level; }
 
     // Between flats that repeat, solve() counts separations from where no force raises the surface (Kernel::shift()): the level at
     // the separation Z0 of the mean planes is its Z0 - shift() N. first_touch() is the same.

@@ -17,7 +17,7 @@ constexpr double kFarAbove = 100;  // times the force asked for
 Level Contact::at_separation(double Z0) {
     if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
-    if (level.status != LevelStatus::not_converged) accept();
+    if (level.status != LevelStatus::not_converged) accept(level);
     remember(level);
     return level;
 }
@@ -115,11 +115,11 @@ Level Contact::at_force(double N) {
         Z0 = next;
         if (i + 1 == most) level.status = LevelStatus::not_converged;
     }
-    if (level.status != LevelStatus::not_converged) accept();
     if (shift() > 0) {
         last_ = {level.separation, level.force, slope()};
         level.separation += shift() * level.force;
     }
+    if (level.status != LevelStatus::not_converged) accept(level);
     level.iterations = iterations;
     level.products = products;
     remember(level);

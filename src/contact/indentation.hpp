@@ -37,9 +37,16 @@ struct Rectangle {
     bool known() const { return Lx > 0 && Ly > 0; }
 };
 
+// No pressure above H = H0 sqrt(1 + length/r), r an asperity's radius (law/hardness.hpp).
+struct Hardness {
+    double H0 = __builtin_huge_val();  // [force/length^2]; Infinity: elastic
+    double length = 0;                 // of the size effect [length]
+};
+
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
+    Hardness hardness;
     Interaction interaction = Interaction::point;
     Selection selection = Selection::overlap;
     double selection_factor = 1.5;

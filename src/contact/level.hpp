@@ -24,6 +24,8 @@ enum class Fallback : std::int32_t {
     not_unique = 4,           // it converged, but the solution could not be proved to be the only one, and the rule for such levels holds
 };
 inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique"};
+// Mean pressures above this share of E* are beyond what any metal bears.
+inline constexpr double kExtreme = 0.1, kExtremeShare = 0.01;  // told from this share of the contact area on
 
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,6 +49,9 @@ struct LevelValues {
     std::int64_t products = 0;           // products with B (matrix-free methods), solves (dgesv)
     std::int64_t overlapping_pairs = 0;  // pairs with d < a_i + a_j
     std::int64_t beyond_law = 0;         // contacts past the range in which the law's profile describes a summit
+    double extreme_area_fraction = 0;    // share of the contact area whose mean pressure exceeds kExtreme E*
+    double plastic_work = kNotComputed;  // done on asperities that yielded, since the beginning, that does not come back [force length]
+    std::int32_t plastic_contacts = 0;   // contacts that yield at this level
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
     std::int32_t iterations = 0;  // Newton steps
@@ -85,6 +90,7 @@ struct Level : LevelValues {
     std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
     std::vector<double> u;      // penetration with interaction [length]
     LevelPixels pixels;
+    std::vector<int> yields;    // whether the contact yields (hardness); empty or one a contact
 
     void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
         asperity.push_back(index);

@@ -40,6 +40,8 @@ void ResultTable::global_attributes(const std::string& history) {
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
                     "makes this file again, "
                     "equal but for the attribute `history`.");
+    if (r_.path_dependent)
+        file_.attribute("path", "levels depend on those before them: asperities that yielded (solids hardness) stay pressed down");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
@@ -75,6 +77,8 @@ void ResultTable::levels() {
         if (std::holds_alternative<Method LevelValues::*>(q.member)) attributes = flags(kMethodNames, 1);  // 0 is 'auto'
         if (std::holds_alternative<Fallback LevelValues::*>(q.member)) attributes = flags(kFallbackNames, 0);
         append(attributes, comment(q.comment));
+        const auto absent = [&](const LevelValues& l) { return q.integer() ? q.of(l) == 0 : std::isnan(q.of(l)); };
+        if (!q.always && std::all_of(o_.rows.begin(), o_.rows.end(), absent)) continue;
         if (q.integer()) {
             add(q.name, dims, "1", q.meaning, of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }), attributes);
             continue;

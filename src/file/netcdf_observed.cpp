@@ -190,6 +190,9 @@ void ResultTable::asperities() {
         const std::string units = column.length_power == 0 ? "radian" : unit(column.length_power);
         if (!values.empty()) add("asperity_" + std::string(column.name), {"asperity"}, units, column.meaning, values);
     }
+    if (!r_.residual_depth.empty())
+        add("asperity_residual_depth", {"asperity"}, unit(1), "how far the summit stays pressed down without force, after the last level",
+            r_.residual_depth);
 }
 
 void ResultTable::contacts() {
@@ -214,6 +217,8 @@ void ResultTable::contacts() {
     }
     add("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
     add("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
+    if (!c.yields.empty())
+        add("contact_yields", {"contact"}, "1", "1 where the asperity yields at this level, 0 where it is elastic", c.yields);
 }
 
 void ResultTable::compared() {

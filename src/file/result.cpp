@@ -1,5 +1,7 @@
 #include "file/result.hpp"
 
+#include <cmath>
+
 #include <limits>
 #include <utility>
 
@@ -47,6 +49,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
     result.force_unit = c.run.force_unit;
     result.seed = c.run.seed;
     result.force_control = c.indentation.control != Control::separation;
+    result.path_dependent = std::isfinite(c.solids.hardness);
     result.indenter = indenter;
     result.sigma = sigma > 0 ? sigma : kAbsent;
     result.theory = theory;
@@ -78,6 +81,7 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         }
         packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
         packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
+        if (result.path_dependent) packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
     }
     result.contacts = std::move(packed);
 }

@@ -41,6 +41,7 @@ struct PackedContacts {
     std::vector<std::int32_t> asperity;      // index of the asperity, from 0; elements: empty
     std::vector<double> x, y;                // centroid of the contact's pressure; asperities: empty
     std::vector<double> force, radius;
+    std::vector<std::int32_t> yields;  // 1 where the contact yields; empty where none ever does
 };
 
 // First loading and the cycle at constant separation, a row a level (contact/friction.hpp). Levels without contact have NaN.
@@ -63,13 +64,15 @@ struct ComparedLevels {
 struct Result {
     std::string title, case_text, length_unit, force_unit;
     std::int64_t seed = 1;
-    bool force_control = false;  // the separation of a level then differs between realizations
+    bool path_dependent = false;  // a level depends on those before it
+    bool force_control = false;   // the separation of a level then differs between realizations
     Indenter indenter;
     double sigma = kAbsent;         // the length separations are divided by
     std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
     Observations observations;
     // Of one realization only:
     Asperities asperities;                     // empty: not written
+    std::vector<double> residual_depth;        // of each asperity after the last level; empty: not written
     PackedContacts contacts;                   // empty: not written
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written

@@ -21,7 +21,7 @@ struct LevelQuantity {
     const char* unit = nullptr;             // a unit of its own instead
     const char* meaning = "";               // long_name
     const char* comment = "";
-    bool always = true;       // false: files hold it only if some level has it
+    bool always = true;       // false: files hold it only if some level has it (computed; a count: not 0)
     bool statistics = false;  // files have name_mean and name_std over realizations, too: of the `plain` name
     const char* plain = "";
     const char* heading = nullptr;  // of its column on the screen; none: not shown

@@ -40,6 +40,7 @@ struct Realization {
     Asperities asperities;
     std::vector<Level> levels;
     FrictionLoops friction;
+    std::vector<double> residual_depth;  // of the asperities that yielded, after the last level; empty: none can
     std::optional<HeightMap> heights;  // if the case wants them
 };
 

@@ -313,6 +313,7 @@ SolverOptions solver_of(const Case& settings, const Site& site) {
     SolverOptions options;
     options.method = settings.solver.method;
     options.law = settings.asperities.law;
+    options.hardness = {settings.solids.hardness, settings.solids.size_effect};
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;

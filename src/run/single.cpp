@@ -118,6 +118,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const SurfaceStatistics statistics = r.statistics;
     result.friction = std::move(r.friction);
     result.asperities = std::move(r.asperities);
+    result.residual_depth = std::move(r.residual_depth);
     result.measured = job.measured;
     result.compared = std::move(compared);
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);

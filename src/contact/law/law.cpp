@@ -37,6 +37,14 @@ public:
     double area(int asperity, double u) const override { return u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0; }
     double axes(int) const override { return 1; }
     bool beyond(int, double) const override { return false; }
+    Spread spread(int asperity, double u) const override {
+        const double slope = std::numbers::pi * radius_[at(asperity)];
+        return {slope * u, slope, 0.5 * slope * u * u};
+    }
+    double yield_penetration(int asperity, double pressure) const override {
+        const double root = 0.75 * std::numbers::pi * pressure / E_star_;  // f/A = 4 E*/(3 pi) sqrt(u/r)
+        return root * root * radius_[at(asperity)];
+    }
 
 private:
     const std::vector<double>& radius_;
@@ -104,7 +112,55 @@ public:
     double axes(int asperity) const override { return summit(asperity).axes; }
     bool beyond(int asperity, double u) const override { return u > summit(asperity).last; }
 
+    // A(u) = spot r u R(t)^2 with t R(t)^2 = asin^2(sqrt(t)), up to t = kFlattest.
+    Spread spread(int asperity, double u) const override {
+        const Summit& s = summit(asperity);
+        const double end = s.t > 0 ? std::min(u, kFlattest / s.t) : u, t = s.t * end, past = u - end;
+        const double R = profile_.at(t).radius, root = std::sqrt(1 - t), scale = s.spot * s.r;
+        Spread result;
+        result.area = scale * end * R * R;
+        result.slope = scale * R / root;
+        result.integral = scale * end * end * integral_over_t2(t, R, root);
+        result.integral += past * (result.area + 0.5 * result.slope * past);
+        result.area += result.slope * past;
+        return result;
+    }
+
+    // The mean pressure rises up to t = kFlattest, then falls, and rises on beyond `last`, where the area stays.
+    double yield_penetration(int asperity, double pressure) const override {
+        const Summit& s = summit(asperity);
+        const auto reached = [&](double u) { return force(asperity, u) >= pressure * area(asperity, u); };
+        double low = 0, high = s.t > 0 ? kFlattest / s.t : s.r * std::pow(pressure / s.e, 2);
+        if (s.t > 0 && !reached(high)) low = high, high = s.last;
+        while (!reached(high)) low = high, high *= 2;
+        for (int i = 0; i < 200; ++i) {
+            // Near a paraboloid the pressure goes with the root of u; where it does not, bisection.
+            const double mean = force(asperity, high) / area(asperity, high), guess = high * (pressure / mean) * (pressure / mean);
+            double middle = i % 2 == 0 ? guess : 0.5 * (low + high);
+            if (high - guess <= 1e-15 * high) break;
+            if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
+            if (!(middle > low && middle < high)) break;
+            (reached(middle) ? high : low) = middle;
+        }
+        return high;
+    }
+
 private:
+    static constexpr double kFlattest = 0.7444;  // sin^2(x/2) where (sin x - x cos x)/x^2, the mean pressure over x = q a, is greatest
+
+    // int_0^t asin^2(sqrt(t')) dt' over t^2.
+    static double integral_over_t2(double t, double R, double root) {
+        if (std::abs(t) > 0.02) return (R * root - 0.5 - 0.5 * R * R * (1 - 2 * t)) / t;
+        double sum = 0, power = 1,
+               coefficient = 1;  // asin^2(sqrt(t)) = sum of coefficient_n t^n, coefficient_n+1/coefficient_n = n^2/((n+1)(n+1/2))
+        for (int n = 1; n <= 10; ++n) {
+            sum += coefficient * power / (n + 1);
+            power *= t;
+            coefficient *= 2.0 * n * n / ((n + 1) * (2.0 * n + 1));
+        }
+        return sum;
+    }
+
     static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond all sense, and cosh(2 |q| a) does not overflow
 
     // In terms of u, with delta = u/F2: a^2 = r u and t of BesselProfile = t u; forces are as with the modulus e.

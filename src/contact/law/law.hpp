@@ -18,6 +18,12 @@ struct LawTraits {
 };
 const LawTraits& traits(LawKind kind);
 
+// How the area of a contact grows once it does so by truncation (hardness.hpp): the elastic area A(u), continued along a straight line
+// where it ceases to describe a summit that is pressed flat; its slope; its integral over u.
+struct Spread {
+    double area = 0, slope = 0, integral = 0;  // [length^2], [length], [length^3]
+};
+
 // A law is increasing in the penetration u > 0, with force 0 and slope 0 for u <= 0. Asperities are named by their index in the
 // Asperities the law was made from, which must outlive it.
 //
@@ -45,6 +51,16 @@ public:
     virtual double area(int asperity, double u) const = 0;  // contact area [length^2]; 0 for u <= 0
     virtual double axes(int asperity) const = 0;            // b/a <= 1 of the contact ellipse
     virtual bool beyond(int asperity, double u) const = 0;  // the penetration is past the law's own range: see the laws
+    virtual Spread spread(int asperity, double u) const = 0;
+    virtual double yield_penetration(int asperity, double pressure) const = 0;  // where the mean pressure f/A first is so high
+
+    // Of laws that are not convex: no secant between two penetrations up to `high` is steeper.
+    virtual double steepest(int asperity, double high) const { return (void)asperity, (void)high, 0.0; }
+    // Of laws that remember: whether the asperity yields at u; how far it stays pressed down without force [length]; the work all
+    // asperities have taken that does not come back [force length].
+    virtual bool yields(int asperity, double u) const { return (void)asperity, (void)u, false; }
+    virtual double residual_depth(int asperity) const { return (void)asperity, 0.0; }
+    virtual double work_lost() const { return 0; }
 };
 
 // hertz         a paraboloid of the asperity's radius: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.

@@ -134,10 +134,11 @@ void couple(const std::vector<Coupling>& C, const Vector& x, Vector& out) {
     }
 }
 
-// Largest secant of the law, over 2 E*, between the solution v, its force and slope, and anything up to high: that of high itself, for
+// Largest secant of the law, over 2 E*, between the solution v, its force and slope, and anything up to high: that of high itself where
 // forces are convex.
 double secant(const Law& law, double E_star, int asperity, double v, double force, double slope, double high) {
     if (v <= 0 && high <= 0) return 0;
+    if (!law.convex()) return law.steepest(asperity, std::max(v, high)) / (2 * E_star);
     const double rise = high - v;
     if (std::abs(rise) <= 1e-6 * std::max(high, v)) return slope / (2 * E_star);
     return (law.force(asperity, high) - force) / rise / (2 * E_star);
