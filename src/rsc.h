@@ -472,8 +472,8 @@ RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* sli
  * (out, may be null): contact radius [length]; stick_radius (out, may be null): of the part that sticks, 0 where all of it slips [length];
  * force_x, force_y (out, may be null): the spot's share of Q [force]. Errors: -1 null; -2 too short; RSC_NO_RESULT before the first update;
  * RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius, double* stick_radius,
-                                   double* force_x, double* force_y);
+RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius,
+                                   double* stick_radius, double* force_x, double* force_y);
 
 /* Keeps friction with its path, and the committed state, in a file, as rsc_contact_save does. friction: the friction; path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY. */

@@ -233,7 +233,8 @@ private:
             complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " + count(levels) +
                                                    " levels more than " + count(kMostLevelValues) + " values of each curve");
         if (c_.solids.friction > 0 && c_.run.realizations > 1)
-            complain({"run%realizations"}, "realizations: with solids%friction > 0 the loops of one realization are written; give friction = 0");
+            complain({"run%realizations"},
+                     "realizations: with solids%friction > 0 the loops of one realization are written; give friction = 0");
         if (double(c_.run.first_realization) + c_.run.realizations - 1 > 2147483647.0)
             complain({"run%first_realization", "run%realizations"}, "first_realization: the last realization would be beyond 2147483647");
         if (c_.output.file.empty()) complain({"output%file"}, "file: must not be empty");

@@ -32,24 +32,24 @@ inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 // The scalars of a level. A plain record: checkpoints hold it as it is. Each is declared to files, screen and libraries by one row
 // of the table in observe/quantities.cpp.
 struct LevelValues {
-    double separation = 0;               // Z0 [length]
-    double force = 0;                    // N = sum f [force]
-    double area = 0;                     // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
-    double area_pixels = kNotComputed;   // elements: of all pixels under pressure, not corrected for their border [length^2]
-    double pressure = kNotComputed;      // two flats: nominal, N/A0 [force/length^2]
-    double area_fraction = kNotComputed; // two flats: A/A0
-    double residual = 0;                 // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    double separation = 0;                // Z0 [length]
+    double force = 0;                     // N = sum f [force]
+    double area = 0;                      // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
+    double area_pixels = kNotComputed;    // elements: of all pixels under pressure, not corrected for their border [length^2]
+    double pressure = kNotComputed;       // two flats: nominal, N/A0 [force/length^2]
+    double area_fraction = kNotComputed;  // two flats: A/A0
+    double residual = 0;                  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     // By add_answers (contact/answers.hpp):
-    double stiffness = kNotComputed;                                     // dN/dZ0, negative [force/length]
-    double energy = kNotComputed;                                        // elastic energy W, dW/dZ0 = -N [force length]
-    double lateral_x = kNotComputed, lateral_y = kNotComputed;           // what pushes the sphere sideways, -dW/d(x0, y0) [force]
-    double moment_x = kNotComputed, moment_y = kNotComputed;             // of the contact's forces about the tip [force length]
-    double conductance_length = kNotComputed;                            // -2 (dN/dZ0)/E* [length]
-    double resistance = kNotComputed;                                    // constriction; NaN without contact or resistivities
-    std::int64_t products = 0;           // products with B (matrix-free methods), solves (dgesv)
-    std::int64_t overlapping_pairs = 0;  // pairs with d < a_i + a_j
-    std::int64_t beyond_law = 0;         // contacts past the range in which the law's profile describes a summit
-    double extreme_area_fraction = 0;    // share of the contact area whose mean pressure exceeds kExtreme E*
+    double stiffness = kNotComputed;                            // dN/dZ0, negative [force/length]
+    double energy = kNotComputed;                               // elastic energy W, dW/dZ0 = -N [force length]
+    double lateral_x = kNotComputed, lateral_y = kNotComputed;  // what pushes the sphere sideways, -dW/d(x0, y0) [force]
+    double moment_x = kNotComputed, moment_y = kNotComputed;    // of the contact's forces about the tip [force length]
+    double conductance_length = kNotComputed;                   // -2 (dN/dZ0)/E* [length]
+    double resistance = kNotComputed;                           // constriction; NaN without contact or resistivities
+    std::int64_t products = 0;                                  // products with B (matrix-free methods), solves (dgesv)
+    std::int64_t overlapping_pairs = 0;                         // pairs with d < a_i + a_j
+    std::int64_t beyond_law = 0;                                // contacts past the range in which the law's profile describes a summit
+    double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
     double plastic_work = kNotComputed;  // done on asperities that yielded, since the beginning, that does not come back [force length]
     std::int32_t plastic_contacts = 0;   // contacts that yield at this level
     std::int32_t contacts = 0;
@@ -90,7 +90,7 @@ struct Level : LevelValues {
     std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
     std::vector<double> u;      // penetration with interaction [length]
     LevelPixels pixels;
-    std::vector<int> yields;    // whether the contact yields (hardness); empty or one a contact
+    std::vector<int> yields;  // whether the contact yields (hardness); empty or one a contact
 
     void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
         asperity.push_back(index);

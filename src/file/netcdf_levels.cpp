@@ -86,8 +86,6 @@ void ResultTable::levels() {
         const std::vector<double> values = of_rows<double>([&](const LevelValues& l) { return q.of(l); });
         if (q.always)
             add(q.name, dims, units(q), q.meaning, values, attributes);
-        else if (!computed(values))
-            continue;
         else if (q.y)
             add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
                        pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })), q.comment);

@@ -71,9 +71,9 @@ struct Result {
     std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
     Observations observations;
     // Of one realization only:
-    Asperities asperities;                     // empty: not written
-    std::vector<double> residual_depth;        // of each asperity after the last level; empty: not written
-    PackedContacts contacts;                   // empty: not written
+    Asperities asperities;               // empty: not written
+    std::vector<double> residual_depth;  // of each asperity after the last level; empty: not written
+    PackedContacts contacts;             // empty: not written
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written

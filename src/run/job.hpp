@@ -41,7 +41,7 @@ struct Realization {
     std::vector<Level> levels;
     FrictionLoops friction;
     std::vector<double> residual_depth;  // of the asperities that yielded, after the last level; empty: none can
-    std::optional<HeightMap> heights;  // if the case wants them
+    std::optional<HeightMap> heights;    // if the case wants them
 };
 
 // Realization `number` of the case. `on_level` is called after each level with its number; returning false stops the run there.

@@ -160,16 +160,18 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
         return static_cast<double>(level.beyond_law) > kMuchBeyondLaw * level.contacts;
     });
     if (much > 0)
-        out << format("  %ld of %zu levels: spots cover much of each other, more than %.0f %% of the contacts lie beyond the law. Against elements on "
-                      "such surfaces the area was 32 %% too low on average (1 to 56), the force 7 %% (0 to 26): see &compare.\n",
-                      static_cast<long>(much), levels.size(), 100 * kMuchBeyondLaw);
+        out << format(
+            "  %ld of %zu levels: spots cover much of each other, more than %.0f %% of the contacts lie beyond the law. Against elements on "
+            "such surfaces the area was 32 %% too low on average (1 to 56), the force 7 %% (0 to 26): see &compare.\n",
+            static_cast<long>(much), levels.size(), 100 * kMuchBeyondLaw);
     const auto extreme = std::max_element(levels.begin(), levels.end(), [](const LevelValues& p, const LevelValues& q) {
         return p.extreme_area_fraction < q.extreme_area_fraction;
     });
     if (extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
-        out << format("  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal bears them elastically; solids%%hardness "
-                      "bounds them.\n",
-                      100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
+        out << format(
+            "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal bears them elastically; solids%%hardness "
+            "bounds them.\n",
+            100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
     std::int64_t crowded = 0;
     for (const LevelValues& level : levels) crowded += level.crowded_cells;
     if (crowded > 0 && !elements)

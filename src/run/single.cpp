@@ -132,8 +132,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
     const RunSummary summary{static_cast<long>(record.levels.size()),
                              static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) + result.compared.failed,
-                             last.separation,
-                             last.force, last.area};
+                             last.separation, last.force, last.area};
     tell_failed(options, summary);
     return summary;
 }

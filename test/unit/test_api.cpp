@@ -87,7 +87,7 @@ void test_options() {
         if (key.type == rsc::Type::logical) values.insert(values.end(), {".true.", ".false."});
         if (key.type == rsc::Type::integer || key.type == rsc::Type::long_integer || key.type == rsc::Type::real) {
             const std::string whole = key.size > 1 && !key.list ? std::to_string(key.size) + "*" : "";  // all of an array
-            for (const char* v : {"2", "4", "0.25"}) {  // one at least is within any bounds
+            for (const char* v : {"2", "4", "0.25"}) {                                                  // one at least is within any bounds
                 const double number = std::stod(v);
                 if (key.bounds.hold(number) && (key.type == rsc::Type::real || number == std::floor(number))) values.push_back(whole + v);
             }
