@@ -9,13 +9,14 @@
 
 #include "contact/indentation.hpp"
 #include "rough/form.hpp"
+#include "rough/measured.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
 
 // Enumerations with the spellings of their values, in their order. Those of the contact stand in contact/indentation.hpp.
-enum class Source { synthetic, heights, asperities };
-inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities"};
+enum class Source { synthetic, heights, asperities, spectrum };
+inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities", "spectrum"};
 enum class Control { separation, force };
 inline constexpr std::array kControlNames = {"separation", "force"};
 enum class LevelUnit { sigma, length };
@@ -43,13 +44,16 @@ struct Case {
     struct Surface {
         Source source = Source::synthetic;
         std::string file;
-        std::optional<double> L;  // default 1.0; for heights and asperities: from the file unless set
+        std::optional<double> L;  // default 1.0; for what is read: from the file unless set
         int n = 2048;
         double hurst = 0.8, L_lambda_l = 24.0, L_lambda_s = 512.0;
         bool plateau = false;
-        std::optional<double> sigma;  // default 0.01 for synthetic; for heights and asperities: of what was read unless set
+        std::optional<double> sigma;  // default 0.01 for synthetic; otherwise of what was read unless set
         Normalise normalise = Normalise::sample;
-        Detrend detrend = Detrend::mean;
+        Detrend detrend = Detrend::plane;
+        Missing missing = Missing::refuse;
+        double filter_cutoff = 0;  // 0: no filter
+        std::string channel;
     } surface;
     struct AsperityKeys {
         Curvature curvature = Curvature::geometric;

@@ -106,13 +106,18 @@ private:
 
     void check_surface() {
         const Case::Surface& s = c_.surface;
-        if (s.source != Source::synthetic) {
-            if (s.file.empty()) complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
-            if (c_.run.realizations > 1)
-                complain({"run%realizations", "surface%source"}, "realizations: a surface that is read is one realization");
+        if (s.source != Source::synthetic && s.file.empty())
+            complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
+        if (s.source == Source::heights || s.source == Source::asperities) {
+            const bool several = s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
+            if (c_.run.realizations > 1 && !several)
+                complain(
+                    {"run%realizations", "surface%source"},
+                    "realizations: a surface that is read is one realization (several height maps: a pattern such as maps/*.gwy as the file)");
             return;
         }
         if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
+        if (s.source == Source::spectrum) return;
         if (!(s.L_lambda_s > s.L_lambda_l))
             complain({"surface%L_lambda_s", "surface%L_lambda_l"},
                      "L_lambda_s = " + namelist::from_real(s.L_lambda_s) +

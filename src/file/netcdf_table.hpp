@@ -35,6 +35,7 @@ public:
         levels();
         means();
         surfaces();
+        measured();
         theory();
         regimes();
         maps();
@@ -57,6 +58,8 @@ private:
     void surfaces();
     void theory();
     void regimes();
+    // netcdf_measured.cpp
+    void measured();
     // netcdf_observed.cpp
     void maps();
     void radial();

@@ -17,12 +17,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "case/case.hpp"
 #include "observe/record.hpp"
+#include "rough/measured.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -49,9 +51,10 @@ struct Result {
     std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
     Observations observations;
     // Of one realization only:
-    Asperities asperities;             // empty: not written
-    PackedContacts contacts;           // empty: not written
-    std::optional<HeightMap> heights;  // none: not written
+    Asperities asperities;                     // empty: not written
+    PackedContacts contacts;                   // empty: not written
+    std::optional<HeightMap> heights;          // none: not written
+    std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
 };
 
 // What the case keeps of the contacts: `automatic` resolved to all for one realization and none for more.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +13,9 @@
 #include "error.hpp"
 #include "read/input_classic.hpp"
 #include "read/netcdf_library.hpp"
+
+// NetCDF asks for attributes that may not be there, and HDF5 tells each refusal on stderr; NetCDF silences it in the first thread alone.
+extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));
 
 namespace rsc {
 namespace {
@@ -62,6 +66,7 @@ bool is_netcdf(const std::string& path) {
 }
 
 NetcdfInput::NetcdfInput(const std::string& path) : alone_(netcdf_mutex()), path_(path) {
+    if (H5Eset_auto2) H5Eset_auto2(0, nullptr, nullptr);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
     if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it whole? (" + nc_strerror(status) + ")");

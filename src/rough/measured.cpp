@@ -39,6 +39,24 @@ void refuse_missing(const HeightMap& map, long missing) {
                                    missing, static_cast<double>(map.nx) * map.ny, i, j));
 }
 
+// In 60 bins from -5 to 5 Sq; the few heights beyond are left out.
+void count_heights(const HeightMap& map, Measured& m) {
+    constexpr int kBins = 60;
+    constexpr double kReach = 5;
+    m.height_bin = 2 * kReach * m.parameters.sq / kBins;
+    m.height_pdf.assign(kBins, 0.0);
+    if (!(m.height_bin > 0)) return;
+    const double points = static_cast<double>(map.nx) * map.ny;
+    double mean = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) mean += map(i, j) / points;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            const double bin = std::floor((map(i, j) - mean) / m.height_bin + 0.5 * kBins);
+            if (bin >= 0 && bin < kBins) m.height_pdf[static_cast<std::size_t>(bin)] += 1 / (points * m.height_bin);
+        }
+}
+
 std::string told_change(const Roughness& before, const Roughness& after, const char* l) {
     return format("rms height %.4g -> %.4g %s, rms slope %.4g -> %.4g, rms curvature %.4g -> %.4g 1/%s", before.height, after.height, l,
                   before.slope, after.slope, before.curvature, after.curvature, l);
@@ -51,12 +69,13 @@ Roughness roughness(const HeightMap& map) {
     return {std::sqrt(m.m0), m.rms_slope(), std::sqrt(m.m4)};
 }
 
-double Measured::shortest_wave() const { return 2 * std::numbers::pi / fit.ks.value; }
+double Measured::shortest_wave() const { return fit ? 2 * std::numbers::pi / fit->ks.value : 2 * std::max(dx, dy); }
 
-double Measured::points_per_wave(const HeightMap& map) const { return shortest_wave() / std::max(map.dx, map.dy); }
+double Measured::points_per_wave() const { return shortest_wave() / std::max(dx, dy); }
 
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
+    m.nx = map.nx, m.ny = map.ny, m.dx = map.dx, m.dy = map.dy;
     m.missing = count_missing(map);
     const double points = static_cast<double>(map.nx) * map.ny;
     m.missing_share = static_cast<double>(m.missing) / points;
@@ -73,16 +92,17 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     }
     m.parameters = height_parameters(map);
     m.isotropy = isotropy_ratio(map);
+    count_heights(map, m);
     m.spectrum = measure_spectrum(map);
-    m.fit = fit_self_affine(m.spectrum);
+    if (can_fit(m.spectrum)) m.fit = fit_self_affine(m.spectrum);
     return m;
 }
 
-std::vector<std::string> told(const Measured& m, const HeightMap& map, const std::string& length_unit) {
+std::vector<std::string> told(const Measured& m, const std::string& length_unit) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
     lines.push_back(
-        format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", map.nx, map.ny, map.dx, map.dy, l, map.Lx(), map.Ly(), l));
+        format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny, m.dx, m.dy, l, m.nx * m.dx, m.ny * m.dy, l));
     if (m.missing > 0)
         lines.push_back(format("missing points: %ld (%.3g %%) filled; summits nearer to them than the shortest wave are left out",
                                m.missing, 100 * m.missing_share));
@@ -96,11 +116,16 @@ std::vector<std::string> told(const Measured& m, const HeightMap& map, const std
         lines.push_back(format("filter (Gaussian, %.4g %s): ", m.filter_cutoff, l) + told_change(m.without_form, m.filtered, l));
     lines.push_back(format("heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f", m.parameters.sq, l,
                            m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
-    const double two_pi = 2 * std::numbers::pi;
-    lines.push_back(format("spectrum: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
-                           m.fit.hurst.value, m.fit.hurst.error, two_pi / m.fit.kl.value, l, m.fit.plateau ? " (plateau above)" : "",
-                           two_pi / m.fit.ks.value, l, m.fit.ks_seen ? "" : " (the grid's: no end seen)", m.points_per_wave(map)));
-    if (m.points_per_wave(map) < kFewPointsPerWave)
+    if (m.fit) {
+        const SelfAffineFit& fit = *m.fit;
+        const double two_pi = 2 * std::numbers::pi;
+        lines.push_back(format("spectrum: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
+                               fit.hurst.value, fit.hurst.error, two_pi / fit.kl.value, l, fit.plateau ? " (plateau above)" : "",
+                               two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (the grid's: no end seen)", m.points_per_wave()));
+    } else {
+        lines.push_back("spectrum: none, the map is too small or flat");
+    }
+    if (m.points_per_wave() < kFewPointsPerWave)
         lines.push_back(format(
             "warning: fewer than %.0f points in the shortest wave: the grid, or noise at the pixel, makes the slopes, curvatures and "
             "summits; surface%%filter_cutoff takes out what is no roughness",

@@ -1,7 +1,9 @@
 // From a measured map to a rough surface: missing points, form, filter, and what is left when they are done (physics, section 11).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 namespace rsc {
 
 enum class Missing { refuse, fill };
+inline constexpr std::array kMissingNames = {"refuse", "fill"};
 
 struct MeasureOptions {
     Missing missing = Missing::refuse;
@@ -29,6 +32,8 @@ Roughness roughness(const HeightMap& map);
 
 // What was done to a map, and what it is now.
 struct Measured {
+    int nx = 0, ny = 0;
+    double dx = 0, dy = 0;
     long missing = 0;                  // points filled
     double missing_share = 0;          // of all points
     std::vector<std::uint8_t> filled;  // 1 at j*nx + i where a point was filled; empty if none was
@@ -37,10 +42,12 @@ struct Measured {
     Roughness as_read, without_form, filtered;  // the last two are equal when there is no filter
     HeightParameters parameters;
     double isotropy = 1;
+    std::vector<double> height_pdf;  // density of the heights about their mean, in an even number of bins around it [1/length]
+    double height_bin = 0;           // their width [length]
     MeasuredSpectrum spectrum;
-    SelfAffineFit fit;
-    double shortest_wave() const;                        // 2 pi/ks [length]
-    double points_per_wave(const HeightMap& map) const;  // grid steps in the shortest wave
+    std::optional<SelfAffineFit> fit;  // none for a map too small or too flat for one
+    double shortest_wave() const;      // 2 pi/ks [length]
+    double points_per_wave() const;    // grid steps in the shortest wave
 };
 
 // Fewer points in the shortest wave than this, and the grid, or noise at the pixel, makes the curvatures.
@@ -51,6 +58,6 @@ inline constexpr double kFewPointsPerWave = 4;
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
 // Lines that tell what was done, without line ends; `length_unit` follows every length.
-std::vector<std::string> told(const Measured& measured, const HeightMap& map, const std::string& length_unit);
+std::vector<std::string> told(const Measured& measured, const std::string& length_unit);
 
 }  // namespace rsc

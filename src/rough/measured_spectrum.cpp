@@ -12,6 +12,8 @@
 namespace rsc {
 namespace {
 
+constexpr long kFewest = 8;  // rings that a fit needs
+
 std::vector<double> hann(int n, bool none) {
     std::vector<double> w(static_cast<std::size_t>(n), 1.0);
     if (none) return w;
@@ -197,6 +199,10 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
     return s;
 }
 
+bool can_fit(const MeasuredSpectrum& spectrum) {
+    return std::count_if(spectrum.psd.begin(), spectrum.psd.end(), [](double p) { return p > 0; }) >= kFewest;
+}
+
 SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     std::vector<double> k, x, y, weight;
     double weights = 0;
@@ -211,7 +217,7 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
             weights += independent;
         }
     for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
-    constexpr std::size_t kFewest = 8, kShortest = 4;  // rings in all; rings of a power law
+    constexpr std::size_t kShortest = 4;  // rings of a power law
     const std::size_t n = x.size();
     if (n < kFewest)
         throw Error(Failure::bad_input, "the map is too small for a spectrum: it has " + std::to_string(n) + " rings of modes");

@@ -41,10 +41,11 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map);
 // there is a kl or ks above the map's own, and which, is decided by the least residual with Bayes' penalty for each parameter; rings next to a
 // break, which the window blurs, do not count. ks is then moved to where the spectrum falls to half of the line. Errors: of Phi0 and hurst by
 // the residuals' scatter; of kl and ks by how far they may move before the residual grows by one variance, half a ring at least.
-// At least 8 rings with psd > 0 are needed: Error(bad_input).
+// At least 8 rings with psd > 0 are needed: Error(bad_input), unless can_fit.
 SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum);
+bool can_fit(const MeasuredSpectrum& spectrum);
 
-// ISO 25178-2: rms height Sq about the mean, skewness Ssk, kurtosis Sku, rms gradient Sdq (first differences of neighbours).
+// ISO 25178-2: rms height Sq about the mean, skewness Ssk, kurtosis Sku (NaN of a flat map), rms gradient Sdq (first differences of neighbours).
 struct HeightParameters {
     double sq = 0, ssk = 0, sku = 0, sdq = 0;
 };

@@ -69,9 +69,12 @@ void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, c
     const double x2 = static_cast<double>(kx) * kx;
     for (int ky = first; ky <= last; ky += kBatch) {
         const int count = std::min(kBatch, last - ky + 1);
-        power_law(spectrum, kx, ky, amplitude);
+        if (spectrum.table)
+            for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, x2 + static_cast<double>(ky + i) * (ky + i)));
+        else
+            power_law(spectrum, kx, ky, amplitude);
         std::fill(amplitude + count, amplitude + kBatch, 0.0);
-        if (x2 < lowest_q2)
+        if (!spectrum.table && x2 < lowest_q2)
             for (int i = 0; i < count; ++i)
                 if (x2 + static_cast<double>(ky + i) * (ky + i) < lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);

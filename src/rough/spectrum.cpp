@@ -6,6 +6,7 @@
 #include <string>
 
 #include "error.hpp"
+#include "rough/magnitude.hpp"
 
 namespace rsc {
 namespace {
@@ -28,27 +29,94 @@ double plateau_integral(double xi, double q) { return (1.0 - std::pow(xi, q)) / 
 
 }  // namespace
 
+SpectrumTable::SpectrumTable(std::vector<double> wavenumber, std::vector<double> psd) : k_(std::move(wavenumber)), psd_(std::move(psd)) {
+    const auto wrong = [](std::size_t entry, const std::string& what) {
+        throw Error(Failure::bad_input, "spectrum: entry " + std::to_string(entry + 1) + ": " + what);
+    };
+    if (k_.size() != psd_.size() || k_.size() < 2)
+        throw Error(Failure::bad_input, "spectrum: " + std::to_string(k_.size()) + " wavenumbers and " + std::to_string(psd_.size()) +
+                                            " values; as many of each were expected, two at least");
+    bool some = false;
+    for (std::size_t i = 0; i < k_.size(); ++i) {
+        if (!usable_positive(k_[i])) wrong(i, std::string("the wavenumber ") + kPositiveBounds);
+        if (i > 0 && !(k_[i] > k_[i - 1])) wrong(i, "wavenumbers must rise");
+        if (!(psd_[i] >= 0 && usable(psd_[i]))) wrong(i, "the power spectral density must be finite and not negative");
+        some = some || (i > 0 && psd_[i] > 0 && psd_[i - 1] > 0);
+        largest_ = std::max(largest_, psd_[i]);
+        log_k_.push_back(std::log(k_[i]));
+        log_psd_.push_back(psd_[i] > 0 ? std::log(psd_[i]) : 0.0);
+    }
+    if (!some) throw Error(Failure::bad_input, "spectrum: it is zero everywhere");
+}
+
+double SpectrumTable::operator()(double k) const {
+    if (!(k >= k_.front() * (1 - kEdgeTolerance) && k <= k_.back() * (1 + kEdgeTolerance))) return 0;
+    const auto above = std::upper_bound(k_.begin() + 1, k_.end() - 1, k);
+    const auto i = static_cast<std::size_t>(above - k_.begin());
+    if (psd_[i] == 0 || psd_[i - 1] == 0) return 0;
+    const double t = std::clamp((std::log(k) - log_k_[i - 1]) / (log_k_[i] - log_k_[i - 1]), 0.0, 1.0);
+    return std::exp(log_psd_[i - 1] + t * (log_psd_[i] - log_psd_[i - 1]));
+}
+
+double SpectrumTable::integral(double power) const {
+    double sum = 0;
+    for (std::size_t i = 1; i < k_.size(); ++i) {
+        if (psd_[i] == 0 || psd_[i - 1] == 0) continue;
+        const double log_ratio = log_k_[i] - log_k_[i - 1], slope = (log_psd_[i] - log_psd_[i - 1]) / log_ratio;
+        sum += psd_[i - 1] * std::pow(k_[i - 1], power + 1) * power_integral(log_ratio, power + 1 + slope);
+    }
+    return sum;
+}
+
+double SpectrumTable::sigma() const { return std::sqrt(2 * std::numbers::pi * integral(1)); }
+
+Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma) {
+    Spectrum s;
+    s.L = L;
+    s.L_lambda_l = table->lowest() * L / (2 * std::numbers::pi);
+    s.L_lambda_s = table->highest() * L / (2 * std::numbers::pi);
+    s.sigma = sigma;
+    s.table = std::move(table);
+    return s;
+}
+
 double Moments::rms_slope() const { return std::sqrt(2.0 * m2); }
 double Moments::summit_density() const { return std::sqrt(3.0) * m4 / (18.0 * std::numbers::pi * m2); }
 double Moments::mean_spacing() const { return 1.0 / std::sqrt(summit_density()); }
 double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
 
+namespace {
+
+// Of each column the mode with the shortest wave, which is in the band if any of the column is; a table may have gaps.
+void require_modes(const Spectrum& s, const std::string& otherwise) {
+    const Band b = band(s);
+    for (int kx = 0; kx <= b.highest_kx; ++kx)
+        for (int ky = b.highest_ky(kx); ky >= 0; --ky) {
+            if (relative_psd(s, static_cast<double>(kx) * kx + static_cast<double>(ky) * ky) > 0.0) return;
+            if (!s.table) break;
+        }
+    refuse(otherwise, s.L_lambda_s);
+}
+
+}  // namespace
+
 void validate(const Spectrum& s) {
     const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
     if (!positive(s.L)) refuse("L must be positive and finite", s.L);
+    if (s.table) {
+        if (!(s.L_lambda_s <= kMostModes))
+            refuse("L times the largest wavenumber of the spectrum over 2 pi must be at most 46340", s.L_lambda_s);
+        if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
+        require_modes(s, "no mode of the square lies in the spectrum; its largest wavenumber times L over 2 pi is");
+        return;
+    }
     if (!(s.hurst >= 0.0 && s.hurst <= 1.0)) refuse("hurst must lie between 0 and 1", s.hurst);
     if (!(s.L_lambda_l >= 1.0 && std::isfinite(s.L_lambda_l))) refuse("L_lambda_l must be at least 1 and finite", s.L_lambda_l);
     if (!(s.L_lambda_s <= kMostModes)) refuse("L_lambda_s must be at most 46340", s.L_lambda_s);
     if (!(s.plateau ? s.L_lambda_s >= s.L_lambda_l : s.L_lambda_s > s.L_lambda_l))
         refuse("L_lambda_s must be greater than L_lambda_l = " + std::to_string(s.L_lambda_l), s.L_lambda_s);
     if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
-    const Band b = band(s);
-    for (int kx = 0; kx <= b.highest_kx; ++kx) {
-        const int ky = b.highest_ky(kx);
-        if (relative_psd(s, static_cast<double>(kx) * kx + static_cast<double>(ky) * ky) > 0.0) return;
-    }
-    refuse("no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) + " and L_lambda_s; widen the band",
-           s.L_lambda_s);
+    require_modes(s, "no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) + " and L_lambda_s; widen the band");
 }
 
 int Band::highest_ky(int kx) const {
@@ -65,6 +133,7 @@ Band band(const Spectrum& s) {
 }
 
 double relative_psd(const Spectrum& s, double q2) {
+    if (s.table) return q2 > 0 ? (*s.table)(2 * std::numbers::pi / s.L * std::sqrt(q2)) / s.table->largest() : 0.0;
     const Band b = band(s);
     if (!(q2 > 0.0 && q2 <= b.highest_q2)) return 0.0;
     // The plateau begins at K = 2 pi / L, q2 = 1.
@@ -75,6 +144,10 @@ double relative_psd(const Spectrum& s, double q2) {
 // m_p = T(p) times the integral of K^(p+1) Phi(K) over K, T(p) = integral of cos^p over the circle; in units of kl.
 Moments theoretical_moments(const Spectrum& s) {
     validate(s);
+    if (s.table) {
+        const double scale = s.sigma * s.sigma / (2.0 * s.table->integral(1));
+        return {s.sigma * s.sigma, scale * s.table->integral(3), 0.75 * scale * s.table->integral(5)};
+    }
     const double kl = 2.0 * std::numbers::pi * s.L_lambda_l / s.L;
     const double log_zeta = std::log(s.L_lambda_s / s.L_lambda_l);
     const double xi = 1.0 / s.L_lambda_l;

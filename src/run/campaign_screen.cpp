@@ -43,6 +43,7 @@ std::vector<std::size_t> shown_steps(std::size_t steps) {
 
 void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done) {
     print_case(out, job);
+    print_measured(out, job);
     const auto& run = job.settings.run;
     out << format("%d realizations of %zu levels, %zu at a time", run.realizations, job.levels.size(), workers);
     if (done > 0) out << format("; %zu of them are done", done);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "error.hpp"
+#include "read/file_list.hpp"
 
 namespace rsc {
 namespace {
@@ -20,26 +21,53 @@ std::vector<double> spaced(const Case::Indentation& keys) {
     return values;
 }
 
+// As many files as realizations.
+void require_maps(const Case& settings) {
+    const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
+    const std::int64_t last = std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
+    if (last > files)
+        throw Error(Failure::bad_input, settings.surface.file + ": realizations up to " + std::to_string(last) + " are asked for, and " +
+                                            std::to_string(files) + " files match");
+}
+
+// The sphere comes down on the same place of every map: they must be of one size; where one lies says nothing.
+void move_to(const Domain& place, Ground& ground, std::int64_t number) {
+    constexpr double kSame = 1e-6;
+    const Domain& d = ground.site.domain;
+    if (!(std::abs(d.Lx - place.Lx) <= kSame * place.Lx && std::abs(d.Ly - place.Ly) <= kSame * place.Ly))
+        throw Error(Failure::bad_input, "the map of realization " + std::to_string(number) + " is " + std::to_string(d.Lx) + " x " +
+                                            std::to_string(d.Ly) + ", the first is " + std::to_string(place.Lx) + " x " +
+                                            std::to_string(place.Ly) + "; maps of one size are expected");
+    for (double& x : ground.asperities.x) x += place.x0 - d.x0;
+    for (double& y : ground.asperities.y) y += place.y0 - d.y0;
+    ground.site.domain = place;
+}
+
 }  // namespace
 
 Job prepare(const Case& settings) {
     Job job;
     job.settings = settings;
     double sqrt_m4;
-    if (settings.surface.source == Source::synthetic) {
-        job.site = synthetic_site(settings);
-        job.theory = theoretical_moments(spectrum_of(settings));
+    if (has_spectrum(settings)) {
+        job.spectrum = spectrum_of(settings);
+        job.site = synthetic_site(*job.spectrum);
+        job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
     } else {
-        if (settings.surface.source == Source::heights && settings.output.heights) {
-            Surface surface = make_surface(settings, 1, 1);
-            job.given = make_ground(surface, settings, 1);
-            job.given_heights = std::move(surface.map);
+        Ground ground;
+        if (settings.surface.source == Source::heights) {
+            Surface surface = make_surface(settings, settings.run.first_realization, 1);
+            ground = make_ground(surface, settings, 1);
+            if (settings.output.heights) job.given_heights = std::move(surface.map);
         } else {
-            job.given = make_ground(settings, 1, 1);
+            ground = make_ground(settings, 1, 1);
         }
-        job.site = job.given->site;
-        sqrt_m4 = job.given->statistics.m4 > 0 ? std::sqrt(job.given->statistics.m4) : typical_sqrt_m4(job.given->asperities);
+        job.site = ground.site;
+        job.measured = ground.measured;
+        sqrt_m4 = ground.statistics.m4 > 0 ? std::sqrt(ground.statistics.m4) : typical_sqrt_m4(ground.asperities);
+        if (!differs_by_realization(settings) || settings.run.realizations == 1) job.given = std::move(ground);
+        if (differs_by_realization(settings)) require_maps(settings);
     }
     job.sigma = sigma_of(settings, job.site);
     if (!(job.sigma > 0)) {
@@ -62,8 +90,11 @@ Job prepare(const Case& settings) {
 Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    if (settings.output.heights && !job.given) r.heights = make_surface(settings, number, threads).map;
-    Ground ground = job.given ? *job.given : make_ground(settings, number, threads);
+    if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
+    Ground ground = job.spectrum ? make_ground(settings, *job.spectrum, number, threads)
+                    : job.given  ? *job.given
+                                 : make_ground(settings, number, threads);
+    if (settings.surface.source == Source::heights) move_to(job.site.domain, ground, number);
     r.asperities = std::move(ground.asperities);
     r.statistics = ground.statistics;
     AsperityContact contact(r.asperities, job.indenter, job.solver);

@@ -20,13 +20,15 @@ struct Job {
     Site site;
     Indenter indenter;
     SolverOptions solver;
-    double sigma = 0;               // the length unit='sigma' and delta0 mean
-    std::vector<double> levels;     // separations [length], or forces [force] with control='force'
-    std::optional<Moments> theory;  // of a synthetic surface
+    double sigma = 0;                  // the length unit='sigma' and delta0 mean
+    std::vector<double> levels;        // separations [length], or forces [force] with control='force'
+    std::optional<Spectrum> spectrum;  // of a synthetic surface
+    std::optional<Moments> theory;     // its moments
     ObserveOptions observe;
-    // What was read: it is the same in every realization.
+    // What was read, if it is the same in every realization.
     std::optional<Ground> given;
-    std::optional<HeightMap> given_heights;  // if the case wants them
+    std::shared_ptr<const Measured> measured;  // of a measured map, the first of several
+    std::optional<HeightMap> given_heights;    // if the case wants them
 };
 
 // Reads what the case names, works out levels, domain and ranges. Throws Error(bad_input) for what cannot be run.

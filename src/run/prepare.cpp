@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "contact/equivalent.hpp"
 #include "contact/law/law.hpp"
 #include "error.hpp"
+#include "read/file_list.hpp"
+#include "read/input_spectrum.hpp"
 #include "read/inputs.hpp"
 #include "rough/detection.hpp"
+#include "rough/missing.hpp"
 #include "rough/synthesis.hpp"
 
 namespace rsc {
@@ -37,23 +41,28 @@ void require_summits(const Ground& ground, const std::string& name, const std::s
     throw Error(Failure::bad_input, name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
 }
 
-Ground make_synthetic(const Case& settings, std::int64_t number, int threads) {
+// The file of realization `number`.
+std::string map_file(const std::string& name, std::int64_t number) {
+    if (!is_pattern(name)) return name;
+    const std::vector<std::string> files = matching_files(name);
+    if (number < 1 || number > static_cast<std::int64_t>(files.size()))
+        throw Error(Failure::bad_input, name + ": realization " + std::to_string(number) + " is asked for, and " +
+                                            std::to_string(files.size()) + " files match");
+    return files[static_cast<std::size_t>(number - 1)];
+}
+
+Surface read_map(const Case& settings, const std::string& path) {
     const auto& keys = settings.surface;
-    Ground ground;
-    ground.site = synthetic_site(settings);
-    SummitCount count;
-    Moments sampled, differences;
-    ground.asperities = make_asperities(spectrum_of(settings), keys.n, keys.normalise, settings.run.seed, number,
-                                        settings.asperities.curvature, &count, &sampled, threads, detail_of(settings), &differences);
-    require_summits(ground, "the surface", "");
-    auto& s = ground.statistics;
-    s.sigma = std::sqrt(sampled.m0);
-    s.m2 = sampled.m2;
-    s.m4 = sampled.m4;
-    s.m2_grid = differences.m2;
-    s.m4_grid = differences.m4;
-    count_summits(count, s);
-    return ground;
+    Surface surface;
+    surface.map = read_heights(path, keys.L, settings.run.length_unit, keys.channel, keys.missing);
+    surface.origin.name = path;
+    try {
+        surface.origin.measured = std::make_shared<const Measured>(measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff}));
+    } catch (const Error& error) {
+        throw Error(error.kind(), path + ": " + error.what());
+    }
+    surface.origin.sigma = surface.origin.measured->parameters.sq;
+    return surface;
 }
 
 Ground read_list(const Case& settings) {
@@ -72,33 +81,38 @@ Ground read_list(const Case& settings) {
 
 Spectrum spectrum_of(const Case& settings) {
     const auto& keys = settings.surface;
+    if (keys.source == Source::spectrum) {
+        const auto table = read_spectrum(keys.file, settings.run.length_unit);
+        return tabulated_spectrum(table, keys.L.value_or(2 * std::numbers::pi / table->lowest()), keys.sigma.value_or(table->sigma()));
+    }
     return {keys.L.value_or(1.0), keys.hurst, keys.L_lambda_l, keys.L_lambda_s, keys.plateau, keys.sigma.value_or(0.01)};
 }
 
-Surface make_surface(const Case& settings, std::int64_t number, int threads) {
+bool differs_by_realization(const Case& settings) {
+    return has_spectrum(settings) || (settings.surface.source == Source::heights && is_pattern(settings.surface.file));
+}
+
+bool has_spectrum(const Case& settings) {
+    return settings.surface.source == Source::synthetic || settings.surface.source == Source::spectrum;
+}
+
+Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
     const auto& keys = settings.surface;
     Surface surface;
-    switch (keys.source) {
-        case Source::synthetic: {
-            const Spectrum spectrum = spectrum_of(settings);
-            surface.origin.sigma = spectrum.sigma;
-            surface.origin.points_per_wave = keys.n / spectrum.L_lambda_s;
-            surface.origin.theory = theoretical_moments(spectrum);
-            surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, nullptr, threads);
-            break;
-        }
-        case Source::heights:
-            surface.map = read_heights(keys.file, keys.L, settings.run.length_unit);
-            surface.origin.name = keys.file;
-            surface.origin.sigma = detrend(surface.map, keys.detrend).rms;
-            break;
-        case Source::asperities: throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
-    }
+    surface.origin.sigma = spectrum.sigma;
+    surface.origin.points_per_wave = keys.n / spectrum.L_lambda_s;
+    surface.origin.theory = theoretical_moments(spectrum);
+    surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, nullptr, threads);
     return surface;
 }
 
-Site synthetic_site(const Case& settings) {
-    const Spectrum spectrum = spectrum_of(settings);
+Surface make_surface(const Case& settings, std::int64_t number, int threads) {
+    if (has_spectrum(settings)) return make_surface(settings, spectrum_of(settings), number, threads);
+    if (settings.surface.source == Source::heights) return read_map(settings, map_file(settings.surface.file, number));
+    throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
+}
+
+Site synthetic_site(const Spectrum& spectrum) {
     return {{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, theoretical_moments(spectrum).mean_spacing()};
 }
 
@@ -127,6 +141,10 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     SummitCount count;
     ground.asperities =
         find_asperities(map, settings.asperities.curvature, &count, threads, detail_of(settings), surface.origin.points_per_wave);
+    if (const auto& measured = surface.origin.measured) {
+        ground.measured = measured;
+        drop_near_filled(ground.asperities, count, map, measured->filled, measured->shortest_wave());
+    }
     require_summits(ground, surface.origin.name,
                     map.periodic                          ? ""
                     : detail_of(settings) == Detail::grid ? " inside the map"
@@ -146,9 +164,29 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     return ground;
 }
 
+Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
+    const auto& keys = settings.surface;
+    Ground ground;
+    ground.site = synthetic_site(spectrum);
+    SummitCount count;
+    Moments sampled, differences;
+    ground.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
+                                        &sampled, threads, detail_of(settings), &differences);
+    require_summits(ground, "the surface", "");
+    auto& s = ground.statistics;
+    s.sigma = std::sqrt(sampled.m0);
+    s.m2 = sampled.m2;
+    s.m4 = sampled.m4;
+    s.m2_grid = differences.m2;
+    s.m4_grid = differences.m4;
+    count_summits(count, s);
+    return ground;
+}
+
 Ground make_ground(const Case& settings, std::int64_t number, int threads) {
     switch (settings.surface.source) {
-        case Source::synthetic: return make_synthetic(settings, number, threads);
+        case Source::synthetic:
+        case Source::spectrum: return make_ground(settings, spectrum_of(settings), number, threads);
         case Source::heights: return make_ground(make_surface(settings, number, threads), settings, threads);
         case Source::asperities: return read_list(settings);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,18 +12,26 @@
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
+#include "rough/measured.hpp"
 
 namespace rsc {
 
-// The spectrum that the keys of &surface ask for.
+// The spectrum that the keys of &surface ask for, read from its file with source = 'spectrum'.
 Spectrum spectrum_of(const Case& settings);
+
+// Whether there is one: surfaces are made, not read.
+bool has_spectrum(const Case& settings);
+
+// Whether every realization has a surface of its own, made or read.
+bool differs_by_realization(const Case& settings);
 
 // What is known of heights beside them.
 struct Origin {
-    double sigma = 0;                  // rms height that is meant: the one asked for, or what detrending left [length]
-    double points_per_wave = 0;        // grid steps in the shortest wave of a synthetic surface; 0: not known
-    std::optional<Moments> theory;     // of a synthetic surface
-    std::string name = "the surface";  // what messages call it
+    double sigma = 0;                          // rms height that is meant: the one asked for, or what detrending left [length]
+    double points_per_wave = 0;                // grid steps in the shortest wave of a synthetic surface; 0: not known
+    std::optional<Moments> theory;             // of a synthetic surface
+    std::string name = "the surface";          // what messages call it
+    std::shared_ptr<const Measured> measured;  // what was done to a measured map; null for others
 };
 
 struct Surface {
@@ -30,9 +39,11 @@ struct Surface {
     Origin origin;
 };
 
-// Realization `number` of the surface that &surface source names: made, or read and detrended and then the same for every number.
+// Realization `number` of the surface that &surface source names: made, or read and measured (rough/measured.hpp) and then the same for every
+// number, unless surface%file is a pattern: then it is the file of that number.
 // Throws Error(bad_input) for a source that has no heights, and as synthesize and read_heights do.
 Surface make_surface(const Case& settings, std::int64_t number, int threads);
+Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
 
 // What a contact has to know of the surface beside its asperities.
 struct Site {
@@ -46,11 +57,12 @@ struct Ground {
     Asperities asperities;
     Site site;
     SurfaceStatistics statistics;
-    bool list = false;  // given one by one: the site is then a guess, which surface%L may better
+    bool list = false;                         // given one by one: the site is then a guess, which surface%L may better
+    std::shared_ptr<const Measured> measured;  // of a measured map
 };
 
 // Site of a synthetic surface. Known before there are asperities.
-Site synthetic_site(const Case& settings);
+Site synthetic_site(const Spectrum& spectrum);
 
 // Site of asperities that were given: the square of side L about them, [0, L]^2 if it holds them; without L the smallest square
 // about the middle of the smallest rectangle that holds them, of side 1 for a single one. Throws Error(bad_input) naming `whose`
@@ -64,6 +76,7 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads);
 // it is made, without storing it: the same as those of make_surface where that grid is fine enough for the law. Never empty.
 // Throws Error(bad_input) for what cannot be read, made or used by the law.
 Ground make_ground(const Case& settings, std::int64_t number, int threads);
+Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
 
 // E* and R from &solids, the tip above indentation%centre, by default the middle of the surface.
 Indenter indenter_of(const Case& settings, const Site& site);

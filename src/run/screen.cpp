@@ -43,9 +43,17 @@ void print_case(std::ostream& out, const Job& job) {
     }
 }
 
+// What was done to a measured map; of several, to the first.
+void print_measured(std::ostream& out, const Job& job) {
+    if (!job.measured) return;
+    if (!job.given) out << "the first of the maps:\n";
+    for (const std::string& line : told(*job.measured, job.settings.run.length_unit)) out << line << '\n';
+}
+
 // The columns after the first three are the level's declared quantities (observe/quantities.hpp).
 void print_heading(std::ostream& out, const Job& job) {
     print_case(out, job);
+    print_measured(out, job);
     const std::string l = job.settings.run.length_unit, f = job.settings.run.force_unit;
     out << format("\n%5s %12s %9s", "level", format("Z0 [%s]", l.c_str()).c_str(), "Z0/sigma");
     for (const LevelQuantity& q : level_quantities()) {

@@ -17,7 +17,10 @@ std::string status_text(LevelStatus status);
 // The title, the bodies, and what theory says of the surface.
 void print_case(std::ostream& out, const Job& job);
 
-// print_case and the column heads; then a line a level.
+// What was done to a measured map, if there is one.
+void print_measured(std::ostream& out, const Job& job);
+
+// print_case, print_measured and the column heads; then a line a level.
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 

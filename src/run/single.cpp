@@ -18,6 +18,7 @@
 #include "run/job.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "run/twins.hpp"
 
 namespace rsc {
 namespace {
@@ -30,7 +31,8 @@ struct Tally {
     std::map<Method, long> methods;
 };
 
-void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds, const std::string& file) {
+void summarise(std::ostream& out, const Job& job, const Realization& r, const Tally& tally, double seconds, const std::string& file,
+               const std::string& twins) {
     const char* l = job.settings.run.length_unit.c_str();
     char line[400];
     const auto& s = r.statistics;
@@ -55,6 +57,7 @@ void summarise(std::ostream& out, const Job& job, const Realization& r, const Ta
         out << line;
     }
     out << "result: " << file << '\n';
+    if (!twins.empty()) out << twins << '\n';
     out << "picture: python3 output/plot/plot.py " << file << '\n';
 }
 
@@ -130,11 +133,14 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     keep_contacts(result, r.levels, keep);
     const Realization shown{r.statistics, {}, {}, {}};
     result.asperities = std::move(r.asperities);
+    result.measured = job.measured;
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
     write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
 
+    const std::string twins = write_twins(job, settings.output.file);
+
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (table) summarise(*table, job, shown, tally, seconds, settings.output.file);
+    if (table) summarise(*table, job, shown, tally, seconds, settings.output.file, twins);
     const LevelValues& last = record.levels.back();
     const RunSummary summary{tally.levels, tally.statuses[LevelStatus::not_converged], last.separation, last.force, last.area};
     tell_failed(options, summary);

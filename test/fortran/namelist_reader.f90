@@ -142,13 +142,15 @@ contains
   end subroutine
 
   subroutine read_surface()
-    character(len=32) :: source, normalise, detrend
+    character(len=32) :: source, normalise, detrend, missing
     character(len=4096) :: file
-    real(real64) :: l, hurst, l_lambda_l, l_lambda_s, sigma
+    character(len=1024) :: channel
+    real(real64) :: l, hurst, l_lambda_l, l_lambda_s, sigma, filter_cutoff
     integer(int32) :: n
     logical :: plateau
     integer :: ios
-    namelist /surface/ source, file, l, n, hurst, l_lambda_l, l_lambda_s, plateau, sigma, normalise, detrend
+    namelist /surface/ source, file, l, n, hurst, l_lambda_l, l_lambda_s, plateau, sigma, normalise, detrend, &
+      missing, filter_cutoff, channel
     source = 'synthetic'
     file = ''
     l = unset
@@ -159,7 +161,10 @@ contains
     plateau = .false.
     sigma = unset
     normalise = 'sample'
-    detrend = 'mean'
+    detrend = 'plane'
+    missing = 'refuse'
+    filter_cutoff = 0
+    channel = ''
     read (unit_in, nml=surface, iostat=ios)
     call status('surface', ios)
     call put_text('surface%source', source)
@@ -173,6 +178,9 @@ contains
     call put_real('surface%sigma', sigma)
     call put_text('surface%normalise', normalise)
     call put_text('surface%detrend', detrend)
+    call put_text('surface%missing', missing)
+    call put_real('surface%filter_cutoff', filter_cutoff)
+    call put_text('surface%channel', channel)
   end subroutine
 
   subroutine read_asperities()

@@ -169,6 +169,7 @@ void test_bounds() {
         {"surface%L_lambda_l", {"1", "32768"}, {"0.999", "32769", "NaN"}},
         {"surface%L_lambda_s", {"1", "32768"}, {"0.999", "32769", "NaN"}},
         {"surface%sigma", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
+        {"surface%filter_cutoff", {"0", "1e50"}, {"-1e-9", "1.1e50", "Infinity", "NaN"}},
         {"indentation%start", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "-Infinity", "NaN"}},
         {"indentation%stop", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "-Infinity", "NaN"}},
         {"indentation%steps", {"1", "1000000"}, {"0", "1000001"}},
