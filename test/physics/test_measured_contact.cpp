@@ -1,0 +1,300 @@
+// Contacts of measured maps: what a map's pixels, orientation and spectrum have to do with it, and what not.
+#include <unistd.h>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "case/registry.hpp"
+#include "check.hpp"
+#include "error.hpp"
+#include "file/netcdf_writer.hpp"
+#include "read/file_list.hpp"
+#include "read/input_spectrum.hpp"
+#include "rough/missing.hpp"
+#include "rough/synthesis.hpp"
+#include "run/job.hpp"
+#include "run/run.hpp"
+#include "unit/map_files.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_measured_" + std::to_string(getpid()));
+std::string in_folder(const std::string& name) { return (folder / name).string(); }
+
+struct Curve {
+    double force[3], area[3];
+};
+
+// Three levels of a sphere on the map.
+Curve press(const HeightMap& map, const char* law, double sigma) {
+    Case settings;
+    set_key(settings, "asperities%law", std::string("'") + law + "'");
+    Surface surface;
+    surface.map.allocate(map.nx, map.ny, map.stride);
+    surface.map.dx = map.dx, surface.map.dy = map.dy, surface.map.x0 = map.x0, surface.map.y0 = map.y0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) surface.map.row(j)[i] = map(i, j);
+    surface.origin.sigma = sigma;
+    const Ground ground = make_ground(surface, settings, 1);
+    AsperityContact contact(ground.asperities, indenter_of(settings, ground.site), solver_of(settings, ground.site));
+    Curve c{};
+    const double levels[] = {2.5, 1.5, 1.0};
+    for (int k = 0; k < 3; ++k) {
+        const Level level = contact.at_separation(levels[k] * sigma);
+        c.force[k] = level.force, c.area[k] = level.area;
+        CHECK(level.force > 0);
+    }
+    return c;
+}
+
+// Columns of the map with step `skip_x`, rows with `skip_y`.
+HeightMap thinned(const HeightMap& map, int skip_x, int skip_y) {
+    HeightMap thin;
+    thin.allocate(map.nx / skip_x, map.ny / skip_y, map.nx / skip_x);
+    thin.dx = map.dx * skip_x, thin.dy = map.dy * skip_y;
+    for (int j = 0; j < thin.ny; ++j)
+        for (int i = 0; i < thin.nx; ++i) thin.row(j)[i] = map(i * skip_x, j * skip_y);
+    return thin;
+}
+
+// The map with the point (i, j) at place(i, j) of the new one, which is nx x ny.
+template <class Place>
+HeightMap turned(const HeightMap& map, bool swap, Place place) {
+    HeightMap t;
+    t.allocate(swap ? map.ny : map.nx, swap ? map.nx : map.ny, swap ? map.ny : map.nx);
+    t.dx = swap ? map.dy : map.dx, t.dy = swap ? map.dx : map.dy;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            const auto [a, b] = place(i, j);
+            t.row(b)[a] = map(i, j);
+        }
+    return t;
+}
+
+void rectangular_pixels() {
+    // 16 points a wave in one direction and 32 in the other, against 16 and 32 in both, between the points: the same surface.
+    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
+    HeightMap fine = synthesize(s, 1024, Normalise::sample, 4, 1);
+    fine.periodic = false;
+    constexpr double kSame = 1e-3;  // relative
+    const Curve square = press(thinned(fine, 1, 1), "fourth_order", s.sigma);
+    for (const auto& [x, y] : {std::pair{1, 2}, std::pair{2, 1}, std::pair{2, 2}}) {
+        const Curve other = press(thinned(fine, x, y), "fourth_order", s.sigma);
+        for (int k = 0; k < 3; ++k) {
+            CHECK_RELATIVE(other.force[k], square.force[k], kSame);
+            CHECK_RELATIVE(other.area[k], square.area[k], 3 * kSame);
+        }
+    }
+    // On the grid (hertz) second differences miss more in the coarser direction: no more than square pixels of that size do.
+    const Curve fine_hertz = press(thinned(fine, 1, 1), "hertz", s.sigma), coarse_hertz = press(thinned(fine, 2, 2), "hertz", s.sigma);
+    const Curve mixed = press(thinned(fine, 1, 2), "hertz", s.sigma);
+    const double coarse_error = std::abs(coarse_hertz.force[2] / fine_hertz.force[2] - 1);
+    CHECK(coarse_error < 0.02 && std::abs(mixed.force[2] / fine_hertz.force[2] - 1) < coarse_error + 0.002);
+}
+
+void turned_maps() {
+    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 48, .sigma = 0.005};
+    HeightMap map = synthesize(s, 256, Normalise::sample, 9, 1);
+    map.periodic = false;
+    map.dy *= 1.25;
+    map.ny -= 30;
+    const int nx = map.nx, ny = map.ny;
+    // The tip above the middle of the points, wherever the map is turned.
+    const auto press_middle = [&](const HeightMap& m, const char* law) {
+        HeightMap shifted = turned(m, false, [](int i, int j) { return std::pair{i, j}; });
+        shifted.x0 = -0.5 * (m.nx - 1) * m.dx, shifted.y0 = -0.5 * (m.ny - 1) * m.dy;
+        Case settings;
+        set_key(settings, "asperities%law", std::string("'") + law + "'");
+        set_key(settings, "indentation%centre", "0.0, 0.0");
+        Surface surface;
+        surface.origin.sigma = s.sigma;
+        surface.map = std::move(shifted);
+        const Ground ground = make_ground(surface, settings, 1);
+        AsperityContact contact(ground.asperities, indenter_of(settings, ground.site), solver_of(settings, ground.site));
+        return contact.at_separation(1.5 * s.sigma).force;
+    };
+    for (const char* law : {"hertz", "fourth_order"}) {
+        const double force = press_middle(map, law);
+        constexpr double kSame = 1e-6;  // the solver's tolerance; summits between the points are found to 1e-7 of a step
+        CHECK_RELATIVE(press_middle(turned(map, false, [&](int i, int j) { return std::pair{nx - 1 - i, j}; }), law), force, kSame);
+        CHECK_RELATIVE(press_middle(turned(map, false, [&](int i, int j) { return std::pair{i, ny - 1 - j}; }), law), force, kSame);
+        CHECK_RELATIVE(press_middle(turned(map, true, [&](int i, int j) { return std::pair{j, i}; }), law), force, kSame);
+        CHECK_RELATIVE(press_middle(turned(map, true, [&](int i, int j) { return std::pair{ny - 1 - j, i}; }), law), force, kSame);
+    }
+}
+
+double mean_of(const std::vector<double>& v) {
+    double sum = 0;
+    for (double x : v) sum += x;
+    return sum / static_cast<double>(v.size());
+}
+
+double error_of(const std::vector<double>& v) {
+    const double m = mean_of(v);
+    double square = 0;
+    for (double x : v) square += (x - m) * (x - m);
+    return std::sqrt(square / (static_cast<double>(v.size()) * (static_cast<double>(v.size()) - 1)));
+}
+
+// Forces of realizations 1 ... count of a case.
+std::vector<double> forces(const Case& settings, int count, std::size_t level) {
+    const Job job = prepare(settings);
+    std::vector<double> all;
+    for (int k = 1; k <= count; ++k) all.push_back(realize(job, k, 1).levels[level].force);
+    return all;
+}
+
+// The circle: surfaces of a known spectrum; one of them as a map in a file, tilted, in micrometres; its twins; and the same force.
+void twins() {
+    Case original;
+    for (const auto& [key, value] :
+         {std::pair{"surface%L", "1.0"}, std::pair{"surface%n", "256"}, std::pair{"surface%L_lambda_l", "8.0"},
+          std::pair{"surface%L_lambda_s", "48.0"}, std::pair{"surface%sigma", "0.005"}, std::pair{"surface%normalise", "'ensemble'"},
+          std::pair{"surface%plateau", ".true."}, std::pair{"indentation%levels", "0.01, 0.005"}, std::pair{"indentation%unit", "'length'"},
+          std::pair{"solids%R", "Infinity, 50.0"}})
+        set_key(original, key, value);
+    constexpr int kSurfaces = 150;
+    const Surface surface = make_surface(original, 7, 1);
+    map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
+    for (int j = 255; j >= 0; --j)
+        for (int i = 0; i < 256; ++i) map.z.push_back(1e-3 * (surface.map(i, j) + 0.002 * i / 256 - 0.1));
+    const std::string file = in_folder("map.gwy");
+    std::ofstream(file, std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "Topography", map));
+    Case measured = original;
+    measured.surface = {};
+    set_key(measured, "surface%source", "'heights'");
+    set_key(measured, "surface%file", "'" + file + "'");
+    set_key(measured, "output%file", "'" + in_folder("map.nc") + "'");
+    run_case(measured, {});
+    Case twin;
+    {
+        std::ifstream in(in_folder("map_twins.nml"));
+        CHECK(in.good());
+    }
+    twin = original;
+    twin.surface = {};
+    set_key(twin, "surface%source", "'spectrum'");
+    set_key(twin, "surface%file", "'" + in_folder("map.nc") + "'");
+    set_key(twin, "surface%n", "256");
+    set_key(twin, "surface%normalise", "'ensemble'");
+    // The rms height of the map is one sample's: with the ensemble's, only the spectrum's shape is left to differ.
+    set_key(twin, "surface%sigma", "0.005");
+    twin.run.seed = 2;
+    for (const std::size_t level : {std::size_t{0}, std::size_t{1}}) {
+        const std::vector<double> a = forces(original, kSurfaces, level), b = forces(twin, kSurfaces, level);
+        const double error = std::hypot(error_of(a), error_of(b));
+        std::printf("N of %d surfaces at %zu: %.4g +- %.2g, of twins %.4g +- %.2g\n", kSurfaces, level, mean_of(a), error_of(a), mean_of(b),
+                    error_of(b));
+        CHECK_CLOSE(mean_of(b), mean_of(a), 2 * error);
+        CHECK(error < 0.1 * mean_of(a));  // the comparison says something
+    }
+}
+
+// A table that holds the closed form is the closed form.
+void table_of_a_closed_form() {
+    const Spectrum s{.L = 2, .hurst = 0.7, .L_lambda_l = 4, .L_lambda_s = 40, .plateau = false, .sigma = 0.01};
+    const double step = 2 * kPi / s.L;
+    const auto table = std::make_shared<const SpectrumTable>(std::vector<double>{4 * step, 9 * step, 40 * step},
+                                                             std::vector<double>{1, std::pow(9.0 / 4, -3.4), std::pow(10.0, -3.4)});
+    const Spectrum t = tabulated_spectrum(table, s.L, s.sigma);
+    const Moments a = theoretical_moments(s), b = theoretical_moments(t);
+    CHECK_RELATIVE(b.m2, a.m2, 1e-12);
+    CHECK_RELATIVE(b.m4, a.m4, 1e-12);
+    CHECK_RELATIVE(discrete_moments(t).m4, discrete_moments(s).m4, 1e-12);
+    const HeightMap x = synthesize(s, 128, Normalise::ensemble, 3, 5), y = synthesize(t, 128, Normalise::ensemble, 3, 5);
+    double worst = 0;
+    for (int j = 0; j < 128; ++j)
+        for (int i = 0; i < 128; ++i) worst = std::fmax(worst, std::abs(x(i, j) - y(i, j)));
+    CHECK_CLOSE(worst, 0.0, 1e-12 * s.sigma);
+    // Its own rms height: the integral of 2 pi k Phi, here in closed form.
+    const SpectrumTable flat({1, 3}, {2, 2});
+    CHECK_RELATIVE(flat.sigma(), std::sqrt(kPi * 2 * (9 - 1)), 1e-13);
+    CHECK(flat(0.99) == 0 && flat(3.01) == 0);
+    CHECK_RELATIVE(flat(2), 2.0, 1e-14);
+    CHECK_THROWS(SpectrumTable({1, 1}, {1, 1}), Error);
+    CHECK_THROWS(SpectrumTable({1, 2}, {1, -1}), Error);
+    CHECK_THROWS(SpectrumTable({1, 2, 3}, {1, 0, 1}), Error);
+    CHECK_THROWS(SpectrumTable({1}, {1}), Error);
+    const std::string path = in_folder("psd.txt");
+    std::ofstream(path) << "# k psd\n1 2\n3 2\n";
+    CHECK_RELATIVE((*read_spectrum(path, "mm"))(2), 2.0, 1e-14);
+    std::ofstream(path) << "1 2\n3 2\n2 2\n";
+    CHECK_THROWS(read_spectrum(path, "mm"), Error);
+}
+
+// Maps by a pattern: realization k is the k-th file.
+void several_maps() {
+    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
+    for (int k = 1; k <= 3; ++k) {
+        const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, k);
+        map_files::Map map{128, 128, 1e-3 / 128, 1e-3 / 128, {}};
+        for (int j = 127; j >= 0; --j)
+            for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
+        std::ofstream(in_folder("many_" + std::to_string(k) + ".gwy"), std::ios::binary)
+            << map_files::gwy_file(map_files::gwy_channel(0, "T", map));
+    }
+    Case settings;
+    set_key(settings, "surface%source", "'heights'");
+    set_key(settings, "surface%file", "'" + in_folder("many_*.gwy") + "'");
+    set_key(settings, "indentation%levels", "0.01, 0.0075");
+    set_key(settings, "indentation%unit", "'length'");
+    set_key(settings, "run%realizations", "3");
+    require_valid(settings);
+    const std::vector<double> all = forces(settings, 3, 1);
+    for (int k = 1; k <= 3; ++k) {
+        Case one = settings;
+        set_key(one, "run%realizations", "1");
+        set_key(one, "surface%file", "'" + in_folder("many_" + std::to_string(k) + ".gwy") + "'");
+        CHECK(forces(one, 1, 1)[0] == all[static_cast<std::size_t>(k - 1)]);
+    }
+    CHECK(all[0] != all[1] && all[1] != all[2]);
+    settings.run.realizations = 4;
+    CHECK_THROWS(prepare(settings), Error);
+    settings.run.realizations = 3;
+    settings.surface.file = in_folder("none_*.gwy");
+    CHECK_THROWS(prepare(settings), Error);
+    settings.surface.file = in_folder("many_1.gwy");
+    CHECK(!check_case(settings).empty());  // one file is one realization
+}
+
+// Filled points make no contact near them.
+void filled_points() {
+    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
+    const HeightMap surface = synthesize(s, 256, Normalise::sample, 4, 1);
+    map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
+    for (int j = 255; j >= 0; --j)
+        for (int i = 0; i < 256; ++i) map.z.push_back(std::hypot(i - 128, j - 128) < 20 ? std::nan("") : 1e-3 * surface(i, j));
+    const std::string file = in_folder("hole.gwy");
+    std::ofstream(file, std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "T", map));
+    Case settings;
+    set_key(settings, "surface%source", "'heights'");
+    set_key(settings, "surface%file", "'" + file + "'");
+    CHECK_THROWS(prepare(settings), Error);
+    set_key(settings, "surface%missing", "'fill'");
+    const Job job = prepare(settings);
+    CHECK(job.measured && job.measured->missing > 1200 && job.measured->missing < 1300);
+    const Asperities& a = job.given->asperities;
+    const double wave = job.measured->shortest_wave();
+    CHECK_RELATIVE(wave, 1.0 / 32, 0.1);
+    double nearest = 1;
+    for (std::size_t k = 0; k < a.size(); ++k) nearest = std::fmin(nearest, std::hypot(a.x[k] - 0.5, a.y[k] - 0.5));
+    CHECK(nearest > 19.0 / 256 + wave && nearest < 19.0 / 256 + 2.5 * wave);
+}
+
+}  // namespace
+
+int main() {
+    std::filesystem::create_directories(folder);
+    rectangular_pixels();
+    turned_maps();
+    table_of_a_closed_form();
+    several_maps();
+    filled_points();
+    twins();
+    std::filesystem::remove_all(folder);
+    return check::summary();
+}
