@@ -13,6 +13,7 @@ Levels that are not to be relied on (variable `status`) carry a mark that the le
 import argparse
 import os
 import sys
+import textwrap
 from collections import namedtuple
 
 import plot_curves
@@ -72,6 +73,14 @@ def open_results(paths):
     return opened, stems[0] if len(stems) == 1 else f"{stems[0]}_to_{stems[-1]}"
 
 
+def fit_title(figure):
+    """Breaks the lines of the title where the picture is too narrow for them: a character of 8 points is some 1.5 mm wide, symbols less than they look in the source."""
+    title = figure._suptitle
+    if title is not None:
+        columns = int(figure.get_size_inches()[0] * 25.4 / 1.5)
+        title.set_text("\n".join(part for line in title.get_text().split("\n") for part in textwrap.wrap(line, columns) or [""]))
+
+
 def main(words=None):
     arguments = parse(words)
     results, stem = open_results(arguments.result)
@@ -97,6 +106,7 @@ def main(words=None):
                 if arguments.only:
                     options.say(f"{name}: the file does not hold what this picture shows")
                 continue
+            fit_title(figure)
             path = os.path.join(folder, f"{arguments.name or stem}_{name}.{arguments.format}")
             figure.savefig(path)
             plt.close(figure)

@@ -75,7 +75,8 @@ def area(results, options):
     results = [r for r in results if "contact_area_mean" in r and ((r["force_mean"] > 0) & (r["contact_area_mean"] > 0)).any()]
     if not results:
         return None
-    figure, axes = panels(1, min(options.width, 130.0), least=30.0, entries=few(len(results)))
+    narrow = options.width < 110 and len(results) == 1  # the legend of regimes and marks would cover the curve
+    figure, axes = panels(1, min(options.width, 130.0), least=30.0, entries=8 if narrow else few(len(results)))
     axis, met, labels = axes[0], set(), names(results)
     for k, result in enumerate(results):
         marker, line, colour = style(k, len(results))
@@ -160,7 +161,7 @@ def friction(results, options):
         for i, step in enumerate(steps):
             marker, line, colour = style(k if len(results) > 1 else i, max(len(results), len(steps)))
             force, displacement = result["tangential_force"][step], result["tangential_displacement"][step]
-            axes[0].plot(displacement, force, line, color=colour, label=labels[k] if len(results) > 1 else f"{result.level_name(step)}, $N$ = {result['force_mean'][step]:.3g}")
+            axes[0].plot(displacement, force, line, color=colour, label=labels[k] if len(results) > 1 else f"{result.level_name(step)}{result.warning(step)}, $N$ = {result['force_mean'][step]:.3g}")
     axes[0].set(xlabel="displacement" + results[0].unit("tangential_displacement"), ylabel="tangential force $T$" + results[0].unit("tangential_force"))
     legend(axes[0])
     _title(figure, results, "Friction: first loading and cycle", band=False)

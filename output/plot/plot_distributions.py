@@ -46,6 +46,8 @@ def distributions(results, options):
         for k in levels if len(results) == 1 else levels[np.argsort(counts[levels])[-1:]]:
             z = result["pdf_separation_sigma"][k]
             level = rf"$Z_0/\sigma$ = {z:.3g}" if np.isfinite(z) else f"level {k + 1}"
+            step = int(result["pdf_step"][k]) - 1  # -1: it differs between realizations
+            level += result.warning(step) if step >= 0 else ""
             shown.append((result, int(k), f"{level}, {counts[k]:.0f} contacts" if len(results) == 1 else name))
     if not shown:
         if results:

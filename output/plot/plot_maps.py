@@ -20,10 +20,11 @@ def hertz_radius(result, step):
 
 
 def _shown(results, options):
-    """(result, level, name) of the panels: three levels of one result, or one level of each of several."""
+    """(result, level, name) of the panels: three levels of one result (two in a narrow picture), or one level of each of several."""
     if len(results) == 1:
-        return [(results[0], level, results[0].level_name(level)) for level in chosen_levels(results[0], 3, options.step)]
-    return [(r, level, f"{name}, {r.level_name(level)}") for r, name in zip(results, names(results)) for level in chosen_levels(r, 1, options.step)]
+        count = 3 if options.width >= 120 else 2
+        return [(results[0], level, results[0].level_name(level) + results[0].warning(level)) for level in chosen_levels(results[0], count, options.step)]
+    return [(r, level, f"{name}, {r.level_name(level)}{r.warning(level)}") for r, name in zip(results, names(results)) for level in chosen_levels(r, 1, options.step)]
 
 
 def contact_window(x, y, field, side, margin=0.15):
@@ -189,5 +190,5 @@ def spots(results, options):
     axes[0].legend(loc="upper right")
     axes[0].set_title(f"{x.size} contact spots, true to size")
     axes[1].set_title("around the largest")
-    figure.suptitle(result.heading(f"Contact spots at {result.level_name(step)}, $N$ = {result['force_mean'][step]:.3g}{plain(result.unit('force'))}"), fontsize=8)
+    figure.suptitle(result.heading(f"Contact spots at {result.level_name(step)}{result.warning(step)}, $N$ = {result['force_mean'][step]:.3g}{plain(result.unit('force'))}"), fontsize=8)
     return figure

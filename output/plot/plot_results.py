@@ -95,6 +95,11 @@ class Result:
         variable = self.file.variables["status"]
         return np.nan_to_num(self["status"].reshape(-1, self.steps)).max(axis=0).astype(int), [name.replace("_", " ") for name in variable.flag_meanings.split()]
 
+    def warning(self, step):
+        """What is to be said about a level, for a legend: ' (overlapping)'; nothing for a converged one."""
+        status, meanings = self.level_status()
+        return f" ({meanings[status[step]]})" if status[step] > 0 else ""
+
     def loaded(self):
         """The levels with contact."""
         return np.flatnonzero(self["force_mean"] > 0) if "force_mean" in self else np.array([], int)

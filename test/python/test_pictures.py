@@ -180,6 +180,9 @@ class Places(unittest.TestCase):
     def test_radial(self):
         figure = plot_maps.radial(results("one"), plot.Options(step=26))
         points = curves(figure.axes[0])[0]
+        meaning = results("one")[0].level_status()[1][int(raw("one", "status")[0, 25])]
+        self.assertNotEqual(meaning, "converged")
+        self.assertIn(f"({meaning})", points.get_label())
         self.assertTrue(np.array_equal(points.get_ydata(), raw("one", "radial_pressure")[25]))
         smooth = next(line for line in figure.axes[0].get_lines() if line.get_gid() == "hertz")
         hertz = raw("one", "hertz_pressure")[25]
