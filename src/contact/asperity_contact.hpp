@@ -29,8 +29,7 @@ public:
     bool path_dependent() const override;
     std::vector<double> residual_depths() const override;
 
-    // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
-    void forget();
+    void forget() override;
 
 protected:
     // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is

@@ -35,6 +35,9 @@ public:
 
     virtual const Indenter& indenter() const = 0;
 
+    // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
+    virtual void forget() = 0;
+
     // Whether a level depends on those before it. Energy is then what would come back, and stiffness that of unloading.
     virtual bool path_dependent() const { return false; }
     // How far each asperity stays pressed down without force [length]; empty where nothing does.

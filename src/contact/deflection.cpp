@@ -48,7 +48,7 @@ double deflection(const Level& level, const Kernel& kernel, double x, double y) 
     for (std::size_t k = 0; k < pixels.index.size(); ++k)
         sum += pixels.pressure[k] * pixels.dx *
                pixel_kernel((x - pixels.x(k)) / pixels.dx, (y - pixels.y(k)) / pixels.dx, pixels.dy / pixels.dx);
-    if (!pixels.index.empty()) return sum / (std::numbers::pi * E_star);
+    if (!pixels.index.empty()) return sum / (std::numbers::pi * kernel.modulus());
     for (std::size_t k = 0; k < level.f.size(); ++k) {
         const double dx = period.nearest_x(x - level.x[k]), dy = period.nearest_y(y - level.y[k]);
         sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), kernel.modulus());

@@ -261,6 +261,11 @@ void ElementContact::move_tip(double x0, double y0) {
 }
 
 double ElementContact::first_touch() const { return impl_->top; }
+void ElementContact::forget() {
+    impl_->past.clear();
+    impl_->since_move = 0;
+}
+
 const Indenter& ElementContact::indenter() const { return impl_->indenter; }
 double ElementContact::tolerance() const { return impl_->options.tolerance; }
 

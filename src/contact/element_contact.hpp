@@ -25,6 +25,7 @@ public:
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
+    void forget() override;
 
 protected:
     // There is one solution (K is positive definite); earlier levels are a start, and change the answer within the tolerance only.

@@ -7,6 +7,7 @@
 
 #include "case/registry.hpp"
 #include "check.hpp"
+#include "contact/asperity_contact.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
 #include "read/file_list.hpp"
