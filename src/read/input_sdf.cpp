@@ -108,7 +108,7 @@ public:
         if (at_ >= text_.size()) return false;
         const std::size_t end = std::min(text_.find('\n', at_), text_.size());
         content = text_.substr(at_, end - at_);
-        at_ = end + 1;
+        at_ = std::min(end + 1, text_.size());
         line_ = ++ends_;
         while (!content.empty() && blank(content.front())) content.remove_prefix(1);
         while (!content.empty() && blank(content.back())) content.remove_suffix(1);

@@ -195,6 +195,8 @@ void sdf() {
     REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = four\n*\n")), "t.sdf:2: NumPoints: a number was expected, not 'four'");
     REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = 4000000\nNumProfiles=4000000\nXscale=1\nYscale=1\nZscale=1\n*\n1 1 1")),
             "4000000 x 4000000 heights in a file of");
+    const std::string header = text.substr(0, text.find('*') + 1);  // the file ends with the mark before the heights
+    REFUSED(in_micrometres(write("t.sdf", header)), "0 heights where 6 x 4 were expected");
     // Cut anywhere, and absurd headers.
     const std::string binary = sdf_binary(map, 5, 1e-9, i16);
     for (std::size_t size = 8; size < binary.size(); ++size) REFUSED(in_micrometres(write("t.sdf", binary.substr(0, size))), "at byte ");
