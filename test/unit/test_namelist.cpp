@@ -232,6 +232,10 @@ void test_nulls() {
     CHECK((pdf("1.5,,9.5") == std::vector<double>{1.5, 2.5, 9.5}));
     CHECK((pdf("2*,9.5") == std::vector<double>{2.0, 2.5, 9.5}));
     CHECK((pdf(" , , , 9.5") == std::vector<double>{2.0, 2.5, 3.0, 9.5}));
+    // Nothing at all, and a list that cannot be read, which is told once.
+    CHECK((pdf("") == std::vector<double>{2.0, 2.5, 3.0}));
+    CHECK((pdf(",,,") == std::vector<double>{2.0, 2.5, 3.0}));
+    CHECK_TEXT(complaint("&indentation levels(2) = x /"), "case.nml:1:26: &indentation: levels: expected a real number, found 'x'");
     const Case c = read_case_text("&solids E = ,7.5  nu = , 0.25  R = 3.5,, /", "case.nml").settings;
     CHECK(c.solids.E[0] == 78.0e3 && c.solids.E[1] == 7.5 && c.solids.nu[0] == 0.42 && c.solids.nu[1] == 0.25);
     CHECK(c.solids.R[0] == 3.5 && c.solids.R[1] == 2.5);
@@ -389,6 +393,8 @@ void test_study() {
     CHECK_CONTAINS(first_fault("&study surface%sigma = 1,,2 /"), "a value is missing");
     CHECK_CONTAINS(first_fault("&study surface%sigma = 100000*1 /"), "more than 10000 values");
     CHECK_CONTAINS(first_fault("&study /"), "no lists of values");
+    CHECK_CONTAINS(first_fault("&study surface%sigma = 1, 2\n surface%hurst = 0.5\n surface%sigma = 3 /"),
+                   "case.nml:3:2: &study: surface%sigma: given twice");
     // A value out of bounds, and one that is wrong only beside another.
     CHECK_CONTAINS(check_study(Case{}, *read_namelist("&study surface%hurst = 0.5, 1.5 /").study).at(0).text, "must be 0 to 1");
     try {
