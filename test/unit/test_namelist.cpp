@@ -340,6 +340,8 @@ void test_limits() {
     CHECK_CONTAINS(complaint("&indentation levels = 99999999999999999999999*1 /"), "the repeat count is larger than");
     CHECK_CONTAINS(complaint("&indentation levels = 100000000*1 /"), "the repeat count is too large");
     CHECK_CONTAINS(complaint("&indentation levels = 0*1 /"), "the repeat count is zero");
+    CHECK(complaint("&indentation levels = 10000*1 /").empty() && complaint("&output pdf_levels = 100*1 /").empty());
+    CHECK(!complaint("&indentation levels = 10001*1 /").empty() && !complaint("&output pdf_levels = 101*1 /").empty());
     CHECK_CONTAINS(complaint("&surface n = 40000 /"), "must be 2 to 32768");
     CHECK_CONTAINS(complaint("&indentation steps = 2000000 /"), "must be 1 to 1000000");
     CHECK_CONTAINS(complaint("&indentation steps = 1000000 / &output map_cells = 4096 /"), "would hold more than 1000000000 values");
