@@ -100,8 +100,13 @@ def spectrum(results, options):
         axes[0].plot(k[good], psd[good], marker, ms=2, mew=0.5, mfc="none", color=colour, label="heights" if len(results) == 1 else title)
         if "psd_fit" in result:
             fit = np.ravel(result["psd_fit"])[: k.size]
-            axes[0].plot(k[fit > 0], fit[fit > 0], line, color=colour, label="fit" if len(results) == 1 else None, gid="fit")
+            law = "fit" + (f", $H$ = {float(result.file.variables['psd_fit'].hurst):.3g}" if "hurst" in result.file.variables["psd_fit"].ncattrs() else "")
+            axes[0].plot(k[fit > 0], fit[fit > 0], "-" if len(results) == 1 else line, color="#c1440e" if len(results) == 1 else colour, label=law if len(results) == 1 else None, gid="fit",
+                         zorder=3)
     axes[0].set(xscale="log", yscale="log", xlabel="wavenumber $k$" + results[0].unit("wavenumber"), ylabel=r"spectrum $\Phi$" + results[0].unit("psd"))
+    top = max(r["psd"].max() for r in results)
+    low = min(r["psd"][r["psd"] > 1e-12 * top].min() for r in results)  # what is smaller is rounding
+    axes[0].set_ylim(low / 3, top * 3)
     legend(axes[0])
     figure.suptitle(results[0].heading("Spectrum of the heights") if len(results) == 1 else "Spectrum of the heights", fontsize=8)
     return figure

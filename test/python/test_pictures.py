@@ -44,6 +44,8 @@ def setUpModule():
     for name, case in CASES.items():
         done = subprocess.run([os.environ["RSC_PROGRAM"], "-q", "-o", path(name)], input=case, text=True, capture_output=True)
         assert done.returncode == (1 if name == "failed" else 0), done.stderr
+    measured = f"&surface source='heights' file='{path('one')}' / &indentation steps=2 /"
+    subprocess.run([os.environ["RSC_PROGRAM"], "-q", "-o", path("measured")], input=measured, text=True, capture_output=True, check=True)
 
 
 def path(name):
@@ -219,6 +221,20 @@ class Distributions(unittest.TestCase):
                           else None)
         self.assertIsNone(plot_distributions.distributions(results("far"), plot.Options(say=said.append)))
         self.assertIn("fewer than", said[-1])
+
+
+class Spectrum(unittest.TestCase):
+    def test_numbers(self):
+        axis = plot_distributions.spectrum(results("measured"), OPTIONS).axes[0]
+        k, psd, fit = (raw("measured", name) for name in ("wavenumber", "psd", "psd_fit"))
+        drawn = curves(axis)[0]
+        good = (k > 0) & (psd > 0)
+        self.assertTrue(np.array_equal(drawn.get_xdata(), k[good]) and np.array_equal(drawn.get_ydata(), psd[good]))
+        law = next(line for line in axis.get_lines() if line.get_gid() == "fit")
+        self.assertTrue(np.array_equal(law.get_ydata(), fit[fit > 0]))
+        low, high = axis.get_ylim()
+        self.assertTrue(high > psd.max() and 1e-13 * psd.max() < low < fit[fit > 0].min())
+        self.assertEqual(axis.get_xlabel(), "wavenumber $k$ [mm$^{-1}$]")
 
 
 class Study(unittest.TestCase):
