@@ -118,14 +118,16 @@ contains
   end subroutine
 
   subroutine read_solids()
-    real(real64) :: e(2), nu(2), r(2), resistivity(2), friction
+    real(real64) :: e(2), nu(2), r(2), resistivity(2), friction, hardness, size_effect
     integer :: ios, k
-    namelist /solids/ e, nu, r, resistivity, friction
+    namelist /solids/ e, nu, r, hardness, size_effect, resistivity, friction
     e = [78.0e3_real64, infinity]
     nu = [0.42_real64, 0.0_real64]
     r = [infinity, 2.5_real64]
     resistivity = 0
     friction = 0
+    hardness = infinity
+    size_effect = 0
     read (unit_in, nml=solids, iostat=ios)
     call status('solids', ios)
     do k = 1, 2
@@ -141,6 +143,8 @@ contains
       call put_real('solids%resistivity', resistivity(k), k)
     end do
     call put_real('solids%friction', friction)
+    call put_real('solids%hardness', hardness)
+    call put_real('solids%size_effect', size_effect)
   end subroutine
 
   subroutine read_surface()

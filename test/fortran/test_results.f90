@@ -212,12 +212,12 @@ contains
   subroutine test_refusals(other)
     character(*), intent(in) :: other
     type(rsc_result) :: r
-    character(:), allocatable :: message
+    character(300) :: message
     integer :: stat
     call rsc_read_result('no/such/file.nc', r, stat, message)
-    call check(stat /= 0 .and. index(message, "no/such/file.nc': No such file") > 0, 'missing file: ' // message)
+    call check(stat /= 0 .and. index(message, "no/such/file.nc': No such file") > 0, 'missing file: ' // trim(message))
     call rsc_read_result(other, r, stat, message)
-    call check(stat /= 0 .and. index(message, other) > 0, 'not NetCDF: ' // message)
+    call check(stat /= 0 .and. index(message, other) > 0, 'not NetCDF: ' // trim(message))
   end subroutine test_refusals
 
 end program test_results

@@ -161,6 +161,8 @@ void test_bounds() {
         {"solids%E", {"1e-50", "Infinity"}, {"0", "-1", "NaN", "-Infinity"}},
         {"solids%nu", {"-0.999", "0", "0.5"}, {"-1", "0.5000001", "NaN"}},
         {"solids%R", {"1e-50", "Infinity"}, {"0", "-1", "NaN"}},
+        {"solids%hardness", {"1e-50", "Infinity"}, {"0", "-1", "NaN"}},
+        {"solids%size_effect", {"0", "1e50"}, {"-1e-9", "Infinity", "NaN"}},
         {"solids%resistivity", {"0", "1e50"}, {"-1e-9", "Infinity", "NaN"}},
         {"solids%friction", {"0", "1e50"}, {"-1e-9", "Infinity", "NaN"}},
         {"surface%L", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
