@@ -5,7 +5,6 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "case/registry.hpp"
 #include "contact/deflection.hpp"
 #include "observe/quantities.hpp"
 #include "rough/magnitude.hpp"
@@ -21,10 +20,6 @@ Site site_of(const Case& settings, const Ground& on) {
 void require_contact_keys(const Case& settings) {
     require_sound(settings,
                   {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
-    if (find_key("solver", "model") && get_key(settings, "solver%model") == "'elements'") {
-        throw Error(Failure::bad_input,
-                    "solver%model = 'elements': contacts of the library are those of asperities; rsc_case_run runs elements");
-    }
 }
 
 // What a contact stands on was made by one model: another one asked for is refused rather than ignored.
