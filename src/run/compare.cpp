@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include "contact/element_contact.hpp"
 
@@ -33,9 +32,10 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
                               const std::function<bool()>& stop) {
     ComparedLevels c;
     if (job.settings.compare.levels.empty() || levels.empty()) return c;
-    std::optional<Surface> made;
-    if (!job.given) made = make_element_surface(job.settings, number, threads);
-    const HeightMap& map = made ? made->map : *job.given_heights;
+    Surface surface = make_element_surface(job.settings, number, threads);
+    HeightMap& map = surface.map;
+    map.x0 = job.site.domain.x0;  // of several measured maps the first one says where they lie
+    map.y0 = job.site.domain.y0;
     ElementContact contact(map, job.indenter, job.solver);
     if (table) *table << "\ncompared with elements on " << map.nx << " x " << map.ny << " points (asperities over elements - 1):\n";
     const bool by_force = job.settings.indentation.control == Control::force;

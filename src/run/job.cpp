@@ -56,10 +56,10 @@ Job prepare(const Case& settings) {
     Job job;
     job.settings = settings;
     const bool elements = settings.solver.model == Model::elements;
-    if (elements || !settings.compare.levels.empty()) require_element_memory(settings);
     double sqrt_m4;
     if (has_spectrum(settings)) {
         job.spectrum = spectrum_of(settings);
+        if (elements || !settings.compare.levels.empty()) require_element_memory(settings, *job.spectrum);
         job.site = synthetic_site(*job.spectrum);
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
@@ -122,8 +122,12 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             r.statistics = job.given->statistics;
         } else {
             Surface surface = make_element_surface(settings, number, threads);
-            if (!job.spectrum) surface.map.x0 = job.site.domain.x0, surface.map.y0 = job.site.domain.y0;  // one of several maps
-            r.statistics = make_bare_ground(surface).statistics;
+            Ground ground = make_bare_ground(surface);
+            if (!job.spectrum) {  // one of several maps
+                move_to(job.site.domain, ground, number);
+                surface.map.x0 = job.site.domain.x0, surface.map.y0 = job.site.domain.y0;
+            }
+            r.statistics = ground.statistics;
             r.heights = std::move(surface.map);
         }
         contact = std::make_unique<ElementContact>(job.given ? *job.given_heights : *r.heights, job.indenter, job.solver);

@@ -123,9 +123,9 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
     throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
 }
 
-int element_points(const Case& settings) {
+int element_points(const Case& settings, const Spectrum& spectrum) {
     // The next even number whose transforms are fast.
-    int n = static_cast<int>(std::ceil(settings.elements.points_per_wave * spectrum_of(settings).L_lambda_s));
+    int n = static_cast<int>(std::ceil(settings.elements.points_per_wave * spectrum.L_lambda_s));
     for (n += n % 2;; n += 2) {
         int rest = n;
         for (int factor : {2, 3, 5, 7})
@@ -134,13 +134,19 @@ int element_points(const Case& settings) {
     }
 }
 
-void require_element_memory(const Case& settings) {
-    if (!has_spectrum(settings)) return;
-    const int n = element_points(settings);
+void require_element_memory(const Case& settings, const Spectrum& spectrum) {
+    const double wanted = settings.elements.points_per_wave * spectrum.L_lambda_s;
+    constexpr double most = 32768;
+    char text[300];
+    if (wanted > most) {
+        std::snprintf(text, sizeof text, "&elements points_per_wave = %g: makes a grid of %.0f points a side, and %.0f is the most",
+                      settings.elements.points_per_wave, wanted, most);
+        throw Error(Failure::bad_input, text);
+    }
+    const int n = element_points(settings, spectrum);
     const double bytes = 8.0 * n * n, memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // the modes of the surface while it is made, the pixels in contact later
     if (!(memory > 0) || beside * bytes <= memory) return;
-    char text[300];
     std::snprintf(text, sizeof text,
                   "&elements points_per_wave = %g: the heights, %d x %d points, take %.3g GB, and the machine has %.3g GB of memory; take "
                   "fewer points a wave or a smaller surface%%L_lambda_s",
@@ -150,9 +156,11 @@ void require_element_memory(const Case& settings) {
 
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads) {
     if (!has_spectrum(settings)) return make_surface(settings, number, threads);
+    const Spectrum spectrum = spectrum_of(settings);
+    require_element_memory(settings, spectrum);
     Case finer = settings;
-    finer.surface.n = element_points(settings);
-    return make_surface(finer, number, threads);
+    finer.surface.n = element_points(settings, spectrum);
+    return make_surface(finer, spectrum, number, threads);
 }
 
 Site synthetic_site(const Spectrum& spectrum) {
@@ -251,7 +259,6 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
 
 Ground make_ground(const Case& settings, std::int64_t number, int threads) {
     if (settings.solver.model == Model::elements) {
-        require_element_memory(settings);
         Surface surface = make_element_surface(settings, number, threads);
         Ground ground = make_bare_ground(surface);
         ground.points = std::make_shared<HeightMap>(std::move(surface.map));

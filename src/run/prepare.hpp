@@ -48,10 +48,10 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads);
 Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
 
 // Points a side of the grid of elements on a synthetic surface: points_per_wave in the shortest wave, or a few more.
-int element_points(const Case& settings);
+int element_points(const Case& settings, const Spectrum& spectrum);
 
 // Throws Error(bad_input) saying how much memory that grid takes when the machine has less.
-void require_element_memory(const Case& settings);
+void require_element_memory(const Case& settings, const Spectrum& spectrum);
 
 // The same surface for elements: on that grid, or as measured.
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads);

@@ -30,11 +30,11 @@ double sum(const std::vector<double>& values) {
 // The grid of elements has points_per_wave points in the shortest wave, and holds the surface of the asperities' grid.
 void surface() {
     Case c = small();
-    CHECK(element_points(c) == 192);
+    CHECK(element_points(c, spectrum_of(c)) == 192);
     c.elements.points_per_wave = 8.1;
-    CHECK(element_points(c) == 196);  // the next even number without prime factors above 7
+    CHECK(element_points(c, spectrum_of(c)) == 196);  // the next even number without prime factors above 7
     c.elements.points_per_wave = 16;
-    CHECK(element_points(c) == 384);
+    CHECK(element_points(c, spectrum_of(c)) == 384);
     const Surface fine = make_element_surface(c, 3, 1), coarse = make_surface(small(), 3, 1);
     double worst = 0;
     // sigma is exact over the points of each grid (normalise = 'sample'): the two differ by a factor next to 1.
