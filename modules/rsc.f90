@@ -83,6 +83,7 @@ module rsc
     procedure :: synthesize => surface_synthesize
     procedure :: take => surface_take
     procedure :: detrend => surface_detrend
+    procedure :: filter => surface_filter
     procedure :: grid => surface_grid
     procedure :: heights => surface_heights
     procedure :: moments => surface_moments
@@ -303,6 +304,12 @@ module rsc
       type(c_ptr), value :: surface
       character(kind=c_char), intent(in) :: how(*)
       real(c_double), intent(inout), optional :: rms
+      integer(c_int32_t) :: code
+    end function
+    function rsc_surface_filter(surface, cutoff) bind(c) result(code)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: surface
+      real(c_double), value :: cutoff
       integer(c_int32_t) :: code
     end function
     function rsc_surface_grid(surface, nx, ny, dx, dy, x0, y0, periodic) bind(c) result(code)
@@ -1130,7 +1137,7 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> Subtracts the 'mean' or the least-squares 'plane'; rms: height left.
+  !> Subtracts the 'mean' or the least-squares 'plane', 'quadratic' or 'sphere'; rms: height left.
   subroutine surface_detrend(self, how, rms, stat, errmsg)
     class(rsc_surface), intent(inout) :: self
     character(*), intent(in) :: how
@@ -1138,6 +1145,15 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     call finish(rsc_surface_detrend(changing(self%ticket), terminated(trim(how)), rms), stat, errmsg)
+  end subroutine
+
+  !> Gaussian low-pass filter (ISO 16610-61): half of a wave of length cutoff is left.
+  subroutine surface_filter(self, cutoff, stat, errmsg)
+    class(rsc_surface), intent(inout) :: self
+    real(c_double), intent(in) :: cutoff
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call finish(rsc_surface_filter(changing(self%ticket), cutoff), stat, errmsg)
   end subroutine
 
   subroutine surface_grid(self, nx, ny, dx, dy, x0, y0, periodic, stat, errmsg)

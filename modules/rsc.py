@@ -62,6 +62,7 @@ rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, doubl
 rsc_surface_copy(rsc_surface** surface, const rsc_surface* original)
 rsc_surface_destroy(rsc_surface** surface)
 rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms)
+rsc_surface_filter(rsc_surface* surface, double cutoff)
 rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0, int32_t* periodic)
 rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights)
 rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4)
@@ -578,11 +579,15 @@ class Surface(_Object):
         return cls._make("rsc_surface_take", nx, ny, dx, dx if dy is None else dy, x0, y0, bool(periodic), heights)
 
     def detrend(self, how="plane"):
-        """Subtracts the mean or the least-squares plane. how: 'none', 'mean' or 'plane'. Returns the rms height left [length]. Raises
-        ArgumentError for another word."""
+        """Subtracts a form fitted by least squares. how: 'none', 'mean', 'plane', 'quadratic' or 'sphere'. Returns the rms height left
+        [length]. Raises ArgumentError for another word, or a sphere that does not fit."""
         rms = ctypes.c_double()
         _call("rsc_surface_detrend", self, how, rms)
         return rms.value
+
+    def filter(self, cutoff):
+        """Gaussian low-pass filter (ISO 16610-61): half of a wave of length cutoff > 0 [length] is left. Raises ArgumentError."""
+        _call("rsc_surface_filter", self, cutoff)
 
     def grid(self):
         """The grid, a Grid. Raises ValueError if closed."""

@@ -159,12 +159,12 @@ RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
 /* ---- surfaces
  * ------------------------------------------------------------------------------------------------------------------ */
 
-/* The surface that &surface names, as the program has it. source = 'synthetic': a random one by the keys of &surface and run%seed, on
- * run%threads threads, the same as realization number `realization` of the program, whatever the threads; its heights are periodic, on
- * x = i L/n, y = j L/n (a contact sees one period: what is pressed beyond its border finds nothing). source = 'heights': the map in
- * surface%file, its form removed; the same for every realization. surface (out): the handle; a_case: the case, null for the defaults;
- * realization: any number. Errors: -1 null; -2 keys of &surface or &run that are refused, a file that cannot be used, or a source that has
- * no heights ('asperities': rsc_asperities_make); RSC_NO_MEMORY. */
+/* The surface that &surface names, as the program has it. source = 'synthetic' or 'spectrum': a random one by the keys of &surface and
+ * run%seed, on run%threads threads, the same as realization number `realization` of the program, whatever the threads; its heights are
+ * periodic, on x = i L/n, y = j L/n (a contact on a free surface sees one period: what is pressed beyond its border finds nothing).
+ * source = 'heights': the map in surface%file, in run%length_unit, its missing points, form and noise treated as the keys say. surface
+ * (out): the handle; a_case: the case, null for the defaults; realization: any number. Errors: -1 null; -2 keys of &surface or &run that
+ * are refused, a file that cannot be used, or a source that has no heights ('asperities': rsc_asperities_make); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization);
 
 /* A surface of given heights, copied. Separations are measured from z = 0: see rsc_surface_detrend.
@@ -182,10 +182,15 @@ RSC_API int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* origi
 /* Releases a surface and nulls the handle. Errors: -1 null address. */
 RSC_API int32_t rsc_surface_destroy(rsc_surface** surface);
 
-/* Subtracts the mean or the least-squares plane. Not while other threads read the surface.
- * surface: the surface; how: "none", "mean" or "plane"; rms (out, may be null): rms height left, about its mean [length].
- * Errors: -1 null; -2 null or another word. */
+/* Subtracts a form fitted by least squares. Not while other threads read the surface.
+ * surface: the surface; how: "none", "mean", "plane", "quadratic" or "sphere"; rms (out, may be null): rms height left, about its mean
+ * [length]. Errors: -1 null; -2 null, another word, or a sphere that does not fit. */
 RSC_API int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms);
+
+/* Low-pass filter of ISO 16610-61: a wave of length lambda keeps exp(-pi (alpha cutoff/lambda)^2) of its height, alpha = sqrt(ln 2/pi);
+ * a surface that ends is continued by reflection. Not while other threads read the surface.
+ * surface: the surface; cutoff: > 0 [length]. Errors: -1 null; -2 not positive or not finite; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_surface_filter(rsc_surface* surface, double cutoff);
 
 /* The grid. All outputs may be null. surface: the surface; nx, ny: points; dx, dy: steps [length]; x0, y0: place of the first
  * point [length]; periodic: 1 or 0. Errors: -1 null. */

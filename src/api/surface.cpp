@@ -6,7 +6,9 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
+#include "rough/filter.hpp"
 #include "rough/magnitude.hpp"
+#include "rough/measured.hpp"
 
 namespace rsc::api {
 namespace {
@@ -128,9 +130,24 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
                                                                         {"sphere", rsc::Detrend::sphere}};
         const auto* const form = std::find_if(std::begin(kForms), std::end(kForms), [&](const auto& f) { return f.first == word; });
         if (form == std::end(kForms)) refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
-        const double left = rsc::detrend(surface->surface.map, form->second).rms;
+        const double left = [&] {
+            try {
+                return rsc::detrend(surface->surface.map, form->second).rms;
+            } catch (const rsc::Error& error) {
+                refuse(2, "how", error.what());
+            }
+        }();
         if (!surface->surface.origin.theory) surface->surface.origin.sigma = left;
         put(rms_left, left);
+    });
+}
+
+int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
+    return guarded(0, [&] {
+        require(surface, 1, "surface");
+        if (!rsc::usable_positive(cutoff)) refuse(2, "cutoff", rsc::kPositiveBounds);
+        rsc::gaussian_filter(surface->surface.map, cutoff);
+        if (!surface->surface.origin.theory) surface->surface.origin.sigma = rsc::roughness(surface->surface.map).height;
     });
 }
 

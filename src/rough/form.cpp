@@ -84,9 +84,9 @@ std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, cons
     return all.solve(form);
 }
 
-// Subtracts a polynomial of first (3) or second (6 unknowns) degree. What rounding leaves of a large one goes with the second round.
+// Subtracts `level` and a polynomial of first (3) or second (6 unknowns) degree. What rounding leaves of a large one goes with the second round.
 template <int kUnknowns>
-std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form) {
+std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form, double level) {
     const auto basis = [](double u, double v) {
         const std::array<double, 6> all{1, u, v, u * u, u * v, v * v};
         std::array<double, kUnknowns> some{};
@@ -95,13 +95,14 @@ std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, co
     };
     std::array<double, 6> total{};
     for (int round = 0; round < 2; ++round) {
-        const auto c = fit<kUnknowns>(map, frame, form, basis, [&](int i, int j) { return map(i, j); });
+        const double below = round == 0 ? level : 0;  // a large level costs the fit no digits
+        const auto c = fit<kUnknowns>(map, frame, form, basis, [&](int i, int j) { return map(i, j) - below; });
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) {
                 const auto f = basis(frame.u(i), frame.v(j));
                 double sum = 0;
                 for (int k = 0; k < kUnknowns; ++k) sum += c[k] * f[k];
-                map.row(j)[i] -= sum;
+                map.row(j)[i] = (map(i, j) - below) - sum;
             }
         for (int k = 0; k < kUnknowns; ++k) total[k] += c[k];
     }
@@ -125,7 +126,7 @@ struct Sphere {
 };
 
 // Mean square of what the sphere leaves; NaN when the map reaches beyond it.
-double left_by(const Sphere& s, const HeightMap& map, const Frame& f) {
+double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double level) {
     double sum = 0;
     long points = 0;
     for (int j = 0; j < map.ny; ++j) {
@@ -133,7 +134,7 @@ double left_by(const Sphere& s, const HeightMap& map, const Frame& f) {
         for (int i = 0; i < map.nx; ++i) {
             const double z = map(i, j);
             if (std::isnan(z)) continue;
-            const double e = z - s(f.u(i) * f.scale, f.v(j) * f.scale);
+            const double e = z - level - s(f.u(i) * f.scale, f.v(j) * f.scale);
             row += e * e;
             ++points;
         }
@@ -142,20 +143,21 @@ double left_by(const Sphere& s, const HeightMap& map, const Frame& f) {
     return sum / static_cast<double>(points);
 }
 
-Sphere fit_sphere(const HeightMap& map, const Frame& frame) {
+// Of the heights above `level`.
+Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     const double a = frame.scale;
     const auto start = fit<4>(
         map, frame, "sphere",
         [](double u, double v) {
             return std::array<double, 4>{1, u, v, u * u + v * v};
         },
-        [&](int i, int j) { return map(i, j); });
+        [&](int i, int j) { return map(i, j) - level; });
     Sphere s{start[0], start[1] / a, start[2] / a, -2 * start[3] / (a * a)};
-    double left = left_by(s, map, frame);
+    double left = left_by(s, map, frame, level);
     // A paraboloid may be steeper than any sphere as wide as the map.
     for (int k = 0; k < 60 && std::isnan(left); ++k) {
         s.bend *= 0.8;
-        left = left_by(s, map, frame);
+        left = left_by(s, map, frame, level);
     }
     constexpr int kMostSteps = 200;
     constexpr double kArrived = 1e-13;  // of the form's extent
@@ -168,18 +170,18 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame) {
                 const double w = s.above(u * a, v * a), slope = 1 / (1 + s.bend * w);
                 return std::array<double, 4>{1, u * slope, v * slope, -0.5 * slope * (u * u + v * v + w * w / (a * a))};
             },
-            [&](int i, int j) { return map(i, j) - s(frame.u(i) * a, frame.v(j) * a); });
+            [&](int i, int j) { return map(i, j) - level - s(frame.u(i) * a, frame.v(j) * a); });
         const std::array<double, 4> by{change[0], change[1] / a, change[2] / a, change[3] / (a * a)};
         double share = 1;
         Sphere next = s.stepped(by, share);
-        double next_left = left_by(next, map, frame);
+        double next_left = left_by(next, map, frame, level);
         const double largest = std::max({std::abs(change[0]), std::abs(change[1]), std::abs(change[2]), std::abs(change[3])});
         const double extent = std::max({std::abs(s.p) * a, std::abs(s.q) * a, std::abs(s.bend) * a * a, std::sqrt(left)});
         if (largest <= kArrived * extent) return std::isnan(next_left) || next_left > left ? s : next;
         while (!(next_left <= left) && share > 1e-6) {
             share *= 0.5;
             next = s.stepped(by, share);
-            next_left = left_by(next, map, frame);
+            next_left = left_by(next, map, frame, level);
         }
         if (!(next_left < left)) return s;  // nothing gets better: rounding is all that is left
         s = next;
@@ -218,25 +220,23 @@ Form detrend(HeightMap& map, Detrend how) {
     long points = 0;
     const double level = mean_present(map, points);
     if (points == 0) refuse("the map has no point that is not missing");
-    if (how != Detrend::none) {
-        lower(map, level);
-        form.level = level;
-    }
+    if (how != Detrend::none) form.level = level;
+    if (how == Detrend::mean) lower(map, level);
     const Frame frame(map);
     const double a = frame.scale;
     if (how == Detrend::plane) {
-        const auto c = subtract_polynomial<3>(map, frame, "plane");
+        const auto c = subtract_polynomial<3>(map, frame, "plane", level);
         form.level += c[0];
         form.slope_x = c[1] / a, form.slope_y = c[2] / a;
     } else if (how == Detrend::quadratic) {
-        const auto c = subtract_polynomial<6>(map, frame, "quadratic");
+        const auto c = subtract_polynomial<6>(map, frame, "quadratic", level);
         form.level += c[0];
         form.slope_x = c[1] / a, form.slope_y = c[2] / a;
         form.zxx = 2 * c[3] / (a * a), form.zxy = c[4] / (a * a), form.zyy = 2 * c[5] / (a * a);
     } else if (how == Detrend::sphere) {
-        const Sphere s = fit_sphere(map, frame);
+        const Sphere s = fit_sphere(map, frame, level);
         for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= s(frame.u(i) * a, frame.v(j) * a);
+            for (int i = 0; i < map.nx; ++i) map.row(j)[i] = (map(i, j) - level) - s(frame.u(i) * a, frame.v(j) * a);
         form.level += s.level;
         form.slope_x = s.p, form.slope_y = s.q;
         // w + bend w^2/2 + g = 0, differentiated twice in the middle.

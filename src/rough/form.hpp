@@ -24,7 +24,7 @@ struct Form {
 // Subtracts the least-squares form in place; points whose height is NaN are missing: they are not fitted and stay NaN. The plane
 // and the quadratic are polynomials of first and second degree; the sphere is fitted in the vertical distance, centre and radius
 // free, by Gauss and Newton's method from the paraboloid. Throws Error(bad_input) when the points present do not fix the form
-// (none at all, all on one line, ...) or no sphere as wide as the map fits them.
+// (none at all, all on one line, ...) or no sphere as wide as the map fits them; the map is then as it was.
 Form detrend(HeightMap& map, Detrend how);
 
 }  // namespace rsc

@@ -132,9 +132,10 @@ private:
                 break;
             }
             case 8: {
-                static const char* const how[] = {"none", "mean", "plane", "other"};
+                static const char* const how[] = {"none", "mean", "plane", "quadratic", "sphere", "other"};
                 double rms = 0;
                 if (told(rsc_surface_detrend(surface_, in_.PickValueInArray(how), &rms))) finite(rms, "rms");
+                told(rsc_surface_filter(surface_, positive()));
                 break;
             }
             case 9: {

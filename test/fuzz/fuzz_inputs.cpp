@@ -1,4 +1,4 @@
-// Any bytes as a file of heights or of asperities: text, or NetCDF of the classic formats. Files of the HDF5 kind are left to fuzz_netcdf:
+// Any bytes as a file of heights, of a spectrum or of asperities: text, .gwy, .sdf, or NetCDF of the classic formats. Files of the HDF5 kind are left to fuzz_netcdf:
 // their bytes are the affair of the HDF5 library, which is known to fall over damaged ones.
 #include <netcdf.h>
 

@@ -436,6 +436,25 @@ void test_surfaces() {
     CHECK(none == nullptr);
     OK(rsc_surface_detrend(t, "plane", &rms));
     CHECK_CLOSE(rms, 0, 1e-11);
+    for (std::size_t j = 0; j < 256; ++j)
+        for (std::size_t i = 0; i < 256; ++i)
+            zt[j * 256 + i] = -std::pow(static_cast<double>(i), 2) - 2 * std::pow(static_cast<double>(j), 2);
+    OK(rsc_surface_destroy(&t));
+    OK(rsc_surface_take(&t, nx, ny, dx, dy, 0, 0, 0, zt.data()));
+    OK(rsc_surface_detrend(t, "quadratic", &rms));
+    CHECK_CLOSE(rms, 0, 1e-6);
+    // A wave as long as the filter's cutoff keeps half of its height; the map ends where it is level.
+    const double wave = 32 * dx;
+    for (std::size_t j = 0; j < 256; ++j)
+        for (std::size_t i = 0; i < 256; ++i) zt[j * 256 + i] = std::cos(2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / 32);
+    OK(rsc_surface_destroy(&t));
+    OK(rsc_surface_take(&t, nx, ny, dx, dy, 0, 0, 0, zt.data()));
+    OK(rsc_surface_filter(t, wave));
+    std::vector<double> half(zt.size());
+    OK(rsc_surface_heights(t, nx * ny, half.data()));
+    largest = 0;
+    for (std::size_t k = 0; k < half.size(); ++k) largest = std::max(largest, std::abs(half[k] - 0.5 * zt[k]));
+    CHECK_CLOSE(largest, 0, 1e-12);
 
     OK(rsc_contact_destroy(&k));
     OK(rsc_contact_destroy(&l));

@@ -128,6 +128,8 @@ void test_surface() {
     REFUSED(1, rsc_surface_detrend(nullptr, "mean", nullptr));
     REFUSED(2, rsc_surface_detrend(s, nullptr, nullptr));
     REFUSED(2, rsc_surface_detrend(s, "Mean", out.data()));
+    REFUSED(1, rsc_surface_filter(nullptr, 1.0));
+    for (const double cutoff : {0.0, -1.0, kNaN, kInfinity}) REFUSED(2, rsc_surface_filter(s, cutoff));
     REFUSED(1, rsc_surface_grid(nullptr, nullptr, nullptr, out.data(), nullptr, nullptr, nullptr, nullptr));
     REFUSED(1, rsc_surface_heights(nullptr, 12, out.data()));
     for (const std::int64_t n : {-12, 0, 11, 13}) REFUSED(2, rsc_surface_heights(s, n, out.data()));

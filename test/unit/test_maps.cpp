@@ -229,6 +229,26 @@ void text_with_holes() {
     REFUSED(read_heights(write("x.txt", "0 0 1\nnan 0 2\n"), std::nullopt, "mm", "", Missing::fill), "x is missing");
 }
 
+// The example of input/README: both files are one map, and it is what make_map.py says.
+void example() {
+    const std::string input = RSC_TEST_DATA "/../../input/map/";
+    HeightMap sdf = read_heights(input + "map.sdf", std::nullopt, "um", "", Missing::fill);
+    const HeightMap gwy = read_heights(input + "map.gwy", std::nullopt, "um", "", Missing::fill);
+    CHECK(sdf.nx == 160 && sdf.ny == 128 && gwy.nx == 160 && gwy.ny == 128);
+    CHECK_RELATIVE(sdf.dx, 2.5, 1e-12);
+    CHECK_RELATIVE(gwy.dy, 3.125, 1e-12);
+    long different = 0;
+    for (int j = 0; j < 128; ++j)
+        for (int i = 0; i < 160; ++i) different += std::isnan(sdf(i, j)) != std::isnan(gwy(i, j)) || std::abs(sdf(i, j) - gwy(i, j)) > 1e-9;
+    CHECK(different == 0);
+    const Measured m = measure(sdf, {Missing::fill, Detrend::sphere, 5.0});
+    CHECK(m.missing == 142);
+    CHECK_RELATIVE(m.form.radius, 20e3, 0.05);  // roughness bends the map by as much
+    CHECK_RELATIVE(m.parameters.sq, 0.5, 0.1);
+    CHECK_RELATIVE(m.shortest_wave(), 16.0, 0.03);
+    CHECK(m.fit && std::abs(m.fit->hurst.value - 0.8) < 3 * m.fit->hurst.error && m.fit->hurst.error < 0.1);
+}
+
 // What Gwyddion's converter makes of a file is what we read from it ourselves.
 void against_gwyddion() {
     if (std::system("command -v gwyddion > /dev/null 2>&1") != 0) {
@@ -270,6 +290,7 @@ int main() {
     gwy();
     sdf();
     text_with_holes();
+    example();
     against_gwyddion();
     std::filesystem::remove_all(folder);
     return check::summary();
