@@ -40,7 +40,7 @@ int main(void) {
         must(rsc_contact_spots(contact, 100000, NULL, NULL, radius, NULL));
         for (i = 0; i < spots; ++i) sum += radius[i];
         resistance = 2 * rho / (-2 * k / E_star);
-        alone = 2 * rho / (4 * sum);                               /* Holm's spots side by side, far from each other */
+        alone = 2 * rho / (4 * sum);                            /* Holm's spots side by side, far from each other */
         one = 2 * rho / (4 * sqrt(A / 3.14159265358979323846)); /* a single spot of the same area */
         printf("%9.3f %7lld %19.5f %20.5f %29.5f\n", N, (long long)spots, 1e3 * resistance, 1e3 * alone, 1e3 * one);
         /* More force, less resistance; spots hinder each other, and are still better than one. */
