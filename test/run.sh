@@ -1,5 +1,6 @@
 #!/bin/sh
-# All tests: installs what is missing, builds everything, runs ctest. Arguments go to ctest, e.g. -L unit.
+# The tests: installs what is missing, builds everything, runs ctest. Without arguments what takes long (labels fuzz, long) is left out;
+# arguments go to ctest, e.g. -L unit.
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
@@ -7,4 +8,5 @@ cd "$top"
 if command -v mpicc > /dev/null 2>&1 && command -v mpirun > /dev/null 2>&1; then mpi=ON; else mpi=OFF; fi
 sh input/setup.sh -DRSC_TESTS=ON -DRSC_MPI=$mpi
 cd build
+[ $# -gt 0 ] || set -- -LE 'fuzz|long'
 ctest --output-on-failure --parallel "$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)" "$@"
