@@ -111,7 +111,12 @@ private:
             if (c_.solids.friction > 0)
                 complain({"solids%hardness", "solids%friction"},
                          "hardness: friction is that of elastic asperities, one of the two at a time");
+            if (c_.solver.model == Model::elements || !c_.compare.levels.empty())
+                complain({"solids%hardness", c_.solver.model == Model::elements ? "solver%model" : "compare%levels"},
+                         "hardness: elements that yield are not available yet, only asperities");
         }
+        if (c_.solids.friction > 0 && c_.solver.model == Model::elements)
+            complain({"solids%friction", "solver%model"}, "friction: with model = 'elements' it is not available yet");
     }
 
     void check_surface() {
