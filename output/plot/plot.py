@@ -20,14 +20,15 @@ import plot_compare
 import plot_curves
 import plot_distributions
 import plot_maps
+import plot_sideways
 import plot_study
 from plot_results import Result, members_of_manifest
 from plot_style import WIDTHS, plt
 
 # To add a picture, write a function of (results, options) that returns a figure, or None where the results do not hold what it draws.
-PICTURES = {"load": plot_curves.load, "area": plot_curves.area, "flats": plot_curves.flats, "friction": plot_curves.friction, "study": plot_study.study,
+PICTURES = {"load": plot_curves.load, "area": plot_curves.area, "flats": plot_curves.flats, "study": plot_study.study,
             "map": plot_maps.maps, "radial": plot_maps.radial, "spots": plot_maps.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions,
-            "spectrum": plot_distributions.spectrum}
+            "spectrum": plot_distributions.spectrum, **plot_sideways.PICTURES}
 
 Options = namedtuple("Options", "width step say", defaults=(150.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)))
 

@@ -149,25 +149,6 @@ def flats(results, options):
     return figure
 
 
-def friction(results, options):
-    """Tangential force against displacement: first loading to full slip, then the cycle."""
-    results = [r for r in results if "tangential_force" in r]
-    if not results:
-        return None
-    figure, axes = panels(1, min(options.width, 130.0), least=30.0)
-    labels = names(results)
-    for k, result in enumerate(results):
-        steps = chosen_levels(result, 3 if len(results) == 1 else 1, options.step)
-        for i, step in enumerate(steps):
-            marker, line, colour = style(k if len(results) > 1 else i, max(len(results), len(steps)))
-            force, displacement = result["tangential_force"][step], result["tangential_displacement"][step]
-            axes[0].plot(displacement, force, line, color=colour, label=labels[k] if len(results) > 1 else f"{result.level_name(step)}{result.warning(step)}, $N$ = {result['force_mean'][step]:.3g}")
-    axes[0].set(xlabel="displacement" + results[0].unit("tangential_displacement"), ylabel="tangential force $T$" + results[0].unit("tangential_force"))
-    legend(axes[0])
-    _title(figure, results, "Friction: first loading and cycle", band=False)
-    return figure
-
-
 def chosen_levels(result, count, step):
     """The level asked for, or `count` levels with contact, evenly spread and ending with the last; none where nothing touches."""
     loaded = result.loaded()

@@ -1,22 +1,12 @@
-#!/usr/bin/env python3
 """What a contact answers sideways and through: stiffness beside the force, the loop of friction beside that of a smooth sphere under the same load, which spots
 stick and slip, resistance against force.
 
-    python3 output/plot/plot_sideways.py output/rsc.nc [more.nc ...] [--step N] [--format pdf] [--width MM]
-
-draws what the files hold, beside the first one. The functions are of the kind that plot.py knows: (results, options) -> figure or None."""
-
-import argparse
-import os
-from collections import namedtuple
+The functions are of the kind that plot.py knows: (results, options) -> figure or None."""
 
 import numpy as np
 
-from plot_results import Result, names
-from plot_style import few, legend, panels, plt, style
-
-Options = namedtuple("Options", "width step")
-
+from plot_results import names
+from plot_style import few, legend, panels, style
 
 def _loaded(result):
     return result.loaded()
@@ -44,19 +34,17 @@ def stiffness(results, options):
 
 
 def resistance(results, options):
-    """Constriction resistance against force; without resistivities one over the conductance length."""
-    results = [r for r in results if "conductance_length" in r and r.loaded().size]
+    """Constriction resistance against force, where resistivities are given."""
+    results = [r for r in results if "resistance" in r and r.loaded().size]
     if not results:
         return None
-    known = all("resistance" in r for r in results)
     figure, axes = panels(1, min(options.width, 130.0), least=30.0, entries=few(len(results)))
     labels = names(results)
     for k, result in enumerate(results):
         _, line, colour = style(k, len(results))
         at = _loaded(result)
-        values = result.mean("resistance")[at] if known else 1 / result.mean("conductance_length")[at]
-        axes[0].plot(result.mean("force")[at], values, line, color=colour, label=labels[k] if len(results) > 1 else None)
-    label = "constriction resistance" + results[0].unit("resistance") if known else "1 / conductance length"
+        axes[0].plot(result.mean("force")[at], result.mean("resistance")[at], line, color=colour, label=labels[k] if len(results) > 1 else None)
+    label = "constriction resistance" + results[0].unit("resistance")
     axes[0].set(xlabel="force $N$" + results[0].unit("force"), ylabel=label, xscale="log", yscale="log")
     legend(axes[0], below=axes[1] if len(axes) > 1 else None)
     figure.suptitle("Resistance against force", fontsize=8)
@@ -143,24 +131,3 @@ def stick(results, options):
 
 
 PICTURES = {"stiffness": stiffness, "loop": loop, "stick": stick, "resistance": resistance}
-
-
-def main():
-    parser = argparse.ArgumentParser(description="Pictures of stiffness, friction and resistance of result files of rsc.")
-    parser.add_argument("files", nargs="+", metavar="FILE")
-    parser.add_argument("--step", type=int, metavar="N", help="friction of level N (from 1); default: the last with contact")
-    parser.add_argument("--format", default="png", choices=("png", "pdf", "svg"))
-    parser.add_argument("--width", type=float, default=150.0, metavar="MM")
-    arguments = parser.parse_args()
-    results = [Result(path) for path in arguments.files]
-    base = os.path.splitext(arguments.files[0])[0]
-    for name, picture in PICTURES.items():
-        figure = picture(results, Options(arguments.width, arguments.step))
-        if figure is not None:
-            figure.savefig(f"{base}_{name}.{arguments.format}")
-            plt.close(figure)
-            print(f"{base}_{name}.{arguments.format}")
-
-
-if __name__ == "__main__":
-    main()

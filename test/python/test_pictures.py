@@ -263,7 +263,7 @@ class Command(unittest.TestCase):
         plt.rcParams["savefig.dpi"] = self.dots
 
     def test_all(self):
-        for name, wanted in (("one", "load area map radial spots distributions"), ("many", "load area map radial distributions"), ("flat", "load area map spots")):
+        for name, wanted in (("one", "load area map radial spots distributions stiffness"), ("many", "load area map radial distributions stiffness"), ("flat", "load area map spots stiffness")):
             # One result is drawn to the last point; of the others the figures are made and not rendered, which takes most of the time.
             with contextlib.nullcontext() if name == "one" else unittest.mock.patch.object(plt.Figure, "savefig", lambda _, file: shutil.copy(os.path.join(FOLDER, "pictures", "one_load.png"), file)):
                 status, text = run(path(name), "-o", os.path.join(FOLDER, "pictures"))
@@ -297,7 +297,7 @@ class Command(unittest.TestCase):
 
     def test_refused(self):
         for words, message in (([path("one"), "--step", "99"], "levels 1 to 26"), ([path("nothing")], "cannot read"), ([path("one"), "--width", "7"], "millimetres"),
-                               ([path("one"), "--only", "nonsense"], "invalid choice"), ([__file__], "cannot read"), ([path("one"), "--only", "friction", "-o", FOLDER], "does not hold")):
+                               ([path("one"), "--only", "nonsense"], "invalid choice"), ([__file__], "cannot read"), ([path("one"), "--only", "loop", "-o", FOLDER], "does not hold")):
             status, text = run(*words)
             self.assertTrue(status not in (0, None) and message in (text + str(status)), (words, status, text))
 
