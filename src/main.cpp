@@ -11,6 +11,7 @@
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
+#include "file/output_path.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/campaign_study.hpp"
 #include "run/screen.hpp"
@@ -77,6 +78,19 @@ int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const 
     return rsc::run_members(read, options.member, how, work, *team).failed == 0 ? 0 : 1;
 }
 
+// Without MPI every process that mpirun starts would run the whole case and write the same file.
+void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
+#ifndef RSC_MPI
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"}) {
+        const char* const size = std::getenv(name);
+        if (size && std::atoi(size) > 1 && !options.member)
+            throw rsc::Error(rsc::Failure::bad_input, std::string("rsc: started ") + size +
+                                                          " times by an MPI launcher, but this program knows nothing of MPI: use rsc_mpi "
+                                                          "(cmake -DRSC_MPI=ON, or make -f Makefile.legacy rsc_mpi), or rsc --member K");
+    }
+#endif
+}
+
 int run_program(int argc, char** argv, Job& job) {
     const rsc::Options options = rsc::parse_options(argc, argv);
     if (options.help) {
@@ -95,7 +109,16 @@ int run_program(int argc, char** argv, Job& job) {
         std::cout << rsc::describe(options.describe_what);
         return 0;
     }
-    const rsc::ReadCase read = rsc::read_case(options);
+    if (options.show_case) {
+        const std::optional<std::string> text = rsc::case_in_result(options.case_path);
+        if (!text) throw rsc::Error(rsc::Failure::bad_input, options.case_path + ": no result of rsc, whose case could be shown");
+        std::cout << *text;
+        return 0;
+    }
+    refuse_mpi(options);
+    // A result file is a case, too.
+    const std::optional<std::string> inside = options.case_path.empty() ? std::nullopt : rsc::case_in_result(options.case_path);
+    const rsc::ReadCase read = inside ? rsc::read_case_text(*inside, options.case_path, options) : rsc::read_case(options);
 #ifndef RSC_MPI
     rsc::catch_signals();  // until here there is nothing to be left in order, and waiting for standard input could not be ended
 #endif

@@ -3,19 +3,37 @@
 # Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]
 #   RSC      the program (default ./rsc)
 #   FOLDER   where results, pictures and report.txt go (default output/paper)
-#   --short  few realizations and small grids: shows that all of it works, the numbers are another surface's
+#   --short  few realizations and small grids: shows that all of it works, the numbers are another surface's; into
+#            output/paper_short unless FOLDER says otherwise. Options may stand anywhere.
+# Results of a full run are never replaced by a shortened one, nor the other way round, nor files that run.sh did not make.
 # Interrupted, it goes on from there when the same command is given again, with the same program and cases: finished cases are kept, and
 # of the one that was interrupted all finished realizations. Once it is through, the next run starts anew.
 # PYTHON names a Python with numpy, scipy, matplotlib and netCDF4; found by itself when python3 or /usr/bin/python3 has them.
 set -eu
 short=no
-if [ "${1:-}" = --short ]; then
-    short=yes
-    shift
-fi
+rsc=
+folder=
+for word; do
+    case $word in
+        --short) short=yes ;;
+        -*)
+            echo "run.sh: unknown option $word; usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]" >&2
+            exit 2
+            ;;
+        *)
+            if [ -z "$rsc" ]; then rsc=$word
+            elif [ -z "$folder" ]; then folder=$word
+            else
+                echo "run.sh: too many words at '$word'; usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]" >&2
+                exit 2
+            fi
+            ;;
+    esac
+done
 here=$(cd "$(dirname "$0")" && pwd)
-rsc=${1:-./rsc}
-folder=${2:-output/paper}
+rsc=${rsc:-./rsc}
+if [ $short = yes ]; then kind=shortened; default=output/paper_short; else kind=full; default=output/paper; fi
+folder=${folder:-$default}
 case $rsc in */*) ;; *) rsc=./$rsc ;; esac
 if [ ! -x "$rsc" ]; then
     echo "run.sh: no program $rsc; build it first (sh input/setup.sh, or make -f Makefile.legacy)" >&2
@@ -51,6 +69,12 @@ of=$(echo $cases | wc -w)
 
 # What an interrupted run of the same program on the same cases has left is kept, everything else goes.
 mkdir -p "$folder"
+there=$(cat "$folder/kind.txt" 2> /dev/null || true)
+if [ "$there" != $kind ] && ls "$folder"/*.nc > /dev/null 2>&1; then
+    echo "run.sh: $folder holds $(if [ -n "$there" ]; then echo "results of a $there run"; else echo "files that run.sh did not make"; fi): give this $kind run another FOLDER, or remove that one" >&2
+    exit 2
+fi
+echo $kind > "$folder/kind.txt"
 this="$short $(cat "$rsc" "$here"/*.nml "$here/run.sh" | cksum)"
 if [ "$(cat "$folder/unfinished.txt" 2> /dev/null)" = "$this" ]; then
     echo 'going on with the run that was interrupted'

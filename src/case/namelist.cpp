@@ -51,6 +51,7 @@ public:
             resumed = at_;
             document_.groups.push_back(std::move(group));
         }
+        if (!document_.groups.empty()) nothing_after(resumed);
         return std::move(document_);
     }
 
@@ -105,6 +106,23 @@ private:
             word += static_cast<unsigned char>(c) < ' ' ? '?' : c;
         }
         return word;
+    }
+
+    // A key behind the last '/' would be lost without a word.
+    void nothing_after(std::size_t offset) {
+        for (std::size_t i = offset; i < text_.size(); ++i) {
+            if (text_[i] == '!') i = text_.find('\n', i);
+            if (i == std::string_view::npos) return;
+            if (is_blank(text_[i]) || is_line_end(text_[i]) || text_[i] == '/') continue;
+            if (lower_case(text_.substr(i, 4)) == "$end" || lower_case(text_.substr(i, 4)) == "&end") {
+                i += 3;
+                continue;
+            }
+            if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$')
+                return;  // a comment to the end, or a group that was complained about
+            fault(i, "'" + excerpt(i) + "' after the last group is read by nobody: keys stand between &name and '/', remarks behind '!'");
+            return;
+        }
     }
 
     bool first_on_line(std::size_t offset, std::size_t resumed) const {

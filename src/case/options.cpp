@@ -17,9 +17,9 @@ struct Flag {
 };
 
 constexpr Flag kFlags[] = {
-    {'o', "output", true}, {'s', "set", true},     {'\0', "check", false},  {'\0', "describe", false},
-    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false}, {'\0', "progress", true},
-    {'q', "quiet", false}, {'h', "help", false},   {'\0', "man", false},    {'\0', "version", false},
+    {'\0', "case", false}, {'o', "output", true},  {'s', "set", true},       {'\0', "check", false},   {'\0', "describe", false},
+    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false},  {'\0', "progress", true}, {'q', "quiet", false},
+    {'h', "help", false},  {'\0', "man", false},   {'\0', "version", false},
 };
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, text + " (--help lists the options)"); }
@@ -63,7 +63,9 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
             options.progress = Progress::never;
         else
             refuse("--progress " + value + ": expected auto, always or never");
-    } else if (flag.name == "check")
+    } else if (flag.name == "case")
+        options.show_case = true;
+    else if (flag.name == "check")
         options.check = true;
     else if (flag.name == "describe")
         options.describe = true;
@@ -127,6 +129,7 @@ Options parse_options(int argc, const char* const* argv) {
         return options;
     }
     if (paths.size() > 1) refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
+    if (options.show_case && paths.empty()) refuse("--case needs the name of a result file");
     if (!paths.empty()) {
         if (paths.front().empty()) refuse("the name of the case is empty");
         if (paths.front() != "-") options.case_path = paths.front();
@@ -135,10 +138,11 @@ Options parse_options(int argc, const char* const* argv) {
 }
 
 std::string usage_text() {
-    return "usage: rsc [options] < case.nml      run a case; rsc [options] case.nml is the same\n"
+    return "usage: rsc [options] < case.nml      run a case; rsc [options] case.nml is the same, and so is a result: its case runs again\n"
            "  -o, --output FILE                write the result to FILE instead of &output file\n"
            "  -s, --set 'group%key=value'      override one key, the value in namelist syntax; repeatable\n"
            "      --check                      read and check the case, print it with every default, run nothing\n"
+           "      --case FILE.nc               print the case inside a result file\n"
            "      --describe [group[%key]]     every key: type, unit, default, bounds, meaning\n"
            "      --list                       the members of a &study, one a line\n"
            "      --member K                   run only member K of a &study\n"

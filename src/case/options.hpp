@@ -23,6 +23,7 @@ struct Options {
     std::string case_path;              // empty: standard input
     std::optional<std::string> output;  // replaces &output file
     std::vector<std::string> set;       // "group%key=value", in the order given
+    bool show_case = false;             // print the case inside the result case_path
     bool check = false;
     bool describe = false;
     std::string describe_what;  // "", "group" or "group%key"

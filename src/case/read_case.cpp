@@ -62,6 +62,25 @@ std::string limited_text(std::istream& in, const std::string& name) {
     return text;
 }
 
+// Keys of a made surface, given where the text names a file to read one from: somebody believes that they do something. At their
+// defaults they are the effective namelist's.
+void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
+    static const Case defaults;
+    const auto given = [&](const char* name) -> const Ledger::Entry* {
+        const Ledger::Entry* entry = reading.ledger.find(*find_key("surface", name));
+        return entry && !entry->given.empty() && !entry->faulty ? entry : nullptr;
+    };
+    const Source source = reading.settings.surface.source;
+    if (!given("source") || (source != Source::heights && source != Source::asperities)) return;
+    for (const std::string name : {"n", "hurst", "L_lambda_l", "L_lambda_s", "plateau", "normalise"}) {
+        const std::string value = get_key(reading.settings, "surface%" + name);
+        if (const Ledger::Entry* entry = given(name.c_str()); entry && value != get_key(defaults, "surface%" + name))
+            faults.push_back({entry->given.front().second, "&surface: " + name + " = " + value + ": means nothing with source = " +
+                                                               get_key(reading.settings, "surface%source") +
+                                                               ", whose surface is read from the file"});
+    }
+}
+
 // "--set surface%sigma=1": what is wrong with it, or nothing.
 std::string apply_set(Case& settings, const std::string& argument) {
     const std::size_t equals = argument.find('=');
@@ -112,9 +131,14 @@ Reading read_namelist(std::string_view text) {
 ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
     if (text.size() > namelist::kLargestText)
         throw Error(Failure::bad_input, name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        throw Error(Failure::bad_input, name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
+    if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
+        throw Error(Failure::bad_input, name + ": is a NetCDF file; the case in a result of rsc runs by the file's name: rsc FILE.nc");
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
     faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
+    keys_without_meaning(reading, faults);
     if (reading.groups.empty() && faults.empty())
         faults.push_back({{}, "no namelist group found; expected at least one of " + known_groups_text()});
 
@@ -143,6 +167,11 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
 
     ReadCase read{std::move(settings), std::move(reading.study), {}};
     for (const Fault& warning : reading.warnings) read.warnings.push_back(namelist::format(name, warning));
+    const auto& indentation = read.settings.indentation;
+    if (indentation.levels.empty() && indentation.control == Control::separation && indentation.start < indentation.stop)
+        read.warnings.push_back(name + ": &indentation: start = " + get_key(read.settings, "indentation%start") +
+                                " is less than stop = " + get_key(read.settings, "indentation%stop") +
+                                ": separations grow, the sphere is drawn back from level to level");
     return read;
 }
 

@@ -250,6 +250,15 @@ std::string suggest_key(std::string_view group, std::string_view name) {
     return near.empty() ? "" : "; did you mean '" + std::string(near) + "'?";
 }
 
+std::string keys_named(std::string_view name) {
+    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
+    std::string found;
+    for (const Key& key : registry())
+        if (namelist::lower_case(name) == namelist::lower_case(key.name))
+            found += (found.empty() ? "" : " or ") + std::string(key.group) + "%" + key.name;
+    return found;
+}
+
 bool Bounds::hold(double value) const {
     if (std::isnan(value) || (std::isinf(value) && !infinity)) return false;
     return (open ? value > low : value >= low) && value <= high;

@@ -69,6 +69,8 @@ const char* group_meaning(std::string_view group);
 const Key* find_key(std::string_view group, std::string_view name);
 // "; did you mean 'sigma'?", "; it belongs to &surface" or nothing.
 std::string suggest_key(std::string_view group, std::string_view name);
+// "surface%sigma", several with "or", for the name of a key without its group; empty when there is none. Any case.
+std::string keys_named(std::string_view name);
 
 // --- values by name -----------------------------------------------------------------------------------------------------------
 

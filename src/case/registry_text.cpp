@@ -101,6 +101,8 @@ std::string describe(std::string_view name) {
     const std::size_t percent = name.find('%');
     const std::string group = namelist::lower_case(name.substr(0, percent));
     if (!group_meaning(group)) {
+        if (const std::string meant = keys_named(name); percent == std::string_view::npos && !meant.empty())
+            throw Error(Failure::bad_input, "'" + std::string(name) + "' is a key, not a group; did you mean " + meant + "?");
         const std::string_view near = namelist::nearest(group, group_names());
         throw Error(Failure::bad_input,
                     "unknown group '" + group + "'" + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));

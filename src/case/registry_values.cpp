@@ -1,5 +1,6 @@
 // Values by name: what an assignment of a namelist does to a Case, and the way back.
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "case/namelist_value.hpp"
@@ -27,6 +28,35 @@ std::string list_choices(const Key& key) {
 std::string quote(const Item& item) {
     const std::string shown = item.text.size() > 60 ? item.text.substr(0, 60) + "..." : item.text;
     return item.quoted ? namelist::from_string(shown) : "'" + shown + "'";
+}
+
+// "10um" is a number and a unit.
+std::string unit_written(const Item& item) {
+    const std::size_t end = item.text.find_last_of("0123456789.");
+    if (item.quoted || end == std::string::npos || end + 1 == item.text.size() || !namelist::to_real(item.text.substr(0, end + 1)))
+        return {};
+    return "; a number is written without its unit, which is run%length_unit for lengths";
+}
+
+// What a value too many most often is.
+std::string likely_cause(const Assignment& a, const Item& item) {
+    const std::string& text = item.text;
+    if (item.quoted || text.empty()) return {};
+    if (text.front() == '#') return "; remarks begin with '!'";
+    const auto digits = [](const std::string& t) { return !t.empty() && t.find_first_not_of("0123456789") == std::string::npos; };
+    for (std::size_t k = 1; k < a.items.size(); ++k) {
+        const Item& before = a.items[k - 1];
+        if (&a.items[k] != &item || before.quoted) continue;
+        const std::string sign_off =
+            before.text.substr(before.text.find_first_not_of("+-") == std::string::npos ? 0 : before.text.find_first_not_of("+-"));
+        const bool touching =
+            before.at.line == item.at.line && before.at.column + static_cast<int>(before.text.size()) + 1 == item.at.column;
+        if (touching && digits(sign_off) && digits(text.substr(0, text.find_first_of("eEdD"))))
+            return "; the decimal mark is a point: " + before.text + "." + text;
+        if (namelist::to_real(before.text) && std::isalpha(static_cast<unsigned char>(text.front())))
+            return "; a number is written without its unit, which is run%length_unit for lengths";
+    }
+    return {};
 }
 
 // Trailing blanks mean nothing to a Fortran character variable.
@@ -87,7 +117,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         }
         case Type::real: {
             const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
-            if (!value) return "expected a real number, found " + quote(item);
+            if (!value) return "expected a real number, found " + quote(item) + unit_written(item);
             if (!key.list) {
                 put(slot, element, *value);
                 return {};
@@ -210,7 +240,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         if (left == 0 || item.repeat > left) {
             const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
             return fault(item.at, item.counted ? "the repeat count is too large: " + room + " at most"
-                                               : "too many values: " + room + " at most, found " + quote(item));
+                                               : "too many values: " + room + " at most, found " + quote(item) + likely_cause(a, item));
         }
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {
@@ -259,7 +289,11 @@ struct Named {
 
 Named named(std::string_view name, std::string_view value) {
     const std::size_t percent = name.find('%');
-    if (percent == std::string_view::npos) throw Error(Failure::bad_input, "expected group%key, found '" + std::string(name) + "'");
+    if (percent == std::string_view::npos) {
+        const std::string meant = keys_named(name.substr(0, name.find('(')));
+        throw Error(Failure::bad_input,
+                    "expected group%key, found '" + std::string(name) + "'" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+    }
     const auto strip = [](std::string_view s) {
         while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
         while (!s.empty() && s.back() == ' ') s.remove_suffix(1);

@@ -115,4 +115,32 @@ test_check() {
     [ "$(ls)" = "$(printf 'bad.txt\nbefore.nml\ncase.nml\nsaid')" ] || fail "something was written: $(ls)"
 }
 
+# The case inside a result: shown, and run again to the same file.
+test_case() {
+    expect 0 "$rsc" case.nml -s surface%sigma=0.02 -o made.nc
+    "$rsc" --case made.nc > shown.nml || fail "--case fails"
+    grep -q 'sigma *= 0.02' shown.nml || fail "--case does not show the case"
+    mkdir a b
+    (cd a && expect 0 "$rsc" ../shown.nml) || exit 1
+    (cd b && expect 0 "$rsc" ../made.nc) || exit 1
+    same a/made.nc b/made.nc
+    expect 2 "$rsc" made.nc; says "this is an input of the run"
+    expect 2 "$rsc" < made.nc; says "<stdin>: is a NetCDF file"
+    printf '\377\376&\000r\000' > utf16.nml
+    expect 2 "$rsc" utf16.nml; says "utf16.nml: is text in UTF-16"
+    expect 2 env OMPI_COMM_WORLD_SIZE=4 "$rsc" case.nml; says "use rsc_mpi"
+}
+
+# A campaign that was interrupted may go on as a larger one.
+test_growth() {
+    expect 0 "$rsc" case.nml -s run%realizations=12 -o out.nc
+    mv out.nc whole.nc
+    # No room for the result: the state stays.
+    mkdir ro && (ulimit -f 40; "$rsc" case.nml -s run%realizations=5 -o out.nc > said 2>&1)
+    [ -e out.nc.checkpoint ] || { cat said; fail "no state of the smaller campaign"; }
+    expect 2 "$rsc" --resume case.nml -s run%realizations=3 -o out.nc; says "run%realizations: 5 there, 3 now"
+    expect 0 "$rsc" --resume case.nml -s run%realizations=12 -o out.nc; says "of them are done"
+    same out.nc whole.nc
+}
+
 "test_$test"

@@ -23,6 +23,15 @@ sh "$project/input/paper/run.sh" "$folder/no_such_program" "$folder/nothing" > "
 grep -q 'no program' "$folder/refused.txt" || fail "a missing program is not named"
 [ ! -e "$folder/nothing" ] || fail "a refused run leaves files"
 
+# Options may stand anywhere, unknown ones are refused, and results of another kind are left alone.
+mkdir -p "$folder/full" && echo full > "$folder/full/kind.txt" && echo precious > "$folder/full/area.nc"
+sh "$project/input/paper/run.sh" "$rsc" "$folder/full" --short > "$folder/refused.txt" 2>&1
+[ $? -eq 2 ] || [ $? -eq 77 ] || fail "--short behind the folder is not taken, or a full run's results are not left alone"
+[ "$(cat "$folder/full/area.nc")" = precious ] || fail "--short deletes the results of a full run"
+sh "$project/input/paper/run.sh" --shrot "$rsc" "$folder/nothing" > "$folder/refused.txt" 2>&1
+[ $? -eq 2 ] || fail "an unknown option is not refused"
+grep -q 'unknown option --shrot' "$folder/refused.txt" || fail "an unknown option is not named"
+
 # An rsc that fails at the maps as long as there is a file `broken`, and writes down what it was called for.
 cat > "$folder/rsc" << END
 #!/bin/sh
