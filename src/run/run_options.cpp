@@ -4,12 +4,14 @@
 
 #include "case/registry.hpp"
 #include "file/output_path.hpp"
+#include "read/file_list.hpp"
 
 namespace rsc {
 
 bool check_result_path(const Case& settings, const RunOptions& options) {
     std::vector<std::string> inputs = options.inputs;
-    if (settings.surface.source != Source::synthetic) inputs.push_back(settings.surface.file);
+    if (settings.surface.source != Source::synthetic && !settings.surface.file.empty())
+        for (const std::string& file : matching_files(settings.surface.file)) inputs.push_back(file);
     return check_output(settings.output.file, inputs);
 }
 
