@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <system_error>
 
@@ -28,11 +31,32 @@ fs::path existing_ancestor(fs::path folder) {
 
 }  // namespace
 
+namespace {
+
+// By the first bytes: nothing else is asked of NetCDF and HDF5, which take their time to wake up.
+bool begins_as_netcdf(const std::string& path) {
+    char start[4] = {};
+    std::ifstream file(path, std::ios::binary);
+    return file.read(start, sizeof start) && (std::memcmp(start, "CDF", 3) == 0 || std::memcmp(start, "\x89HDF", 4) == 0);
+}
+
+// HDF5 may crash where it is refused memory: what it is going to need is asked for first.
+void require_memory(const std::string& path) {
+    constexpr std::size_t wanted = std::size_t{32} << 20;
+    void* const probe = std::malloc(wanted);
+    if (!probe) throw Error(Failure::no_memory, "no memory to look into '" + path + "' (some 32 MB)");
+    std::free(probe);
+}
+
+}  // namespace
+
 std::optional<std::string> case_in_result(const std::string& path) {
     const std::lock_guard lock(netcdf_mutex());
     std::error_code error;
     int file = -1;
-    if (!fs::is_regular_file(path, error) || nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
+    if (!fs::is_regular_file(path, error) || !begins_as_netcdf(path)) return std::nullopt;
+    require_memory(path);
+    if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {
         constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: a damaged file may announce anything
         std::size_t length = 0;
