@@ -281,7 +281,9 @@ RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* origi
 RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
 
 /* Moves the tip sideways. The results stay those of the last level until the next one is computed.
- * contact: the contact; x0, y0: its new place [length]. Errors: -1 null; -2, -3 not finite; RSC_NO_MEMORY. */
+ * contact: the contact; x0, y0: its new place [length], above the surface; above asperities given without surface%L, no farther from
+ * them than the sphere's radius. Errors: -1 null; -2, -3 not finite; -2 a place outside, where the tip
+ * then is not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
 /* Where the tip is. contact: the contact; x0, y0 (out, may be null) [length]. Errors: -1 null. */

@@ -151,10 +151,19 @@ int32_t rsc_contact_destroy(rsc_contact** contact) {
 }
 
 int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
-    return guarded(0, [&] {
+    return guarded(2, [&] {
         require(contact, 1, "contact");
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
+        const rsc::Indenter& indenter = contact->contact.indenter();
+        if (!indenter.period.finite()) {
+            rsc::Site site = contact->on->site;
+            if (const rsc::Rectangle& known = contact->options.surface; known.known()) {
+                site.domain = {known.x0, known.y0, known.Lx, known.Ly};
+                site.guessed = false;
+            }
+            rsc::require_tip_above(site, indenter.R, x0, y0);
+        }
         contact->contact.move_tip(x0, y0);
         contact->moved = true;
     });

@@ -199,7 +199,12 @@ void test_single() {
     double x0 = 0;
     OK(rsc_contact_tip(c, &x0, nullptr));
     CHECK(x0 == x + s);
-    OK(rsc_contact_move_tip(c, x + 2 * R, y));
+    // A place where the sphere cannot feel the asperity: refused, and the tip stays.
+    for (const double far : {x + 2 * R, 1e300}) CHECK(rsc_contact_move_tip(c, far, y) == -2);
+    CHECK(message().find("is not above the surface") != std::string::npos);
+    OK(rsc_contact_tip(c, &x0, nullptr));
+    CHECK(x0 == x + s);
+    OK(rsc_contact_move_tip(c, x + 1.1 * R, y));
     CHECK(rsc_contact_press(c, f, &Z) == -1);
     CHECK(message().find("no asperity under") != std::string::npos);
     OK(rsc_contact_indent(c, z - u, &N));
