@@ -8,6 +8,7 @@
 
 #include "contact/ranking.hpp"
 #include "contact/solver/elements.hpp"
+#include "contact/validity.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -201,6 +202,7 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
     for (const Pixel& q : touching) level.pixels.index.push_back(q.y * heights.nx + q.x);
     level.pixels.contact = std::move(label);
     level.pixels.pressure = std::move(pressure);
+    judge_edges(level, options);
     return level;
 }
 

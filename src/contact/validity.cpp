@@ -38,4 +38,11 @@ void judge_range(Level& level, const Indenter& indenter, const SolverOptions& op
         level.status = std::max(level.status, LevelStatus::out_of_validity);
 }
 
+void judge_edges(Level& level, const SolverOptions& options) {
+    level.edge_contacts = 0;
+    for (std::size_t k = 0; k < level.x.size() && options.surface.known(); ++k)
+        level.edge_contacts += inside(options.surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+    if (level.edge_contacts > 0) level.status = std::max(level.status, LevelStatus::out_of_validity);
+}
+
 }  // namespace rsc

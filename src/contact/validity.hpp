@@ -18,4 +18,8 @@ bool exceeds_nominal_area(const LevelValues& level);
 // known.
 void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options);
 
+// For elements, whose contacts may be of any size: edge_contacts alone, those that come within <d> of the border of a free surface, and the
+// status that goes with them.
+void judge_edges(Level& level, const SolverOptions& options);
+
 }  // namespace rsc

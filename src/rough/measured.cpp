@@ -76,6 +76,10 @@ double Measured::points_per_wave() const { return shortest_wave() / std::max(dx,
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
     m.nx = map.nx, m.ny = map.ny, m.dx = map.dx, m.dy = map.dy;
+    // Beyond this, sums of terms over dx^2 and dy^2 lose one of the two directions to rounding.
+    constexpr double most_unlike = 1e4;
+    if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
+        throw Error(Failure::bad_input, format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx, map.dy, most_unlike));
     m.missing = count_missing(map);
     const double points = static_cast<double>(map.nx) * map.ny;
     m.missing_share = static_cast<double>(m.missing) / points;

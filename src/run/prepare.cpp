@@ -331,7 +331,8 @@ SolverOptions solver_of(const Case& settings, const Site& site) {
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
     options.mean_spacing = site.mean_spacing;
-    if (!site.guessed) options.surface = {site.domain.x0, site.domain.y0, site.domain.Lx, site.domain.Ly};
+    const bool free = settings.indentation.boundary == Boundary::free;
+    if (!site.guessed && free) options.surface = {site.domain.x0, site.domain.y0, site.domain.Lx, site.domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
         throw Error(Failure::bad_input,
                     "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "

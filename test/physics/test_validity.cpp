@@ -2,8 +2,12 @@
 // under the sphere, a sphere below -3 sigma. And only those.
 #include "contact/validity.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
 #include "error.hpp"
 #include "run/job.hpp"
 
@@ -101,6 +105,24 @@ void prepared() {
     CHECK_THROWS(require_tip_above(guessed, std::numeric_limits<double>::infinity(), 1e300, 0.5), Error);
 }
 
+// Elements: contacts near the border count, their size and depth do not.
+void elements() {
+    HeightMap map;
+    map.allocate(40, 40, 40);
+    map.dx = map.dy = 0.025;
+    SolverOptions options;
+    options.sigma = 0.01;
+    options.mean_spacing = 0.1;
+    options.surface = {0, 0, 1, 1};
+    for (const auto& [x, edge] : {std::pair(0.5, 0), std::pair(0.05, 1)}) {
+        for (int j = 0; j < 40; ++j)
+            for (int i = 0; i < 40; ++i) map.row(j)[i] = -0.5 * (std::pow(i * 0.025 - x, 2) + std::pow(j * 0.025 - 0.5, 2));
+        const Level level = ElementContact(map, {1.0, 1e6, 0.5, 0.5}, options).at_separation(-0.0005);
+        CHECK(level.contacts == 1 && level.edge_contacts == edge);
+        CHECK(level.status == (edge > 0 ? LevelStatus::out_of_validity : LevelStatus::converged));
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -108,5 +130,6 @@ int main() {
     depth();
     nominal();
     prepared();
+    elements();
     return check::summary();
 }

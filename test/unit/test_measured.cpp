@@ -267,6 +267,9 @@ void whole() {
     map.row(100)[50] = map.row(101)[50] = std::nan("");
     HeightMap refused = copy(map);
     CHECK_THROWS(measure(refused, {Missing::refuse, Detrend::plane, 0}), Error);
+    HeightMap thin = copy(map);
+    thin.dy = 1.1e4 * thin.dx;
+    CHECK_THROWS(measure(thin, {Missing::fill, Detrend::plane, 0}), Error);
     const Measured m = measure(map, {Missing::fill, Detrend::plane, 0.02});
     CHECK(m.missing == 2 && m.filled[100 * 256 + 50] == 1);
     CHECK_RELATIVE(m.parameters.sq, 0.01, 0.02);

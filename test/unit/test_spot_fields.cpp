@@ -44,29 +44,34 @@ void test_one_spot() {
     }
 }
 
-// F = -dW/d(x0, y0) by central differences of the energy, far from a place of symmetry.
+// F = -dW/d(x0, y0) along a path over a rough surface, by differences of the energy, far from places of symmetry.
 void test_lateral() {
     const Asperities asperities = random_asperities(2000, 0.01, 0.01, 3e-3, 0.3, 11);
     SolverOptions options;
-    options.tolerance = 1e-11;
+    options.tolerance = 1e-13;
     for (const double R : {0.7, 5.0}) {
-        const Indenter tip{9e4, R, 0.43, 0.58};
-        const double Z0 = -0.01, h = 1e-6;
-        const auto energy = [&](double x0, double y0) {
-            AsperityContact contact(asperities, {tip.E_star, R, x0, y0}, options);
-            contact.at_separation(Z0);
-            return contact.energy();
-        };
-        AsperityContact contact(asperities, tip, options);
-        const Level level = contact.at_separation(Z0);
-        const Vec2 force = lateral_force(tip, level);
-        CHECK(level.asperity.size() > 20 && std::abs(force.x) > 1e-4 * level.force && std::abs(force.y) > 1e-4 * level.force);
-        // Differences err by h^2 of the third derivative, some 1e-5 of the force; another formula would by its order.
-        const double tolerance = 1e-4 * std::hypot(force.x, force.y);
-        CHECK_CLOSE(force.x, -(energy(tip.x0 + h, tip.y0) - energy(tip.x0 - h, tip.y0)) / (2 * h), tolerance);
-        CHECK_CLOSE(force.y, -(energy(tip.x0, tip.y0 + h) - energy(tip.x0, tip.y0 - h)) / (2 * h), tolerance);
-        const Vec2 flat = lateral_force({tip.E_star, std::numeric_limits<double>::infinity(), 0.43, 0.58}, level);
-        CHECK(flat.x == 0 && flat.y == 0);
+        for (int place = 0; place < 5; ++place) {
+            const Indenter tip{9e4, R, 0.43 + 0.013 * place, 0.58 - 0.007 * place};
+            const double Z0 = -0.01, h = 2e-6;
+            AsperityContact contact(asperities, tip, options);
+            const Level level = contact.at_separation(Z0);
+            const Vec2 force = lateral_force(tip, level);
+            CHECK(level.asperity.size() > 20 && std::hypot(force.x, force.y) > 1e-4 * level.force);
+            // Five points: the error is h^4 of the fifth derivative of W, and rounding of W over h, some 1e-10 of the load.
+            const auto slope = [&](double along_x, double along_y) {
+                const auto energy = [&](int k) {
+                    contact.move_tip(tip.x0 + k * h * along_x, tip.y0 + k * h * along_y);
+                    contact.at_separation(Z0);
+                    return contact.energy();
+                };
+                return (8 * (energy(1) - energy(-1)) - (energy(2) - energy(-2))) / (12 * h);
+            };
+            const double tolerance = 1e-8 * level.force;
+            CHECK_CLOSE(force.x, -slope(1, 0), tolerance);
+            CHECK_CLOSE(force.y, -slope(0, 1), tolerance);
+            const Vec2 flat = lateral_force({tip.E_star, std::numeric_limits<double>::infinity(), tip.x0, tip.y0}, level);
+            CHECK(flat.x == 0 && flat.y == 0);
+        }
     }
 }
 
