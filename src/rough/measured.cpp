@@ -1,5 +1,6 @@
 #include "rough/measured.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -88,6 +89,10 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.as_read = roughness(map);
     m.form = detrend(map, options.detrend);
     m.filled = fill_missing(map);
+    for (int j = 0; j < map.ny; ++j)
+        if (!std::all_of(map.row(j), map.row(j) + map.nx, [](double z) { return std::isfinite(z); }))
+            throw Error(Failure::bad_input,
+                        "the heights are too small or too large to be worked with: their squares leave the range of numbers");
     m.without_form = m.filtered = roughness(map);
     m.filter_cutoff = options.filter_cutoff;
     if (options.filter_cutoff > 0) {
