@@ -332,7 +332,8 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
 
 /* One quantity of the last level by its name in the result file: "force", "contact_area", "contacts", "candidates", "iterations",
  * "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ... ; "separation", "stiffness", "energy",
- * "conductance_length" (2 |dN/dZ0|/E*), "lateral_force_x", "lateral_force_y". The message of an unknown name lists all.
+ * "conductance_length" (2 |dN/dZ0|/E*), "lateral_force_x", "lateral_force_y", "moment_x", "moment_y",
+ * "resistance" (with solids%resistivity in the case the contact was made from). The message of an unknown name lists all.
  * contact: the contact; name: the name; value (out): as a number. Errors: -1, -3 null; -2 null or unknown; RSC_NO_RESULT, also if it is no
  * finite number; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);

@@ -5,6 +5,7 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
+#include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "observe/quantities.hpp"
 #include "rough/magnitude.hpp"
@@ -18,8 +19,8 @@ Site site_of(const Case& settings, const Ground& on) {
 }
 
 void require_contact_keys(const Case& settings) {
-    require_sound(settings,
-                  {"solver", "asperities%law", "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
+    require_sound(settings, {"solver", "solids%resistivity", "asperities%law", "indentation%selection", "indentation%selection_factor",
+                             "surface%sigma", "surface%L"});
 }
 
 // What a contact stands on was made by one model: another one asked for is refused rather than ignored.
@@ -44,6 +45,7 @@ void compute(rsc_contact& contact, Compute&& level) {
     contact.moved = false;
     contact.energy = contact.contact.energy();
     contact.lateral = lateral_force(contact.contact.indenter(), *contact.level);
+    contact.moment = tip_moment(contact.contact.indenter(), *contact.level);
 }
 
 void put_finite(double* to, double value) {
@@ -63,6 +65,20 @@ double stiffness_of(rsc_contact& contact) {
     return known;
 }
 
+rsc_contact* with_resistivity(rsc_contact* made, const double (&resistivity)[2]) {
+    std::copy_n(resistivity, 2, made->resistivity);
+    return made;
+}
+
+double conductance_length_of(rsc_contact& contact) { return conductance_length(stiffness_of(contact), contact.contact.indenter().E_star); }
+
+double resistance_of(rsc_contact& contact) {
+    if (!(contact.resistivity[0] + contact.resistivity[1] > 0))
+        throw Outcome{RSC_NO_RESULT, "solids%resistivity is 0 in the case the contact was made from: there is no resistance"};
+    if (!(contact.level->force > 0)) throw Outcome{RSC_NO_RESULT, "nothing touches: the resistance is infinite"};
+    return constriction_resistance(conductance_length_of(contact), contact.resistivity);
+}
+
 // Quantities that are no plain members of a level, by the names of the result file (vectors by component).
 struct Derived {
     std::string_view name;
@@ -72,13 +88,18 @@ constexpr Derived kDerived[] = {
     {"separation", [](rsc_contact& c) { return c.level->separation; }},
     {"stiffness", stiffness_of},
     {"energy", [](rsc_contact& c) { return c.energy; }},
-    {"conductance_length", [](rsc_contact& c) { return -2 * stiffness_of(c) / c.contact.indenter().E_star; }},
+    {"conductance_length", conductance_length_of},
+    {"resistance", resistance_of},
     {"lateral_force_x", [](rsc_contact& c) { return c.lateral.x; }},
     {"lateral_force_y", [](rsc_contact& c) { return c.lateral.y; }},
+    {"moment_x", [](rsc_contact& c) { return c.moment.x; }},
+    {"moment_y", [](rsc_contact& c) { return c.moment.y; }},
 };
 
-// What only maps know, which the library does not make.
-bool of_map(std::string_view name) { return name == "crowded_cells" || name == "contacts_outside_map"; }
+// What the library does not give by this name: of maps, which it does not make, and vectors, which go by component.
+bool of_map(std::string_view name) {
+    return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" || name == "moment";
+}
 
 std::string known_values() {
     std::string names;
@@ -117,7 +138,9 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             const auto& on = asperities->ground;
             require_model(*on, settings, 7);
             const rsc::Site site = site_of(settings, *on);
-            return new rsc_contact(on, {E_star, R, x0, y0, rsc::period_of(settings, site)}, rsc::solver_of(settings, site));
+            return with_resistivity(
+                new rsc_contact(on, {E_star, R, x0, y0, rsc::period_of(settings, site)}, rsc::solver_of(settings, site)),
+                settings.solids.resistivity);
         });
     });
 }
@@ -132,7 +155,8 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
             const auto& on = asperities->ground;
             require_model(*on, settings, 3);
             const rsc::Site site = site_of(settings, *on);
-            return new rsc_contact(on, rsc::indenter_of(settings, site), rsc::solver_of(settings, site));
+            return with_resistivity(new rsc_contact(on, rsc::indenter_of(settings, site), rsc::solver_of(settings, site)),
+                                    settings.solids.resistivity);
         });
     });
 }
@@ -141,7 +165,7 @@ int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
     return guarded(0, [&] {
         construct(contact, "contact", [&] {
             require(original, 2, "original");
-            return new rsc_contact(original->on, original->contact.indenter(), original->options);
+            return with_resistivity(new rsc_contact(original->on, original->contact.indenter(), original->options), original->resistivity);
         });
     });
 }

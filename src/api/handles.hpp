@@ -36,7 +36,8 @@ struct rsc_contact {
     // Of that level; the tip may have moved since.
     bool moved = false;
     double energy = 0;
-    rsc::Vec2 lateral;
+    rsc::Vec2 lateral, moment;
+    double resistivity[2] = {0, 0};  // of the case it was made from
 };
 
 struct rsc_friction {

@@ -125,8 +125,7 @@ void visit_state(Archive& archive, State& state) {
 template <class Archive, class Handle>
 void visit_known(Archive& archive, Handle& contact) {
     archive(contact.energy);
-    if constexpr (requires { contact.moved; }) archive(contact.moved);
-    if constexpr (requires { contact.lateral; }) archive(contact.lateral);
+    archive(contact.moved), archive(contact.lateral), archive(contact.moment);
 }
 
 // What makes a contact of the same asperities.
@@ -134,17 +133,30 @@ void put_making(Writer& writer, const rsc_contact& contact) {
     writer(digest(contact.on->asperities));
     writer(contact.contact.indenter());
     writer(contact.options);
+    writer(contact.resistivity);
 }
 struct Making {
     Indenter indenter;
     SolverOptions options;
+    double resistivity[2];
+    std::unique_ptr<rsc_contact> contact(const rsc_asperities& asperities) const {
+        auto made = std::make_unique<rsc_contact>(asperities.ground, indenter, options);
+        std::copy_n(resistivity, 2, made->resistivity);
+        return made;
+    }
 };
+
+// The answers of elements are pixels by the thousand, and their surface is not told from another by its summits.
+void require_keepable(const rsc_contact& contact) {
+    if (contact.on->points) refuse(1, "contact", "must be one of asperities: a contact of elements cannot be kept");
+}
 Making get_making(Reader& reader, const rsc_asperities& asperities) {
     std::uint64_t hash = 0;
     Making making;
     reader(hash);
     reader(making.indenter);
     reader(making.options);
+    reader(making.resistivity);
     if (hash != digest(asperities.ground->asperities)) refuse(2, "asperities", "must be those the file was saved with");
     return making;
 }
@@ -207,6 +219,7 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
     return guarded(2, [&] {
         require(contact, 1, "contact");
         require_path(path, 2);
+        require_keepable(*contact);
         if (contact->contact.path_dependent()) refuse(1, "contact", "must be elastic: a contact that remembers its path cannot be kept");
         Writer writer;
         put_making(writer, *contact);
@@ -228,7 +241,7 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
             require_path(path, 3);
             Reader reader = read(path, "a contact");
             const Making making = get_making(reader, *asperities);
-            auto made = std::make_unique<rsc_contact>(asperities->ground, making.indenter, making.options);
+            auto made = making.contact(*asperities);
             bool has_level = false;
             reader(has_level);
             if (has_level) {
@@ -247,6 +260,7 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
     return guarded(2, [&] {
         require(friction, 1, "friction");
         require_path(path, 2);
+        require_keepable(friction->outer);
         Writer writer;
         put_making(writer, friction->outer);
         writer(friction->history.friction());
@@ -271,7 +285,7 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
             reader(with);
             visit_state(reader, now);
             visit_state(reader, committed);
-            auto made = std::make_unique<rsc_friction>(rsc_contact(asperities->ground, making.indenter, making.options), with);
+            auto made = std::make_unique<rsc_friction>(*making.contact(*asperities), with);
             made->history.restore(now, committed);
             return made.release();
         });

@@ -234,7 +234,7 @@ std::vector<double> AsperityContact::residual_depths() const {
     return depths;
 }
 
-void AsperityContact::forget() {
+void AsperityContact::forget_levels() {
     impl_->earlier = {};
     impl_->candidates = {};
     impl_->solution.clear();

@@ -29,9 +29,8 @@ public:
     bool path_dependent() const override;
     std::vector<double> residual_depths() const override;
 
-    void forget() override;
-
 protected:
+    void forget_levels() override;
     // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is
     // proved unique, and not otherwise.
     Level solve(double Z0) override;

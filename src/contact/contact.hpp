@@ -36,7 +36,11 @@ public:
     virtual const Indenter& indenter() const = 0;
 
     // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
-    virtual void forget() = 0;
+    void forget() {
+        last_.reset();
+        last_force_ = 0;
+        forget_levels();
+    }
 
     // Whether a level depends on those before it. Energy is then what would come back, and stiffness that of unloading.
     virtual bool path_dependent() const { return false; }
@@ -44,6 +48,9 @@ public:
     virtual std::vector<double> residual_depths() const { return {}; }
 
 protected:
+    // What a model keeps of earlier levels.
+    virtual void forget_levels() = 0;
+
     // A trial: the answer at Z0, which stiffness() and energy() then speak of.
     virtual Level solve(double Z0) = 0;
     // The last level solved is accepted: what remembers its path goes on from here, and completes the level by what that cost.

@@ -263,7 +263,7 @@ void ElementContact::move_tip(double x0, double y0) {
 }
 
 double ElementContact::first_touch() const { return impl_->top; }
-void ElementContact::forget() {
+void ElementContact::forget_levels() {
     impl_->past.clear();
     impl_->since_move = 0;
 }

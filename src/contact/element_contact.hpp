@@ -25,9 +25,9 @@ public:
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
-    void forget() override;
 
 protected:
+    void forget_levels() override;
     // There is one solution (K is positive definite); earlier levels are a start, and change the answer within the tolerance only.
     // Contacts are sets of pixels connected by sides. Areas are those of the pixels less (pi - 1 + ln 2)/24 of a pixel for each side of
     // their border (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017).

@@ -6,18 +6,12 @@
 #include <numbers>
 
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/filter.hpp"
 #include "rough/missing.hpp"
 
 namespace rsc {
 namespace {
-
-template <class... Args>
-std::string format(const char* text, Args... args) {
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, text, args...);
-    return buffer;
-}
 
 const char* name(Detrend how) {
     switch (how) {

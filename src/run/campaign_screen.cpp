@@ -4,17 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "format.hpp"
 #include "run/screen.hpp"
 
 namespace rsc {
 namespace {
-
-template <class... Args>
-std::string format(const char* text, Args... args) {
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, text, args...);
-    return buffer;
-}
 
 struct Spread {
     double mean = 0, deviation = 0;

@@ -9,18 +9,12 @@
 
 #include "case/units.hpp"
 #include "contact/validity.hpp"
+#include "format.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 
 namespace rsc {
 namespace {
-
-template <class... Args>
-std::string format(const char* text, Args... args) {
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, text, args...);
-    return buffer;
-}
 
 const char* fallback_text(Fallback fallback) {
     switch (fallback) {

@@ -65,6 +65,10 @@ void test_answer() {
     CHECK(value(k, "large_contacts") == static_cast<double>(large) && value(k, "contacts") == static_cast<double>(contacts));
     CHECK(value(k, "status") == status && value(k, "overlapping_pairs") == static_cast<double>(pairs));
     CHECK_RELATIVE(value(k, "conductance_length"), -2 * S / (78e3 / (1 - 0.42 * 0.42)), 1e-14);
+    // Every force points to the centre of the sphere, R above the tip.
+    CHECK(value(k, "moment_x") == -1.0 * y && value(k, "moment_y") == 1.0 * x);
+    CHECK(rsc_contact_value(k, "resistance", &v) == RSC_NO_RESULT && message().find("solids%resistivity") != std::string::npos && v == 7);
+    CHECK(rsc_contact_value(k, "lateral_force", &v) == -2);  // by component
     CHECK(rsc_contact_value(k, "forces", &v) == -2 && message().find("lateral_force_x") != std::string::npos);
     CHECK(message().find("large_contacts") != std::string::npos && v == 7);
     CHECK(rsc_contact_value(k, "crowded_cells", &v) == -2);  // of maps, which the library does not make
@@ -86,6 +90,21 @@ void test_answer() {
     // Central differences of the energy, right to some 1e-9 W/h; the force is a sum of slopes of some 0.1 N.
     CHECK_CLOSE(x_before, -(W_up - W_down) / (2 * h), 1e-3 * std::abs(x_before));
     OK(rsc_contact_destroy(&k));
+}
+
+// (rho_1 + rho_2) over the conductance length, in a copy, too; infinite where nothing touches.
+void test_resistance() {
+    rsc_contact *k = contact("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solids resistivity=2e-5, 3e-5 /"), *copy = nullptr;
+    OK(rsc_contact_copy(&copy, k));
+    for (rsc_contact* c : {k, copy}) {
+        OK(rsc_contact_indent(c, 0.01, nullptr));
+        CHECK_RELATIVE(value(c, "resistance") * value(c, "conductance_length"), 5e-5, 1e-14);
+        double v = 7;
+        OK(rsc_contact_indent(c, 1.0, nullptr));
+        CHECK(rsc_contact_value(c, "resistance", &v) == RSC_NO_RESULT && v == 7);
+    }
+    OK(rsc_contact_destroy(&k));
+    OK(rsc_contact_destroy(&copy));
 }
 
 // Asked again for the level it holds, the contact does not solve it again: a second solution would begin at the first and need fewer steps.
@@ -152,6 +171,7 @@ void test_file_and_arrays() {
 
 int main() {
     test_answer();
+    test_resistance();
     test_again();
     test_press_after();
     test_file_and_arrays();

@@ -95,6 +95,45 @@ void contacts_in_files(const Folder& folder) {
     OK(rsc_asperities_destroy(&others));
 }
 
+// Two flats: what force control remembers of earlier levels is no start, either. Resistivities are kept; elements are refused.
+void other_contacts(const Folder& folder) {
+    const std::string file = folder / "flats";
+    const auto of = [](const char* text, rsc_asperities** asperities, rsc_contact** contact) {
+        rsc_case* a_case = nullptr;
+        OK(rsc_case_create(&a_case));
+        OK(rsc_case_read(a_case, text));
+        OK(rsc_asperities_make(asperities, a_case, 1));
+        OK(rsc_contact_create_from_case(contact, *asperities, a_case));
+        OK(rsc_case_destroy(&a_case));
+    };
+    rsc_asperities *asperities = nullptr, *points = nullptr;
+    rsc_contact *contact = nullptr, *again = nullptr, *elements = nullptr;
+    of("&surface n=128, L_lambda_l=4, L_lambda_s=32, sigma=1e-3 / &solids R=Infinity, Infinity  resistivity=1e-5, 2e-5 / "
+       "&indentation boundary='periodic' control='pressure' unit='relative' start=0.001 stop=0.01 /",
+       &asperities, &contact);
+    double Z0 = 0, R = 0, same = 0;
+    OK(rsc_contact_press(contact, 5.0, &Z0));
+    OK(rsc_contact_indent(contact, 0.98 * Z0, nullptr));
+    OK(rsc_contact_save(contact, file.c_str()));
+    OK(rsc_contact_restore(&again, asperities, file.c_str()));
+    OK(rsc_contact_value(contact, "resistance", &R));
+    OK(rsc_contact_value(again, "resistance", &same));
+    CHECK(R == same && R > 0);
+    for (double z : {0.96, 0.93, 0.97}) {
+        double here = 0, there = 0;
+        OK(rsc_contact_indent(contact, z * Z0, &here));
+        OK(rsc_contact_indent(again, z * Z0, &there));
+        CHECK(here == there && here > 0);
+        OK(rsc_contact_press(contact, 0.8 * here, &here));
+        OK(rsc_contact_press(again, 0.8 * there, &there));
+        CHECK(here == there);
+    }
+    of("&surface n=64, L_lambda_l=4, L_lambda_s=16 / &solver model='elements' /", &points, &elements);
+    CHECK(rsc_contact_save(elements, file.c_str()) == -1);
+    for (rsc_contact* c : {contact, again, elements}) OK(rsc_contact_destroy(&c));
+    for (rsc_asperities* a : {asperities, points}) OK(rsc_asperities_destroy(&a));
+}
+
 void friction_in_files(const Folder& folder) {
     rsc_asperities* asperities = make(1);
     rsc_contact* contact = nullptr;
@@ -177,6 +216,7 @@ void many_contacts() {
 int main() {
     const Folder folder;
     contacts_in_files(folder);
+    other_contacts(folder);
     friction_in_files(folder);
     many_contacts();
     return check::summary();
