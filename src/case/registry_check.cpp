@@ -111,9 +111,16 @@ private:
             if (c_.solids.friction > 0)
                 complain({"solids%hardness", "solids%friction"},
                          "hardness: friction is that of elastic asperities, one of the two at a time");
-            if (c_.solver.model == Model::elements || !c_.compare.levels.empty())
-                complain({"solids%hardness", c_.solver.model == Model::elements ? "solver%model" : "compare%levels"},
-                         "hardness: elements that yield are not available yet, only asperities");
+            const char* elements = c_.solver.model == Model::elements ? "solver%model" : "compare%levels";
+            if (c_.solver.model == Model::elements || !c_.compare.levels.empty()) {
+                if (c_.solids.size_effect > 0)
+                    complain(
+                        {"solids%size_effect", elements},
+                        "size_effect: elements have no radius to scale the hardness by; give the hardness that holds for asperities of "
+                        "this size");
+                if (c_.indentation.boundary == Boundary::periodic)
+                    complain({"solids%hardness", elements}, "hardness: elements that yield between two flats are not available yet");
+            }
         }
         if (c_.solids.friction > 0 && c_.solver.model == Model::elements)
             complain({"solids%friction", "solver%model"}, "friction: with model = 'elements' it is not available yet");

@@ -46,6 +46,8 @@ public:
     virtual bool path_dependent() const { return false; }
     // How far each asperity stays pressed down without force [length]; empty where nothing does.
     virtual std::vector<double> residual_depths() const { return {}; }
+    // Of elements: by how much which points of the surface are lower for good.
+    virtual ResidualProfile residual_profile() const { return {}; }
 
 protected:
     // What a model keeps of earlier levels.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/pressed_out.hpp"
 #include "contact/ranking.hpp"
 #include "contact/solver/elements.hpp"
 #include "contact/validity.hpp"
@@ -45,14 +46,18 @@ struct ElementContact::Impl {
     std::deque<Past> past;
     std::size_t since_move = 0;
 
+    PressedOut pressed;
+    bool accepted = false;  // the last level: from then on the contact is elastic until pressed further
+
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
         : heights(heights_),
           indenter(indenter_),
           options(options_),
           products(make_tree_products(indenter_.E_star, heights_.dx, heights_.dy, kInnerError, 0.1 * options_.tolerance)),
-          solver(*products, kInfinity),
+          solver(*products, options_.hardness.H0),
           blocks_x((heights_.nx + kBlock - 1) / kBlock),
-          blocks_y((heights_.ny + kBlock - 1) / kBlock) {
+          blocks_y((heights_.ny + kBlock - 1) / kBlock),
+          pressed(heights_.nx, heights_.ny) {
         block_top.assign(at(blocks_x) * at(blocks_y), -kInfinity);
         for (int j = 0; j < heights.ny; ++j) {
             const double* row = heights.row(j);
@@ -64,9 +69,9 @@ struct ElementContact::Impl {
 
     double x(int i) const { return heights.x0 + i * heights.dx; }
     double y(int j) const { return heights.y0 + j * heights.dy; }
-    double height(int i, int j) const { return height_under_sphere(indenter, x(i), y(j), heights(i, j)); }
+    double height(int i, int j) const { return height_under_sphere(indenter, x(i), y(j), heights(i, j) - pressed(i, j)); }
 
-    // No point of the block is higher under the sphere: its highest one, at its place nearest to the tip.
+    // No point of the block is higher under the sphere: its highest one, before anything was pressed out, at its place nearest to the tip.
     double bound(int bi, int bj) const {
         const auto nearest = [](double low, double high, double tip) { return std::clamp(tip, low, high); };
         const double px = nearest(x(bi * kBlock), x(std::min((bi + 1) * kBlock, heights.nx) - 1), indenter.x0);
@@ -154,18 +159,21 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
     const int contacts = connected_sets(touching, label);
     struct Sum {
         double p = 0, px = 0, py = 0, highest = 0, g0 = 0;
-        long pixels = 0, sides = 0;  // sides: between its pixels, each counted once from both
+        long pixels = 0, border = 0;  // border: sides without a neighbour, of pixels below the hardness
+        bool yields = false;
         Pixel peak{0, 0};
     };
     std::vector<Sum> sums(at(contacts));
-    const auto neighbours = [&](std::size_t k, std::size_t& above) {
-        // Pixels of the same contact on the left and above; connected sets leave no other neighbour by sides.
+    double extreme = 0;  // pixels
+    // Sides of each pixel without a neighbour under pressure: those of the contacts' borders.
+    std::vector<int> open(touching.size(), 4);
+    for (std::size_t k = 0, above = 0; k < touching.size(); ++k) {
         const Pixel q = touching[k];
-        int n = k > 0 && touching[k - 1] == Pixel{q.x - 1, q.y};
+        if (k > 0 && touching[k - 1] == Pixel{q.x - 1, q.y}) --open[k - 1], --open[k];
         while (above < k && (touching[above].y < q.y - 1 || (touching[above].y == q.y - 1 && touching[above].x < q.x))) ++above;
-        return n + (above < k && touching[above] == Pixel{q.x, q.y - 1});
-    };
-    std::size_t above = 0;
+        if (above < k && touching[above] == Pixel{q.x, q.y - 1}) --open[above], --open[k];
+    }
+    const double hardness = options.hardness.H0;
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
         const Pixel q = touching[k];
@@ -173,7 +181,10 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
         s.px += pressure[k] * x(q.x);
         s.py += pressure[k] * y(q.y);
         s.pixels += 1;
-        s.sides += neighbours(k, above);
+        const bool yields = pressure[k] >= hardness;
+        s.yields = s.yields || yields;
+        if (!yields) s.border += open[k];
+        if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
         if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = q, s.g0 = gap[k];
     }
     // Penetration: how far the contact alone presses in the place of its highest pressure.
@@ -186,13 +197,15 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
     const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
     for (std::size_t c = 0; c < sums.size(); ++c) {
         const Sum& s = sums[c];
-        const double sides = static_cast<double>(4 * s.pixels - 2 * s.sides);
-        const double area = pixel * (static_cast<double>(s.pixels) - border * sides);
+        const double area = pixel * (static_cast<double>(s.pixels) - border * static_cast<double>(s.border));
         level.add_contact(s.peak.y * heights.nx + s.peak.x, s.px / s.p, s.py / s.p, s.p * pixel, std::sqrt(area / std::numbers::pi),
                           own[c]);
         level.force += s.p * pixel;
         level.area += area;
+        if (std::isfinite(hardness)) level.yields.push_back(s.yields);
+        level.plastic_contacts += s.yields;
     }
+    if (!touching.empty()) level.extreme_area_fraction = extreme / static_cast<double>(touching.size());
     level.area_pixels = pixel * static_cast<double>(touching.size());
     level.pixels.columns = heights.nx;
     level.pixels.x0 = heights.x0;
@@ -218,6 +231,10 @@ const HeightMap& checked(const HeightMap& heights, const Indenter& indenter, con
     if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
         throw Error(Failure::bad_input, "elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
                                             " are longer than 32 times their width");
+    if (!(options.hardness.H0 > 0)) throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
+    if (std::isfinite(options.hardness.H0) && options.hardness.length != 0)
+        throw Error(Failure::bad_input,
+                    "solids%size_effect: elements have no radius to scale the hardness by; give the hardness that holds");
     return heights;
 }
 
@@ -242,12 +259,39 @@ Level ElementContact::solve(double Z0) {
     my.past.push_front(std::move(now));
     if (my.past.size() > 2) my.past.pop_back();
     my.since_move = std::min<std::size_t>(my.since_move + 1, 2);
+    my.accepted = false;
     return my.report(Z0, outcome);
+}
+
+void ElementContact::accept(Level& level) {
+    Impl& my = *impl_;
+    my.accepted = true;
+    if (!path_dependent()) return;
+    std::vector<Pixel> pixels;
+    std::vector<double> depth;
+    my.solver.press_out(pixels, depth);
+    for (std::size_t k = 0; k < pixels.size(); ++k) my.pressed.add(pixels[k].x, pixels[k].y, depth[k]);
+    if (!pixels.empty()) my.find_top();
+    level.plastic_work = my.options.hardness.H0 * my.heights.dx * my.heights.dy * my.pressed.sum();
+}
+
+bool ElementContact::path_dependent() const { return std::isfinite(impl_->options.hardness.H0); }
+
+ResidualProfile ElementContact::residual_profile() const {
+    const Impl& my = *impl_;
+    ResidualProfile profile{{}, {}, {}, my.heights.dx, my.heights.dy};
+    for (const auto& [i, j, depth] : my.pressed.points()) {
+        profile.x.push_back(my.x(i));
+        profile.y.push_back(my.y(j));
+        profile.depth.push_back(depth);
+    }
+    return profile;
 }
 
 double ElementContact::stiffness() {
     const double pixel = impl_->heights.dx * impl_->heights.dy;
-    return 0.0 - pixel * impl_->solver.stiffness(1e-9);
+    const auto way = impl_->accepted ? ElementsSolver::Way::back : ElementsSolver::Way::further;
+    return 0.0 - pixel * impl_->solver.stiffness(1e-9, way);
 }
 
 double ElementContact::energy() const { return impl_->heights.dx * impl_->heights.dy * impl_->solver.energy(); }

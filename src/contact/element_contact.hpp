@@ -1,5 +1,8 @@
 // The points of the surface themselves pressed by a sphere: no asperities, every pixel carries a uniform pressure p >= 0 (Johnson 1985,
 // section 3.4; Polonsky and Keer, Wear 231, 1999). What the asperity model approximates.
+//
+// With a hardness H, p <= H: where p = H the gap w may be negative, and -w is pressed out for good: the heights are lowered by it when
+// the level is accepted. Then H times the volume pressed out is the work lost, and what is left is elastic: W = p'Kp/2 comes back.
 #pragma once
 
 #include <memory>
@@ -11,8 +14,9 @@ namespace rsc {
 
 class ElementContact final : public Contact {
 public:
-    // The heights must outlive the contact. Of the options it takes the tolerance and the number of iterations. Throws
-    // Error(bad_input) for moduli, radii or heights out of range.
+    // The heights must outlive the contact, which never changes them. Of the options it takes the tolerance, the number of iterations
+    // and the hardness, without a size effect: a pixel has no radius. Throws Error(bad_input) for moduli, radii, heights or options out
+    // of range.
     ElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
     ~ElementContact() override;
     ElementContact(ElementContact&&) noexcept;
@@ -21,6 +25,8 @@ public:
 
     // W = p'Kp dx dy/2, evaluated as g0'p - p'Kp/2, which equals it at the solution.
     double energy() const override;
+    bool path_dependent() const override;
+    ResidualProfile residual_profile() const override;
 
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
@@ -30,8 +36,10 @@ protected:
     void forget_levels() override;
     // There is one solution (K is positive definite); earlier levels are a start, and change the answer within the tolerance only.
     // Contacts are sets of pixels connected by sides. Areas are those of the pixels less (pi - 1 + ln 2)/24 of a pixel for each side of
-    // their border (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017).
+    // their border (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017), but where a pixel at the hardness has it: there
+    // the middle of the pixel decides, and a count is as often too low as too high. A contact yields when one of its pixels does.
     Level solve(double Z0) override;
+    void accept(Level& level) override;
     double tolerance() const override;
     // A smooth sphere's, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
     double first_place_force(double depth) override;

@@ -78,6 +78,12 @@ struct LevelPixels {
     double y(std::size_t k) const { return y0 + index[k] / columns * dy; }
 };
 
+// Elements that yielded: the points of the surface that are lower for good, row by row.
+struct ResidualProfile {
+    std::vector<double> x, y, depth;  // [length]
+    double dx = 0, dy = 0;            // sides of a pixel [length]
+};
+
 // With more than this share of the contacts beyond the law, spots cover much of each other and the contact area is far too low: measured
 // against elements (README).
 inline constexpr double kMuchBeyondLaw = 0.3;

@@ -23,7 +23,7 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
 
 bool exceeds_nominal_area(const LevelValues& level) {
     constexpr double rounding = 1e-9;  // one spot under the tip has the nominal area itself
-    return level.area > (1 + rounding) * level.nominal_area;
+    return level.nominal_area > 0 && level.area > (1 + rounding) * level.nominal_area;  // elements have no such disc
 }
 
 void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options) {

@@ -41,7 +41,7 @@ void ResultTable::global_attributes(const std::string& history) {
                     "makes this file again, "
                     "equal but for the attribute `history`.");
     if (r_.path_dependent)
-        file_.attribute("path", "levels depend on those before them: asperities that yielded (solids hardness) stay pressed down");
+        file_.attribute("path", "levels depend on those before them: what yielded (solids hardness) stays pressed down");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});

@@ -218,7 +218,18 @@ void ResultTable::contacts() {
     add("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
     add("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
     if (!c.yields.empty())
-        add("contact_yields", {"contact"}, "1", "1 where the asperity yields at this level, 0 where it is elastic", c.yields);
+        add("contact_yields", {"contact"}, "1", "1 where the contact yields at this level, 0 where it is elastic", c.yields);
+}
+
+void ResultTable::residual_profile() {
+    const ResidualProfile& p = r_.residual_profile;
+    if (p.depth.empty()) return;
+    file_.dimension("residual_pixel", p.depth.size());
+    const Names dims{"residual_pixel"};
+    const std::string points = " of the points of the surface that are lower for good";
+    add("residual_pixel_x", dims, unit(1), "x" + points, p.x, {{"pixel_size", std::vector<double>{p.dx}}});
+    add("residual_pixel_y", dims, unit(1), "y" + points, p.y, {{"pixel_size", std::vector<double>{p.dy}}});
+    add("residual_pixel_depth", dims, unit(1), "how far they are pressed down without force, after the last level", p.depth);
 }
 
 void ResultTable::compared() {

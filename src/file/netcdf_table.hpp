@@ -45,6 +45,7 @@ public:
         distributions();
         asperities();
         contacts();
+        residual_profile();
         compared();
         heights();
         return std::move(file_);
@@ -82,6 +83,7 @@ private:
     void spot_area();
     void asperities();
     void contacts();
+    void residual_profile();
     void compared();
     void heights();
 

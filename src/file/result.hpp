@@ -73,6 +73,7 @@ struct Result {
     // Of one realization only:
     Asperities asperities;               // empty: not written
     std::vector<double> residual_depth;  // of each asperity after the last level; empty: not written
+    ResidualProfile residual_profile;    // of elements after the last level; empty: not written
     PackedContacts contacts;             // empty: not written
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written

@@ -1,5 +1,6 @@
 #include "run/compare.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -26,6 +27,32 @@ void print(std::ostream& out, const Job& job, const ComparedLevels& c, const Lev
     out << line;
 }
 
+// The levels to compare: the nearest one to each of &compare levels. Where a level depends on those before it, in the order of the path,
+// and of levels as near as each other one that is not yet taken, so that loading and unloading can be compared both.
+std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels, bool path_dependent) {
+    const bool by_force = job.settings.indentation.control == Control::force;
+    const double unit = !by_force && job.settings.indentation.unit == LevelUnit::sigma ? job.sigma : 1.0;
+    std::vector<std::size_t> steps;
+    for (const double wanted : job.settings.compare.levels) {
+        std::size_t step = 0;
+        const auto miss = [&](std::size_t k) { return std::abs((by_force ? levels[k].force : levels[k].separation) - wanted * unit); };
+        const auto taken = [&](std::size_t k) { return std::find(steps.begin(), steps.end(), k) != steps.end(); };
+        for (std::size_t k = 1; k < levels.size(); ++k) {
+            if (miss(k) < miss(step) || (path_dependent && miss(k) == miss(step) && taken(step) && !taken(k))) step = k;
+        }
+        steps.push_back(step);
+    }
+    if (path_dependent) std::sort(steps.begin(), steps.end());
+    return steps;
+}
+
+// Whether the sphere turns round at a level, or goes up from the first one.
+bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
+    if (k + 1 >= levels.size()) return false;
+    const double on = levels[k + 1].separation - levels[k].separation;
+    return k == 0 ? on > 0 : (levels[k].separation - levels[k - 1].separation) * on < 0;
+}
+
 }  // namespace
 
 ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,
@@ -38,17 +65,15 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
     map.y0 = job.site.domain.y0;
     ElementContact contact(map, job.indenter, job.solver);
     if (table) *table << "\ncompared with elements on " << map.nx << " x " << map.ny << " points (asperities over elements - 1):\n";
-    const bool by_force = job.settings.indentation.control == Control::force;
-    const double unit = !by_force && job.settings.indentation.unit == LevelUnit::sigma ? job.sigma : 1.0;
-    for (const double wanted : job.settings.compare.levels) {
-        std::size_t step = 0;
-        const auto miss = [&](std::size_t k) { return std::abs((by_force ? levels[k].force : levels[k].separation) - wanted * unit); };
-        for (std::size_t k = 1; k < levels.size(); ++k) {
-            if (miss(k) < miss(step)) step = k;
-        }
+    std::size_t next = 0;
+    bool on_path = true;  // elements have been where they had to
+    for (const std::size_t step : steps_to_compare(job, levels, contact.path_dependent())) {
+        for (; contact.path_dependent() && next < step; ++next)
+            if (turns(levels, next))
+                on_path = contact.at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
         const LevelValues& level = levels[step];
         Level truth = contact.at_separation(level.separation);
-        const bool found = truth.status != LevelStatus::not_converged;
+        const bool found = truth.status != LevelStatus::not_converged && on_path;
         c.failed += !found;
         const auto error = [&](double model, double elements) { return found && elements > 0 ? model / elements - 1 : kNotComputed; };
         c.step.push_back(static_cast<std::int32_t>(step));

@@ -13,6 +13,8 @@ namespace rsc {
 
 // `levels` are those of realization `number`; of each level asked for the nearest one is taken. A line for each goes to `table`, if there
 // is one; once `stop` says so, the rest is left out. Errors are NaN where elements do not converge.
+// With hardness both models have a path: elements go through the levels compared in the order of the run's, and through those between them
+// where it turns round. Unloading and reloading is elastic, so that nothing else matters.
 ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,
                               const std::function<bool()>& stop);
 

@@ -163,6 +163,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();
+    r.residual_profile = contact->residual_profile();
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
     return r;

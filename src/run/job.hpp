@@ -41,6 +41,7 @@ struct Realization {
     std::vector<Level> levels;
     FrictionLoops friction;
     std::vector<double> residual_depth;  // of the asperities that yielded, after the last level; empty: none can
+    ResidualProfile residual_profile;    // of elements that yielded, likewise
     std::optional<HeightMap> heights;    // if the case wants them
 };
 

@@ -310,8 +310,6 @@ Period period_of(const Case& settings, const Site& site) {
 }
 
 std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options) {
-    if (ground.points && std::isfinite(options.hardness.H0))
-        throw Error(Failure::bad_input, "solids%hardness: elements that yield are not available yet, only asperities");
     if (ground.points) return std::make_unique<ElementContact>(*ground.points, indenter, options);
     return std::make_unique<AsperityContact>(ground.asperities, indenter, options);
 }

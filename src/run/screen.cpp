@@ -161,7 +161,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     const auto extreme = std::max_element(levels.begin(), levels.end(), [](const LevelValues& p, const LevelValues& q) {
         return p.extreme_area_fraction < q.extreme_area_fraction;
     });
-    if (extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
+    if (!std::isfinite(job.settings.solids.hardness) && extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
         out << format(
             "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal bears them elastically; solids%%hardness "
             "bounds them.\n",

@@ -119,6 +119,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     result.friction = std::move(r.friction);
     result.asperities = std::move(r.asperities);
     result.residual_depth = std::move(r.residual_depth);
+    result.residual_profile = std::move(r.residual_profile);
     result.measured = job.measured;
     result.compared = std::move(compared);
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);

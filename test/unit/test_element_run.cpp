@@ -113,6 +113,46 @@ void comparison() {
     CHECK(compare_levels(prepare(small()), 1, 1, record.levels, nullptr, [] { return false; }).step.empty());
 }
 
+// With hardness: both models along their own paths, a way back and a second way down included, the comparison as a run of its own would have it.
+void yielding() {
+    Case c = small();
+    c.solids.hardness = 15000;
+    c.indentation.levels = {2.0, 0.5, 0.0, 0.5, 1.0, 0.5, -1.0};
+    c.asperities.law = LawKind::fourth_order;
+    c.compare.levels = {0.5, -1.0, 0.5};  // loading and the way back, and the end
+    const Job job = prepare(c);
+    const Realization r = realize(job, 1, 1);
+    CHECK(r.residual_profile.depth.empty() && r.residual_depth.size() == r.asperities.size());
+    const RealizationRecord record = observe(job, 1, r);
+    const ComparedLevels compared = compare_levels(job, 1, 1, record.levels, nullptr, [] { return false; });
+    CHECK((compared.step == std::vector<std::int32_t>{1, 3, 6}));
+    Case truth = c;
+    truth.compare.levels.clear();
+    truth.solver.model = Model::elements;
+    const Job elements_job = prepare(truth);
+    const Realization elements = realize(elements_job, 1, 1);
+    CHECK(elements.residual_depth.empty() && !elements.residual_profile.depth.empty());
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Level& level = elements.levels[static_cast<std::size_t>(compared.step[k])];
+        CHECK_RELATIVE(compared.force[k], level.force, 1e-5);
+        const LevelValues& asperities = record.levels[static_cast<std::size_t>(compared.step[k])];
+        CHECK_RELATIVE(compared.force_error[k], asperities.force / compared.force[k] - 1, 1e-12);
+    }
+    CHECK(compared.force[1] < 0.9 * compared.force[0]);  // the same separation on the way back
+    double volume = 0;
+    for (double d : elements.residual_profile.depth) volume += d * elements.residual_profile.dx * elements.residual_profile.dy;
+    CHECK_RELATIVE(elements.levels.back().plastic_work, 15000 * volume, 1e-12);
+    for (const Level& level : elements.levels) {
+        CHECK(level.yields.size() == level.f.size());
+        for (double p : level.pixels.pressure) CHECK(p <= 15000);
+    }
+    CHECK(elements.levels[2].plastic_contacts > 0 && elements.levels[3].plastic_contacts == 0 && elements.levels[6].plastic_contacts > 0);
+    const Realization again = realize(elements_job, 1, 2);
+    for (std::size_t s = 0; s < again.levels.size(); ++s)
+        CHECK(again.levels[s].force == elements.levels[s].force && again.levels[s].pixels.pressure == elements.levels[s].pixels.pressure);
+    CHECK(again.residual_profile.depth == elements.residual_profile.depth);
+}
+
 bool refused(const Case& c, const char* what) {
     for (const Problem& problem : check_case(c))
         if (problem.text.find(what) != std::string::npos) return true;
@@ -131,6 +171,12 @@ void refusals() {
     CHECK(check_case(c).empty());
     c.solver.model = Model::elements;
     CHECK(refused(c, "model = 'elements' has none"));
+    c = small();
+    c.solver.model = Model::elements;
+    c.solids.hardness = 250;
+    CHECK(check_case(c).empty());
+    c.solids.size_effect = 1e-3;
+    CHECK(refused(c, "no radius to scale the hardness by"));
     c = small();
     c.solver.model = Model::elements;
     c.solver.method = Method::dgesv;
@@ -153,6 +199,7 @@ int main() {
     surface();
     observations();
     comparison();
+    yielding();
     refusals();
     return check::summary();
 }

@@ -247,6 +247,7 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
         outcome.converged = true;
         return outcome;
     }
+    for (double& v : p) v = std::min(v, highest_);
     if (std::none_of(p.begin(), p.end(), [](double v) { return v > 0; })) start(pixels, g0, p);
     draw(pixels, g0, p);
     evaluate(Accuracy::inner);
@@ -293,15 +294,27 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
 
 double ElementsSolver::energy() const {
     double sum = 0;
-    for (std::size_t k = 0; k < p_.size(); ++k) sum += p_[k] * (g0_[k] - w_[k]);
+    for (std::size_t k = 0; k < p_.size(); ++k) sum += p_[k] * (p_[k] < highest_ ? g0_[k] - w_[k] : g0_[k] + w_[k]);
     return 0.5 * sum;
 }
 
-double ElementsSolver::stiffness(double tolerance) {
+void ElementsSolver::press_out(std::vector<Pixel>& pixels, std::vector<double>& depth) {
+    pixels.clear();
+    depth.clear();
+    for (std::size_t k = 0; k < p_.size(); ++k) {
+        if (!(p_[k] >= highest_ && w_[k] < 0)) continue;
+        pixels.push_back(set_[k]);
+        depth.push_back(-w_[k]);
+        g0_[k] += w_[k];
+        w_[k] = 0;
+    }
+}
+
+double ElementsSolver::stiffness(double tolerance, Way way) {
     free_.clear();
     std::vector<Pixel> pixels;
     for (std::size_t k = 0; k < p_.size(); ++k) {
-        if (!(p_[k] > 0 && p_[k] < highest_)) continue;
+        if (!(p_[k] > 0 && (way == Way::back || p_[k] < highest_))) continue;
         free_.push_back(static_cast<int>(k));
         pixels.push_back(set_[k]);
     }

@@ -29,11 +29,17 @@ public:
     ElementsOutcome solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance, int most_iterations,
                           std::vector<double>& p);
 
-    // -d(sum of p)/dZ0 of the last answer: sum of q over the pixels under pressure below the highest, where K q = 1, to a relative
-    // residual of `tolerance`.
-    double stiffness(double tolerance);
+    // What the last answer presses out for good: pixels at the highest pressure with w < 0, and -w, row by row. It is taken off g0: the
+    // same pressures then leave no penetration anywhere.
+    void press_out(std::vector<Pixel>& pixels, std::vector<double>& depth);
 
-    // p'Kp/2 of the last answer, evaluated as g0'p - p'Kp/2 = sum p (g0 - w)/2, which equals it at the solution.
+    // -d(sum of p)/dZ0 of the last answer: sum of q over the pixels under pressure, where K q = 1, to a relative residual of
+    // `tolerance`. Pressed further, pixels at the highest pressure keep it; on the way back they are elastic.
+    enum class Way { further, back };
+    double stiffness(double tolerance, Way way);
+
+    // p'Kp/2 of the last answer, evaluated as g0'p - p'Kp/2 = sum p (g0 - w)/2, which equals it at the solution; pixels at the highest
+    // pressure with p (g0 + w)/2.
     double energy() const;
 
 private:

@@ -1,0 +1,43 @@
+// How far the points of a surface are pressed out for good: elements that yielded.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace rsc {
+
+// Depths [length] of a map of nx x ny points, kept in squares where there are some: few points of a rough surface ever yield.
+class PressedOut {
+public:
+    PressedOut(int nx, int ny);
+
+    double operator()(int i, int j) const {  // 0 where nothing was pressed out
+        const auto& square = squares_[square_of(i, j)];
+        return square ? square[place_of(i, j)] : 0.0;
+    }
+    void add(int i, int j, double depth);
+
+    bool none() const { return sum_ == 0; }
+    double sum() const { return sum_; }  // of all depths
+
+    struct Point {
+        int i, j;
+        double depth;
+    };
+    std::vector<Point> points() const;  // with a depth, row by row
+
+private:
+    static constexpr int kSide = 16;
+    std::size_t square_of(int i, int j) const {
+        return static_cast<std::size_t>(j / kSide) * across_ + static_cast<std::size_t>(i / kSide);
+    }
+    static std::size_t place_of(int i, int j) { return static_cast<std::size_t>(j % kSide * kSide + i % kSide); }
+
+    int nx_, ny_;
+    std::size_t across_;
+    std::vector<std::unique_ptr<double[]>> squares_;
+    double sum_ = 0;
+};
+
+}  // namespace rsc

@@ -1,0 +1,331 @@
+// Elements that yield (contact/element_contact.hpp): the elastic and the plastic limit, work and energy along a path, and a slow solver of
+// its own with the same bounds.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "check.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/interaction/love.hpp"
+#include "contact/ranking.hpp"
+#include "error.hpp"
+#include "rough/synthesis.hpp"
+
+using namespace rsc;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double kE = 94706.168, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSigma = 0.01;
+const Indenter kTip{kE, 2.5, 0.47, 0.52};
+
+SolverOptions options(double H0, double tolerance = 1e-10) {
+    SolverOptions o;
+    o.tolerance = tolerance;
+    o.max_iterations = 400;
+    o.hardness.H0 = H0;
+    return o;
+}
+
+HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
+    Spectrum spectrum;
+    spectrum.L_lambda_l = 4;
+    spectrum.L_lambda_s = L_lambda_s;
+    spectrum.sigma = kSigma;
+    return synthesize(spectrum, n, Normalise::sample, seed, 1);
+}
+
+HeightMap flat(int n, double h) {
+    HeightMap map;
+    map.allocate(n, n, n);
+    map.dx = map.dy = h;
+    std::fill_n(map.data.get(), n * n, 0.0);
+    return map;
+}
+
+void test_limits() {
+    const HeightMap map = rough(96, 12, 1);
+    ElementContact elastic(map, kTip, options(kInfinity)), hard(map, kTip, options(1e30)), soft(map, kTip, options(1e-3));
+    CHECK(!elastic.path_dependent() && hard.path_dependent());
+    for (const double z : {1.5, 0.7, 1.1, 0.0}) {
+        const Level e = elastic.at_separation(z * kSigma), h = hard.at_separation(z * kSigma);
+        CHECK(e.pixels.pressure == h.pixels.pressure && e.f == h.f && e.a == h.a && e.force == h.force && e.area == h.area);
+        CHECK(elastic.energy() == hard.energy() && elastic.stiffness() == hard.stiffness());
+        CHECK(e.plastic_contacts == 0 && std::isnan(e.plastic_work) && h.plastic_contacts == 0 && h.plastic_work == 0);
+        CHECK(e.yields.empty() && h.yields.size() == h.f.size());
+    }
+    CHECK(hard.residual_profile().depth.empty());
+    for (const double z : {1.5, 0.7, 0.0}) {
+        const Level s = soft.at_separation(z * kSigma);
+        CHECK(s.plastic_contacts == s.contacts && s.contacts > 0);
+        CHECK_RELATIVE(s.area, s.force / 1e-3, 1e-12);
+        CHECK_RELATIVE(s.area, s.area_pixels, 1e-12);
+    }
+    CHECK_THROWS(ElementContact(map, kTip, options(0)), Error);
+    CHECK_THROWS(ElementContact(map, kTip, options(-1)), Error);
+    SolverOptions scaled = options(1000);
+    scaled.hardness.length = 1e-3;
+    CHECK_THROWS(ElementContact(map, kTip, scaled), Error);
+    scaled.hardness.H0 = kInfinity;
+    CHECK(ElementContact(map, kTip, scaled).at_separation(kSigma).force > 0);
+}
+
+// A smooth sphere yields where its highest pressure 2 E* a/(pi R) reaches H, at the depth (pi H/(2 E*))^2 R.
+void test_sphere() {
+    const double R = 2.5, H = 60, depth = std::pow(pi * H / (2 * kE), 2) * R, a = std::sqrt(R * depth);
+    double fine = 0, counted_fine = 0;
+    for (const double cells : {20.0, 80.0, 40.0, 10.0}) {  // pixels a radius at the first yield, the finest of the loaded ones first
+        const double h = a / cells;
+        const int n = static_cast<int>(7 * cells);
+        const HeightMap map = flat(n, h);
+        const Indenter tip{kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h};
+        ElementContact contact(map, tip, options(H, 1e-8));
+        if (cells == 20.0) {
+            // Pixels know the peak of the pressure to some h^2/a^2.
+            CHECK(contact.at_separation(-0.99 * depth).plastic_contacts == 0);
+            CHECK(contact.at_separation(-1.01 * depth).plastic_contacts == 1);
+            continue;
+        }
+        const Level level = contact.at_separation(-6 * depth);
+        if (cells == 80.0) fine = level.area, counted_fine = level.area_pixels;
+        std::printf("sphere, 6 times the depth of first yield, %2.0f pixels a radius: N %.6f, A %.6f (counted %.6f) N/H\n", cells,
+                    level.force, level.area * H / level.force, level.area_pixels * H / level.force);
+        if (cells == 80.0) continue;
+        // The area is nearer to the finest grid's than the count is, all the more so on the coarser grid.
+        CHECK(std::abs(level.area / fine - 1) < 0.3 / cells);
+    }
+    CHECK(counted_fine > fine);
+}
+
+// Load, unload, reload: elastic up to the deepest point, from there on as if nothing had been.
+void test_path() {
+    const HeightMap map = rough(96, 12, 2);
+    const double H = 8000, top = 1.6 * kSigma, deep = 0.3 * kSigma, deeper = -0.2 * kSigma;
+    ElementContact contact(map, kTip, options(H)), straight(map, kTip, options(H));
+    const Level turn = contact.at_separation(deep);
+    CHECK(turn.plastic_contacts > 0 && turn.contacts > 5);
+    std::vector<Level> down, up;
+    const std::vector<double> places{0.5, 0.9, 1.3, 1.7};
+    for (const double z : places) up.push_back(contact.at_separation(z * kSigma));
+    for (const double z : places) CHECK(z > 0.3);
+    for (std::size_t k = places.size(); k-- > 0;) {
+        const Level again = contact.at_separation(places[k] * kSigma);
+        CHECK_CLOSE(again.force, up[k].force, 1e-8 * turn.force);
+        CHECK_CLOSE(again.area, up[k].area, 1e-6 * turn.area);
+        CHECK(again.plastic_contacts == 0 && up[k].plastic_contacts == 0);
+        CHECK_RELATIVE(again.plastic_work, turn.plastic_work, 1e-8);
+        CHECK(again.force < straight.at_separation(std::max(top, places[k] * kSigma)).force || again.contacts == 0 || places[k] < 1.6);
+    }
+    CHECK_RELATIVE(contact.at_separation(deep).force, turn.force, 1e-8);
+    ElementContact fresh(map, kTip, options(H));
+    const Level far = contact.at_separation(deeper), at_once = fresh.at_separation(deeper);
+    CHECK(far.plastic_work > 1.2 * turn.plastic_work);
+    std::printf("to the same end with a way back in between: N %.1e, plastic work %.1e\n", far.force / at_once.force - 1,
+                far.plastic_work / at_once.plastic_work - 1);
+    CHECK_RELATIVE(far.force, at_once.force, 1e-8);
+
+    // What is left: H times its volume is the work lost, and the sphere now touches where it says.
+    const ResidualProfile profile = contact.residual_profile();
+    double volume = 0, touch = -kInfinity;
+    for (const double d : profile.depth) CHECK(d > 0), volume += d * map.dx * map.dy;
+    CHECK_RELATIVE(H * volume, far.plastic_work, 1e-12);
+    std::vector<double> z(static_cast<std::size_t>(map.nx * map.ny));
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) z[static_cast<std::size_t>(j * map.nx + i)] = map(i, j);
+    for (std::size_t k = 0; k < profile.depth.size(); ++k)
+        z[static_cast<std::size_t>(std::lround(profile.y[k] / map.dy)) * static_cast<std::size_t>(map.nx) +
+          static_cast<std::size_t>(std::lround(profile.x[k] / map.dx))] -= profile.depth[k];
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            touch = std::max(touch, height_under_sphere(kTip, i * map.dx, j * map.dy, z[static_cast<std::size_t>(j * map.nx + i)]));
+    CHECK_CLOSE(contact.first_touch(), touch, 1e-15);
+    CHECK(contact.at_separation(touch).force == 0);
+    CHECK(contact.at_separation(touch - 1e-3 * kSigma).force > 0);
+    // The rest of the surface is as it was: another place is virgin.
+    contact.move_tip(0.9, 0.1);
+    ElementContact other(map, {kE, 2.5, 0.9, 0.1}, options(H));
+    CHECK(contact.first_touch() == other.first_touch());
+    CHECK_RELATIVE(contact.at_separation(1.9 * kSigma).force, other.at_separation(1.9 * kSigma).force, 1e-8);
+
+    // Pressing with a force tries separations beyond: no trace. Neither does a level computed twice.
+    ElementContact pressed(map, kTip, options(H)), indented(map, kTip, options(H));
+    const Level by_force = pressed.at_force(0.7 * turn.force);
+    indented.at_separation(by_force.separation);
+    indented.at_separation(by_force.separation);
+    CHECK(by_force.plastic_contacts > 0);
+    const double back = by_force.separation + 0.1 * kSigma;
+    CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-7);
+    CHECK_RELATIVE(pressed.at_force(0.5 * by_force.force).force, 0.5 * by_force.force, 1e-9);
+}
+
+// N = -dW/dZ0 and S = -dN/dZ0 on the way back; work put in = elastic energy + work lost; the loop's area = work lost.
+void test_work() {
+    const HeightMap map = rough(64, 8, 3);
+    const double H = 6000, top = 2.2 * kSigma, bottom = 0.2 * kSigma;
+    ElementContact contact(map, kTip, options(H, 1e-9));
+    CHECK(contact.at_separation(top).force == 0);
+    const int steps = 200;
+    double work = 0, spent = 0, lost = 0;
+    for (int half = 0; half < 2; ++half) {
+        for (int k = 0; k <= steps; ++k) {
+            const double t = static_cast<double>(k) / steps, Z0 = half == 0 ? top + t * (bottom - top) : bottom + t * (top - bottom);
+            const Level level = contact.at_separation(Z0);
+            const double weight = k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2;
+            work += (half == 0 ? 1 : -1) * weight * level.force * (top - bottom) / steps / 3;
+            CHECK(level.plastic_work >= lost - 1e-9 * lost);
+            lost = level.plastic_work;
+            if (half == 1 && k == 40) {
+                const double N = level.force, W = contact.energy(), S = contact.stiffness(), d = 1e-3 * kSigma;
+                const double N1 = contact.at_separation(Z0 + d).force, W1 = contact.energy();
+                const double N2 = contact.at_separation(Z0 + 2 * d).force;
+                CHECK_RELATIVE((W - W1) / d, 0.5 * (N + N1), 1e-4);
+                CHECK_RELATIVE((-1.5 * N + 2 * N1 - 0.5 * N2) / d, S, 1e-3);  // one-sided, of second order
+            }
+        }
+        if (half == 0) {
+            spent = work;
+            std::printf("load: work %.8g, elastic %.8g + lost %.8g: %.1e apart\n", work, contact.energy(), lost,
+                        (contact.energy() + lost) / work - 1);
+            // Simpson, with kinks where pixels touch and yield, and levels 1/200 of the way apart.
+            CHECK_RELATIVE(work, contact.energy() + lost, 2e-4);
+            CHECK(contact.energy() < 0.9 * work && contact.energy() > 0.1 * work);
+        }
+    }
+    std::printf("cycle: work %.8g, lost %.8g: %.1e of the work put in apart\n", work, lost, (work - lost) / spent);
+    CHECK(work >= 0 && lost > 0.1 * spent);
+    CHECK_CLOSE(work, lost, 2e-4 * spent);
+    CHECK(contact.energy() == 0 && contact.stiffness() == 0);
+}
+
+// How finely the path must be cut: not at all, on the way down.
+void test_cuts() {
+    const HeightMap map = rough(64, 8, 4);
+    const double H = 6000, top = 1.8 * kSigma, bottom = 0.2 * kSigma;
+    const auto end = [&](int levels) {
+        ElementContact contact(map, kTip, options(H));
+        Level last;
+        for (int k = 1; k <= levels; ++k) last = contact.at_separation(top + (bottom - top) * k / levels);
+        return last;
+    };
+    const Level fine = end(1000);
+    CHECK(fine.plastic_contacts > 0);
+    for (const int levels : {1, 10, 100}) {
+        const Level coarse = end(levels);
+        std::printf("%3d levels against 1000: N %.1e, A %.1e, plastic work %.1e\n", levels, coarse.force / fine.force - 1,
+                    coarse.area / fine.area - 1, coarse.plastic_work / fine.plastic_work - 1);
+        CHECK_RELATIVE(coarse.force, fine.force, 1e-6);
+        CHECK_RELATIVE(coarse.area, fine.area, 1e-6);
+        CHECK_RELATIVE(coarse.plastic_work, fine.plastic_work, 1e-6);
+    }
+}
+
+// The pixels with g0 > 0 by projected Gauss-Seidel on the full matrix, 0 <= p <= H, and heights lowered by what is pressed out.
+class Slow {
+public:
+    Slow(const HeightMap& map, double H) : map_(map), H_(H) {
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i) z_.push_back(map(i, j));
+        p_.assign(z_.size(), 0.0);
+    }
+    struct Answer {
+        double force = 0, pixels = 0, hard = 0, work = 0;
+    };
+    Answer at(double Z0) {
+        std::vector<std::size_t> where;
+        std::vector<double> g0, p;
+        for (std::size_t k = 0; k < z_.size(); ++k) {
+            const double g = height_under_sphere(kTip, x(k), y(k), z_[k]) - Z0;
+            if (!(g > 0)) {
+                p_[k] = 0;
+                continue;
+            }
+            where.push_back(k), g0.push_back(g), p.push_back(p_[k]);
+        }
+        const std::size_t n = where.size();
+        std::vector<double> K(n * n);
+        for (std::size_t k = 0; k < n; ++k)
+            for (std::size_t l = 0; l < n; ++l)
+                K[k * n + l] =
+                    love(x(where[k]) - x(where[l]), y(where[k]) - y(where[l]), 0.5 * map_.dx, 0.5 * map_.dy) / (std::numbers::pi * kE);
+        const auto gap = [&](std::size_t k) {
+            double w = -g0[k];
+            for (std::size_t l = 0; l < n; ++l) w += K[k * n + l] * p[l];
+            return w;
+        };
+        for (int sweep = 0; sweep < 20000; ++sweep) {
+            double moved = 0, largest = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+                const double next = std::clamp(p[k] - 1.5 * gap(k) / K[k * n + k], 0.0, H_);
+                moved = std::max(moved, std::abs(next - p[k])), largest = std::max(largest, next);
+                p[k] = next;
+            }
+            if (moved <= 1e-14 * largest) break;
+        }
+        Answer answer;
+        const double pixel = map_.dx * map_.dy;
+        for (std::size_t k = 0; k < n; ++k) {
+            p_[where[k]] = p[k];
+            answer.force += p[k] * pixel;
+            answer.pixels += p[k] > 0;
+            answer.hard += p[k] >= H_;
+            if (const double w = gap(k); p[k] >= H_ && w < 0) {
+                z_[where[k]] += w;
+                work_ -= H_ * w * pixel;
+            }
+        }
+        answer.work = work_;
+        return answer;
+    }
+
+private:
+    double x(std::size_t k) const { return map_.x0 + map_.dx * static_cast<double>(k % static_cast<std::size_t>(map_.nx)); }
+    double y(std::size_t k) const { return map_.y0 + map_.dy * static_cast<double>(k / static_cast<std::size_t>(map_.nx)); }
+    const HeightMap& map_;
+    double H_, work_ = 0;
+    std::vector<double> z_, p_;
+};
+
+void test_independent() {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    double worst = 0;
+    int compared = 0, yielding = 0;
+    for (int system = 0; system < 8; ++system) {
+        const HeightMap map = rough(28, 7, 100 + system);
+        const double H = 500 * std::pow(40.0, uniform(random));
+        ElementContact contact(map, kTip, options(H, 1e-11));
+        Slow slow(map, H);
+        double largest = 0, largest_work = 0;
+        for (int step = 0; step < 5; ++step) {  // up and down as it comes
+            const double Z0 = (0.4 + 1.2 * uniform(random)) * kSigma;
+            const Level level = contact.at_separation(Z0);
+            CHECK(level.status != LevelStatus::not_converged);
+            const Slow::Answer truth = slow.at(Z0);
+            largest = std::max(largest, truth.force), largest_work = std::max(largest_work, truth.work);
+            if (!(largest > 0)) continue;
+            ++compared, yielding += truth.hard > 0;
+            worst = std::max({worst, std::abs(level.force - truth.force) / largest,
+                              largest_work > 0 ? std::abs(level.plastic_work - truth.work) / largest_work : 0.0});
+            CHECK_CLOSE(static_cast<double>(level.pixels.index.size()), truth.pixels, 0.5);
+        }
+    }
+    std::printf("%d levels of elements, %d of them yielding, largest difference from the slow solver %.1e\n", compared, yielding, worst);
+    CHECK(compared > 30 && yielding > 8 && worst < 1e-8);
+}
+
+}  // namespace
+
+int main() {
+    test_limits();
+    test_sphere();
+    test_path();
+    test_work();
+    test_cuts();
+    test_independent();
+    return check::summary();
+}
