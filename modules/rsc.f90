@@ -32,7 +32,7 @@ module rsc
   implicit none
   private
   public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version
-  public :: rsc_stiffness_ratio, rsc_press_all
+  public :: rsc_stiffness_ratio, rsc_press_all, rsc_indent_all
 
   !> Status codes.
   integer, parameter, public :: rsc_success = 0
@@ -1708,22 +1708,54 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(c_ptr) :: handles(size(contacts))
+    if (.not. of_one_size('rsc_press_all', contacts, force, separation, each, stat, errmsg)) return
+    handles = handles_of(contacts)
+    call finish(rsc_contacts_press(size(contacts, kind=c_int64_t), handles, force, separation, each, team_of(threads)), stat, &
+                errmsg)
+  end subroutine
+
+  !> Indents many contacts to a separation each, shared out among threads (0: all the machine has); the forces, and what indent tells of each.
+  subroutine rsc_indent_all(contacts, separation, force, threads, each, stat, errmsg)
+    type(rsc_contact), intent(inout) :: contacts(:)
+    real(c_double), intent(in) :: separation(:)
+    real(c_double), intent(inout), contiguous :: force(:)
+    integer, intent(in), optional :: threads
+    integer(c_int32_t), intent(inout), contiguous, optional :: each(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handles(size(contacts))
+    if (.not. of_one_size('rsc_indent_all', contacts, separation, force, each, stat, errmsg)) return
+    handles = handles_of(contacts)
+    call finish(rsc_contacts_indent(size(contacts, kind=c_int64_t), handles, separation, force, each, team_of(threads)), stat, &
+                errmsg)
+  end subroutine
+
+  logical function of_one_size(name, contacts, given, answer, each, stat, errmsg)
+    character(*), intent(in) :: name
+    type(rsc_contact), intent(in) :: contacts(:)
+    real(c_double), intent(in) :: given(:), answer(:)
+    integer(c_int32_t), intent(in), optional :: each(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    of_one_size = size(given) == size(contacts) .and. size(answer) == size(contacts)
+    if (present(each)) of_one_size = of_one_size .and. size(each) == size(contacts)
+    if (.not. of_one_size) call refuse(name//': the arrays are not of one size', stat, errmsg)
+  end function
+
+  function handles_of(contacts) result(handles)
+    type(rsc_contact), intent(inout) :: contacts(:)
+    type(c_ptr) :: handles(size(contacts))
     integer :: i
-    integer(c_int32_t) :: team
-    logical :: same
-    same = size(force) == size(contacts) .and. size(separation) == size(contacts)
-    if (present(each)) same = same .and. size(each) == size(contacts)
-    if (.not. same) then
-      call refuse('rsc_press_all: the arrays are not of one size', stat, errmsg)
-      return
-    end if
-    team = 0
-    if (present(threads)) team = int(threads, c_int32_t)
     do i = 1, size(contacts)
       handles(i) = changing(contacts(i)%ticket)
     end do
-    call finish(rsc_contacts_press(size(contacts, kind=c_int64_t), handles, force, separation, each, team), stat, errmsg)
-  end subroutine
+  end function
+
+  integer(c_int32_t) function team_of(threads)
+    integer, intent(in), optional :: threads
+    team_of = 0
+    if (present(threads)) team_of = int(threads, c_int32_t)
+  end function
 
   ! --- friction ------------------------------------------------------------------------------------------------------------------------
 

@@ -37,7 +37,7 @@ import threading
 import numpy as np
 
 __all__ = ["Case", "Surface", "Asperities", "Contact", "Friction", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
-           "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "version", "keys"]
+           "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "press_all", "indent_all", "version", "keys"]
 
 # ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
 # One row a function, as rsc.h declares it (all return int32_t); a test compares them. From a row follow the ctypes, the checks of
@@ -349,18 +349,27 @@ def _convert(argument, value):
     return value, value  # byref of a handle
 
 
+def _handles(value):
+    """What the library knows an object by, or a list of them."""
+    if isinstance(value, list):
+        return (ctypes.c_void_p * len(value))(*[one._handle.value for one in value])
+    return value._handle if isinstance(value, _Object) else value
+
+
 def _call(function, *values):
     """Calls a function of rsc.h: converts and checks the values, holds the objects among them, raises what went wrong."""
     arguments = _FUNCTIONS[function]
     converted, alive, objects = [], [], []
     for argument, value in zip(arguments, values):
-        if argument.type.startswith("rsc_") and argument.stars == 1:
+        many = argument.stars == 2 and isinstance(value, list)
+        if argument.type.startswith("rsc_") and (argument.stars == 1 or many):
             if value is None:
                 converted.append(None)
                 continue
-            if not isinstance(value, _Object) or "rsc_" + value._kind != argument.type:
-                _refuse(argument.name, f"an object of rsc.{argument.type[4:].capitalize()} is expected, not {type(value).__name__}")
-            objects.append((value, argument.const, argument.name))
+            for one in value if many else [value]:
+                if not isinstance(one, _Object) or "rsc_" + one._kind != argument.type:
+                    _refuse(argument.name, f"an object of rsc.{argument.type[4:].capitalize()} is expected, not {type(one).__name__}")
+                objects.append((one, argument.const, argument.name))
             converted.append(value)
         else:
             value, owner = _convert(argument, value)
@@ -375,7 +384,7 @@ def _call(function, *values):
         for value, _, name in objects:
             if not value._handle:
                 _refuse(name, "this object is closed")
-        status = getattr(_library, function)(*[v._handle if isinstance(v, _Object) else v for v in converted])
+        status = getattr(_library, function)(*[_handles(v) for v in converted])
     finally:
         for value, const in held:
             value._lock.release(const)
@@ -954,6 +963,36 @@ def _filled(values):
     if np.ma.isMaskedArray(values) and values.dtype.kind == "f":
         return np.ma.filled(values, np.nan)
     return np.ma.getdata(values)
+
+
+def press_all(contacts, forces, threads=0):
+    """Contact.press for many contacts, shared out among threads. contacts: different Contacts; forces: N >= 0 of each, shape (n,) [force];
+    threads: how many, 0 for all the machine has (the answers do not depend on it). Returns (separations, statuses), arrays of shape (n,):
+    Z0 of each [length], NaN where there is none, and SUCCESS, NOT_CONVERGED or another status of rsc.h for each. Raises ArgumentError for a
+    contact given twice, a force that is negative or not finite, or a contact without asperities below its sphere."""
+    return _all("rsc_contacts_press", contacts, "forces", forces, threads)
+
+
+def indent_all(contacts, separations, threads=0):
+    """Contact.indent for many contacts, as press_all. contacts: different Contacts; separations: Z0 of each, shape (n,) [length];
+    threads: how many, 0 for all. Returns (forces, statuses): N of each [force]. Raises ArgumentError as press_all does."""
+    return _all("rsc_contacts_indent", contacts, "separations", separations, threads)
+
+
+def _all(function, contacts, name, values, threads):
+    contacts = list(contacts)
+    if len({id(contact) for contact in contacts}) < len(contacts):
+        _refuse("contacts", "different contacts are expected: one is given twice")
+    values = _array(name, values, (len(contacts),))
+    answers, statuses = np.full(len(contacts), np.nan), np.zeros(len(contacts), np.int32)
+    try:
+        _call(function, len(contacts), contacts, values, answers, statuses, threads)
+    except ArgumentError:
+        raise
+    except Error:
+        if not statuses.any():  # not of one contact
+            raise
+    return answers, statuses
 
 
 def study(case, over, run, mode="product", threads=1, progress=None):

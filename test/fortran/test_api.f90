@@ -203,7 +203,7 @@ contains
     type(rsc_contact) :: contact
     type(rsc_friction) :: path, other, again
     type(rsc_contact) :: kept(2)
-    real(dp) :: places(2)
+    real(dp) :: places(2), forces(2)
     integer(c_int32_t) :: each(2)
     integer :: unit
     real(dp), parameter :: r = 2.0e-3_dp, mu = 0.3_dp, z = 0.01_dp
@@ -261,6 +261,11 @@ contains
     call rsc_press_all(kept, [N, 2 * N], places, threads=2, each=each)
     call contact%press(2 * N, separation=before)
     call check(places(2) >= before .and. places(2) <= before .and. all(each == 0), 'pressed together')
+    call rsc_indent_all(kept, [z, z - u], forces, threads=2, each=each)
+    call contact%indent(z - u, force=before)
+    call check(forces(2) >= before .and. forces(2) <= before .and. all(each == 0), 'indented together')
+    call rsc_indent_all(kept, [z], forces, stat=stat)
+    call check(stat == -1 .and. forces(2) >= before .and. forces(2) <= before, 'arrays not of one size')
     call rsc_press_all(kept, [N, -N], places, each=each, stat=stat)
     call check(stat == -2 .and. each(2) == -2 .and. each(1) == 0, 'one of them refused')
     call path%rollback()

@@ -18,6 +18,9 @@ CASES = {
     "direct, another seed": {"run%seed": 7, "solver%method": "direct"},
     "fourth_order": {"asperities%law": "fourth_order", "surface%hurst": 0.5},
     "no interaction, off centre": {"solver%interaction": "none", "indentation%centre": [0.4, 0.55]},
+    "pressed by forces": {"indentation": {"control": "force", "start": 0.5, "stop": 30.0}},
+    "elements": {"solver%model": "elements", "elements%points_per_wave": 4},
+    "two flats": {"solids%R": [float("inf"), float("inf")], "indentation%boundary": "periodic", "asperities%law": "elliptic"},
     "two elastic bodies": {"solids": {"E": [1e5, 2e5], "nu": [0.3, 0.25], "R": [3.0, 5.0]}, "surface%plateau": True},
 }
 NAMES = ("separation", "force", "contact_area", "stiffness", "contacts")
@@ -64,6 +67,9 @@ def main():
             files["program"] = rsc.read(target, xarray=False)
             of_program, of_run = ({k: np.ravel(files[by][k]) for k in NAMES if k in files[by]} for by in ("program", "rsc_case_run"))
             levels = [("indent", float(z)) for z in of_program["separation"]]
+            if case["indentation%control"] == "force":
+                start, stop, steps = (case[f"indentation%{name}"] for name in ("start", "stop", "steps"))
+                levels = [("press", float(N)) for N in np.linspace(start, stop, steps)]
             summits, of_python = by_python(case, levels)
             of_fortran = by_fortran(sys.argv[1], folder, case, levels)
             results = {"rsc_case_run": of_run, "program": of_program, "Fortran": of_fortran[1]}
