@@ -22,7 +22,7 @@ look() {
     need make command -v make
     need pkg-config command -v pkg-config
     need libopenblas-dev links -llapack -lblas
-    need libfftw3-dev pkg-config --exists fftw3
+    need libfftw3-dev pkg-config --exists fftw3 fftw3f
     need libnetcdf-dev pkg-config --exists netcdf
     need libnetcdff-dev pkg-config --exists netcdf-fortran
     need libudunits2-dev header_udunits

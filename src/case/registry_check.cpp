@@ -118,8 +118,6 @@ private:
                         {"solids%size_effect", elements},
                         "size_effect: elements have no radius to scale the hardness by; give the hardness that holds for asperities of "
                         "this size");
-                if (c_.indentation.boundary == Boundary::periodic)
-                    complain({"solids%hardness", elements}, "hardness: elements that yield between two flats are not available yet");
             }
         }
         if (c_.solids.friction > 0 && c_.solver.model == Model::elements)
@@ -212,9 +210,6 @@ private:
                      "selection = 'paper': is a circle under a sphere, and two flats have none");
         if (periodic && c_.surface.source == Source::asperities && !c_.surface.L)
             complain({"surface%L", "indentation%boundary"}, "L: a list of asperities has no period of its own; give its side");
-        if (periodic && (c_.solver.model == Model::elements || !c_.compare.levels.empty()))
-            complain({"indentation%boundary", c_.solver.model == Model::elements ? "solver%model" : "compare%levels"},
-                     "boundary = 'periodic': elements that repeat are not available yet");
         if (i.control == Control::pressure && !periodic)
             complain({"indentation%control", "indentation%boundary"},
                      "control = 'pressure': a nominal pressure needs a nominal area, that of boundary = 'periodic'");

@@ -55,6 +55,11 @@ protected:
 
     // A trial: the answer at Z0, which stiffness() and energy() then speak of.
     virtual Level solve(double Z0) = 0;
+    // The answer under the force N, of a model that has one at hand: force control is then nothing else.
+    virtual std::optional<Level> solve_under(double N) {
+        (void)N;
+        return std::nullopt;
+    }
     // The last level solved is accepted: what remembers its path goes on from here, and completes the level by what that cost.
     virtual void accept(Level& level) { (void)level; }
 

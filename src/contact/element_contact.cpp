@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/periodic_element_contact.hpp"
+#include "contact/pixel_spots.hpp"
 #include "contact/pressed_out.hpp"
 #include "contact/ranking.hpp"
 #include "contact/solver/elements.hpp"
@@ -148,100 +150,19 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
     if (!outcome.converged) level.status = LevelStatus::not_converged;
 
     std::vector<Pixel> touching;
-    std::vector<double> pressure, gap;
+    std::vector<double> pressure;
     for (std::size_t k = 0; k < pixels.size(); ++k) {
         if (!(p[k] > 0)) continue;
         touching.push_back(pixels[k]);
         pressure.push_back(p[k]);
-        gap.push_back(g0[k]);
     }
-    std::vector<int> label;
-    const int contacts = connected_sets(touching, label);
-    struct Sum {
-        double p = 0, px = 0, py = 0, highest = 0, g0 = 0;
-        long pixels = 0, border = 0;  // border: sides without a neighbour, of pixels below the hardness
-        bool yields = false;
-        Pixel peak{0, 0};
-    };
-    std::vector<Sum> sums(at(contacts));
-    double extreme = 0;  // pixels
-    // Sides of each pixel without a neighbour under pressure: those of the contacts' borders.
-    std::vector<int> open(touching.size(), 4);
-    for (std::size_t k = 0, above = 0; k < touching.size(); ++k) {
-        const Pixel q = touching[k];
-        if (k > 0 && touching[k - 1] == Pixel{q.x - 1, q.y}) --open[k - 1], --open[k];
-        while (above < k && (touching[above].y < q.y - 1 || (touching[above].y == q.y - 1 && touching[above].x < q.x))) ++above;
-        if (above < k && touching[above] == Pixel{q.x, q.y - 1}) --open[above], --open[k];
-    }
-    const double hardness = options.hardness.H0;
-    for (std::size_t k = 0; k < touching.size(); ++k) {
-        Sum& s = sums[at(label[k])];
-        const Pixel q = touching[k];
-        s.p += pressure[k];
-        s.px += pressure[k] * x(q.x);
-        s.py += pressure[k] * y(q.y);
-        s.pixels += 1;
-        const bool yields = pressure[k] >= hardness;
-        s.yields = s.yields || yields;
-        if (!yields) s.border += open[k];
-        if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
-        if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = q, s.g0 = gap[k];
-    }
-    // Penetration: how far the contact alone presses in the place of its highest pressure.
-    std::vector<double> own(sums.size(), 0.0);
-    for (std::size_t k = 0; k < touching.size(); ++k) {
-        const Pixel peak = sums[at(label[k])].peak;
-        own[at(label[k])] += pressure[k] * products->coefficient(touching[k].x - peak.x, touching[k].y - peak.y);
-    }
-    const double pixel = heights.dx * heights.dy;
-    const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
-    for (std::size_t c = 0; c < sums.size(); ++c) {
-        const Sum& s = sums[c];
-        const double area = pixel * (static_cast<double>(s.pixels) - border * static_cast<double>(s.border));
-        level.add_contact(s.peak.y * heights.nx + s.peak.x, s.px / s.p, s.py / s.p, s.p * pixel, std::sqrt(area / std::numbers::pi),
-                          own[c]);
-        level.force += s.p * pixel;
-        level.area += area;
-        if (std::isfinite(hardness)) level.yields.push_back(s.yields);
-        level.plastic_contacts += s.yields;
-    }
-    if (!touching.empty()) level.extreme_area_fraction = extreme / static_cast<double>(touching.size());
-    level.area_pixels = pixel * static_cast<double>(touching.size());
-    level.pixels.columns = heights.nx;
-    level.pixels.x0 = heights.x0;
-    level.pixels.y0 = heights.y0;
-    level.pixels.dx = heights.dx;
-    level.pixels.dy = heights.dy;
-    for (const Pixel& q : touching) level.pixels.index.push_back(q.y * heights.nx + q.x);
-    level.pixels.contact = std::move(label);
-    level.pixels.pressure = std::move(pressure);
+    add_pixels(level, heights, indenter, options.hardness.H0, touching, std::move(pressure));
     judge_edges(level, options);
     return level;
 }
 
-namespace {
-
-const HeightMap& checked(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
-    if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) throw Error(Failure::bad_input, "E* must be positive and finite");
-    if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
-    if (!(options.tolerance > 0)) throw Error(Failure::bad_input, "the tolerance must be positive");
-    if (heights.nx < 1 || heights.ny < 1 || !(heights.dx > 0) || !(heights.dy > 0))
-        throw Error(Failure::bad_input, "elements: the map of heights is empty");
-    constexpr double thinnest = 32;
-    if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
-        throw Error(Failure::bad_input, "elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
-                                            " are longer than 32 times their width");
-    if (!(options.hardness.H0 > 0)) throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
-    if (std::isfinite(options.hardness.H0) && options.hardness.length != 0)
-        throw Error(Failure::bad_input,
-                    "solids%size_effect: elements have no radius to scale the hardness by; give the hardness that holds");
-    return heights;
-}
-
-}  // namespace
-
 ElementContact::ElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
-    : impl_(std::make_unique<Impl>(checked(heights, indenter, options), indenter, options)) {}
+    : impl_(std::make_unique<Impl>(require_elements(heights, indenter, options), indenter, options)) {}
 ElementContact::~ElementContact() = default;
 ElementContact::ElementContact(ElementContact&&) noexcept = default;
 
@@ -328,5 +249,10 @@ std::optional<double> ElementContact::likely_separation() const {
 }
 
 std::size_t ElementContact::levels_since_move() const { return impl_->since_move; }
+
+std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
+    if (indenter.period.finite()) return std::make_unique<PeriodicElementContact>(heights, indenter, options);
+    return std::make_unique<ElementContact>(heights, indenter, options);
+}
 
 }  // namespace rsc

@@ -51,4 +51,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+// The contact of elements that an indenter asks for: this one, or where it has a period that of periodic_element_contact.hpp.
+std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
+
 }  // namespace rsc

@@ -74,6 +74,11 @@ Level Contact::at_force(double N) {
     if (!(N > 0) || !std::isfinite(N)) throw Error(Failure::bad_input, "the force must be positive and finite");
     double above = first_touch();  // separations that carry less
     if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the sphere: no force can be carried");
+    if (std::optional<Level> level = solve_under(N)) {
+        if (level->status != LevelStatus::not_converged) accept(*level);
+        remember(*level);
+        return std::move(*level);
+    }
     double below = -kInfinity;  // separations that carry more
     // A first depth: what the place touched first would need alone.
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());

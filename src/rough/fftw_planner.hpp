@@ -38,4 +38,13 @@ struct FftwPlanDestroyer {
 // Owns a plan; executing it from several threads at once, each on its own arrays, is safe (fftw_execute_dft and its kin).
 using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwPlanDestroyer>;
 
+// The same in single precision.
+struct FftwfPlanDestroyer {
+    void operator()(fftwf_plan plan) const noexcept {
+        const std::lock_guard lock(fftw_planner_mutex());
+        fftwf_destroy_plan(plan);
+    }
+};
+using FftwfPlan = std::unique_ptr<std::remove_pointer_t<fftwf_plan>, FftwfPlanDestroyer>;
+
 }  // namespace rsc

@@ -63,7 +63,8 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
     HeightMap& map = surface.map;
     map.x0 = job.site.domain.x0;  // of several measured maps the first one says where they lie
     map.y0 = job.site.domain.y0;
-    ElementContact contact(map, job.indenter, job.solver);
+    const std::unique_ptr<Contact> elements = make_element_contact(map, job.indenter, job.solver);
+    Contact& contact = *elements;
     if (table) *table << "\ncompared with elements on " << map.nx << " x " << map.ny << " points (asperities over elements - 1):\n";
     std::size_t next = 0;
     bool on_path = true;  // elements have been where they had to

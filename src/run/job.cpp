@@ -130,7 +130,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             r.statistics = ground.statistics;
             r.heights = std::move(surface.map);
         }
-        contact = std::make_unique<ElementContact>(job.given ? *job.given_heights : *r.heights, job.indenter, job.solver);
+        contact = make_element_contact(job.given ? *job.given_heights : *r.heights, job.indenter, job.solver);
     } else {
         if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
         Ground ground = job.spectrum ? make_ground(settings, *job.spectrum, number, threads)

@@ -310,7 +310,7 @@ Period period_of(const Case& settings, const Site& site) {
 }
 
 std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options) {
-    if (ground.points) return std::make_unique<ElementContact>(*ground.points, indenter, options);
+    if (ground.points) return make_element_contact(*ground.points, indenter, options);
     return std::make_unique<AsperityContact>(ground.asperities, indenter, options);
 }
 

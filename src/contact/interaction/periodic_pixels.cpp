@@ -1,0 +1,171 @@
+#include "contact/interaction/periodic_pixels.hpp"
+
+#include <omp.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "error.hpp"
+#include "rough/fftw_planner.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kThreads = 400000;  // pixels from which threads pay
+constexpr std::size_t kLine = 64;         // bytes
+constexpr int kColumns = 8;               // transformed together
+
+// FFTW's two sets of names.
+template <class Real>
+struct Fftw;
+template <>
+struct Fftw<double> {
+    using Complex = fftw_complex;
+    using Plan = FftwPlan;
+    static Plan rows_forward(int n, double* p) { return Plan(fftw_plan_dft_r2c_1d(n, p, reinterpret_cast<Complex*>(p), FFTW_ESTIMATE)); }
+    static Plan rows_backward(int n, double* p) { return Plan(fftw_plan_dft_c2r_1d(n, reinterpret_cast<Complex*>(p), p, FFTW_ESTIMATE)); }
+    static Plan columns(int n, double* p, int sign) {
+        auto* c = reinterpret_cast<Complex*>(p);
+        return Plan(fftw_plan_many_dft(1, &n, kColumns, c, nullptr, kColumns, 1, c, nullptr, kColumns, 1, sign, FFTW_ESTIMATE));
+    }
+    static void forward(const Plan& plan, double* p) { fftw_execute_dft_r2c(plan.get(), p, reinterpret_cast<Complex*>(p)); }
+    static void backward(const Plan& plan, double* p) { fftw_execute_dft_c2r(plan.get(), reinterpret_cast<Complex*>(p), p); }
+    static void complex(const Plan& plan, double* p) {
+        fftw_execute_dft(plan.get(), reinterpret_cast<Complex*>(p), reinterpret_cast<Complex*>(p));
+    }
+};
+template <>
+struct Fftw<float> {
+    using Complex = fftwf_complex;
+    using Plan = FftwfPlan;
+    static Plan rows_forward(int n, float* p) { return Plan(fftwf_plan_dft_r2c_1d(n, p, reinterpret_cast<Complex*>(p), FFTW_ESTIMATE)); }
+    static Plan rows_backward(int n, float* p) { return Plan(fftwf_plan_dft_c2r_1d(n, reinterpret_cast<Complex*>(p), p, FFTW_ESTIMATE)); }
+    static Plan columns(int n, float* p, int sign) {
+        auto* c = reinterpret_cast<Complex*>(p);
+        return Plan(fftwf_plan_many_dft(1, &n, kColumns, c, nullptr, kColumns, 1, c, nullptr, kColumns, 1, sign, FFTW_ESTIMATE));
+    }
+    static void forward(const Plan& plan, float* p) { fftwf_execute_dft_r2c(plan.get(), p, reinterpret_cast<Complex*>(p)); }
+    static void backward(const Plan& plan, float* p) { fftwf_execute_dft_c2r(plan.get(), reinterpret_cast<Complex*>(p), p); }
+    static void complex(const Plan& plan, float* p) {
+        fftwf_execute_dft(plan.get(), reinterpret_cast<Complex*>(p), reinterpret_cast<Complex*>(p));
+    }
+};
+
+}  // namespace
+
+template <class Real>
+struct PeriodicPixels<Real>::Plans {
+    typename Fftw<Real>::Plan rows_forward, rows_backward, columns_forward, columns_backward;
+    std::vector<Memory> blocks;  // columns at work, one set a thread
+};
+
+template <class Real>
+void PeriodicPixels<Real>::Free::operator()(Real* p) const noexcept {
+    HeightMap::Free()(reinterpret_cast<double*>(p));
+}
+
+template <class Real>
+typename PeriodicPixels<Real>::Memory PeriodicPixels<Real>::allocate(std::size_t n) {
+    constexpr std::size_t each = sizeof(double) / sizeof(Real);
+    return Memory(reinterpret_cast<Real*>(allocate_doubles((n + each - 1) / each, "the pressures on all pixels")));
+}
+
+template <class Real>
+PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy)
+    : nx_(nx),
+      ny_(ny),
+      dx_(dx),
+      dy_(dy),
+      threads_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) >= kThreads),
+      plans_(std::make_unique<Plans>()) {
+    // Whole blocks of columns, and rows an odd number of cache lines apart: columns then do not meet in the same places of a cache.
+    constexpr std::size_t line = kLine / sizeof(Real);
+    std::size_t lines = (2 * static_cast<std::size_t>((nx / 2 + kColumns) / kColumns * kColumns) + line - 1) / line;
+    lines += lines % 2 == 0;
+    stride_ = lines * line;
+    plane_ = allocate(stride_ * static_cast<std::size_t>(ny));
+    const int threads = threads_ ? omp_get_max_threads() : 1;
+    for (int t = 0; t < threads; ++t) plans_->blocks.push_back(allocate(2 * kColumns * static_cast<std::size_t>(ny)));
+    const auto lock = fftw_planning();
+    Real *const rows = plane_.get(), *const block = plans_->blocks[0].get();
+    plans_->rows_forward = Fftw<Real>::rows_forward(nx, rows);
+    plans_->rows_backward = Fftw<Real>::rows_backward(nx, rows);
+    plans_->columns_forward = Fftw<Real>::columns(ny, block, FFTW_FORWARD);
+    plans_->columns_backward = Fftw<Real>::columns(ny, block, FFTW_BACKWARD);
+    if (!plans_->rows_forward || !plans_->rows_backward || !plans_->columns_forward || !plans_->columns_backward)
+        throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " + std::to_string(ny) + " pixels");
+}
+
+template <class Real>
+PeriodicPixels<Real>::~PeriodicPixels() = default;
+
+template <class Real>
+std::size_t PeriodicPixels<Real>::bytes() const {
+    return sizeof(Real) * (stride_ * static_cast<std::size_t>(ny_) + plans_->blocks.size() * 2 * kColumns * static_cast<std::size_t>(ny_));
+}
+
+// Columns of modes, a few at a time: there, times the answer, and back while they are in the cache.
+template <class Real>
+void PeriodicPixels<Real>::columns(Answer answer) {
+    const int half = nx_ / 2 + 1, blocks = (half + kColumns - 1) / kColumns;
+    const double pi = std::numbers::pi, points = static_cast<double>(nx_) * static_cast<double>(ny_);
+    std::vector<Real> ky2(static_cast<std::size_t>(ny_));  // (ky dx)^2
+    for (int j = 0; j < ny_; ++j) {
+        const double k = 2 * pi * (2 * j <= ny_ ? j : j - ny_) / ny_ * (dx_ / dy_);
+        ky2[static_cast<std::size_t>(j)] = static_cast<Real>(k * k);
+    }
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(plans_->blocks.size()))
+    for (int b = 0; b < blocks; ++b) {
+        constexpr std::size_t width = 2 * kColumns;
+        Real* const block = plans_->blocks[static_cast<std::size_t>(omp_get_thread_num())].get();
+        Real* const plane = plane_.get() + static_cast<std::size_t>(b) * width;
+        const auto rows = static_cast<std::size_t>(ny_);
+        for (std::size_t j = 0; j < rows; ++j) std::copy_n(plane + j * stride_, width, block + j * width);
+        Fftw<Real>::complex(plans_->columns_forward, block);
+        Real kx2[kColumns];  // (kx dx)^2
+        for (int c = 0; c < kColumns; ++c) {
+            const double k = 2 * pi * (b * kColumns + c) / nx_;
+            kx2[c] = static_cast<Real>(k * k);
+        }
+        const auto two = static_cast<Real>(2 / points), part = static_cast<Real>(0.5 / points);
+        for (std::size_t j = 0; j < rows; ++j) {
+            Real factor[kColumns];
+            if (answer == Answer::deflection)
+                for (int c = 0; c < kColumns; ++c) factor[c] = two / std::sqrt(kx2[c] + ky2[j]);
+            else
+                for (int c = 0; c < kColumns; ++c) factor[c] = part * std::sqrt(kx2[c] + ky2[j]);
+            if (b == 0 && j == 0) factor[0] = 0;
+            Real* const value = block + j * width;
+            for (int c = 0; c < kColumns; ++c) value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];
+        }
+        Fftw<Real>::complex(plans_->columns_backward, block);
+        for (std::size_t j = 0; j < rows; ++j) std::copy_n(block + j * width, width, plane + j * stride_);
+    }
+}
+
+template <class Real>
+void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
+    const int threads = static_cast<int>(plans_->blocks.size());
+    // What lies beyond the modes of a row would be transformed with them: it must be numbers.
+    const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int j = 0; j < ny_; ++j) {
+        load(j, row(j));
+        Fftw<Real>::forward(plans_->rows_forward, row(j));
+        std::fill(row(j) + used, row(j) + stride_, Real(0));
+    }
+    columns(answer);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int j = 0; j < ny_; ++j) {
+        Fftw<Real>::backward(plans_->rows_backward, row(j));
+        take(j, row(j));
+    }
+}
+
+template class PeriodicPixels<float>;
+template class PeriodicPixels<double>;
+
+}  // namespace rsc

@@ -1,0 +1,139 @@
+#include "contact/periodic_element_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/pixel_spots.hpp"
+#include "contact/pressed_out.hpp"
+#include "contact/solver/periodic_elements.hpp"
+#include "error.hpp"
+
+namespace rsc {
+
+struct PeriodicElementContact::Impl {
+    HeightMap own;  // of a surface that yields: the heights as they are now
+    const HeightMap& heights;
+    Indenter indenter;
+    SolverOptions options;
+    PressedOut pressed;
+    PeriodicElements solver;
+    double top = 0;
+    bool touches = false;   // the last level
+    bool accepted = false;  // the last level: from then on the contact is elastic until pressed further
+
+    Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
+        : own(std::isfinite(options_.hardness.H0) ? copy(heights_) : HeightMap{}),
+          heights(own.data ? own : heights_),
+          indenter(indenter_),
+          options(options_),
+          pressed(heights_.nx, heights_.ny),
+          solver({heights.nx, heights.ny, heights.dx, heights.dy, heights.data.get(), heights.stride}, indenter_.E_star,
+                 options_.hardness.H0) {
+        find_top();
+    }
+
+    static HeightMap copy(const HeightMap& from) {
+        HeightMap to;
+        to.allocate(from.nx, from.ny, from.nx);
+        to.dx = from.dx, to.dy = from.dy, to.x0 = from.x0, to.y0 = from.y0;
+        for (int j = 0; j < from.ny; ++j) std::copy_n(from.row(j), from.nx, to.row(j));
+        return to;
+    }
+    void find_top() {
+        top = -std::numeric_limits<double>::infinity();
+        for (int j = 0; j < heights.ny; ++j) top = std::max(top, *std::max_element(heights.row(j), heights.row(j) + heights.nx));
+    }
+    double area() const { return heights.Lx() * heights.Ly(); }
+    Level report(double Z0, const ElementsOutcome& outcome);
+};
+
+Level PeriodicElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) {
+    Level level;
+    level.separation = Z0;
+    level.candidates = heights.nx * heights.ny;
+    level.iterations = outcome.iterations;
+    level.products = outcome.products;
+    level.residual = outcome.residual;
+    level.method = Method::automatic;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    touches = Z0 < top;
+    accepted = false;
+    if (touches)
+        add_pixels(level, heights, indenter, options.hardness.H0, solver.pixels(), solver.pressures());
+    else
+        add_pixels(level, heights, indenter, options.hardness.H0, {}, {});
+    return level;
+}
+
+PeriodicElementContact::PeriodicElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(require_elements(heights, indenter, options), indenter, options)) {}
+PeriodicElementContact::~PeriodicElementContact() = default;
+
+Level PeriodicElementContact::solve(double Z0) {
+    Impl& my = *impl_;
+    ElementsOutcome outcome;
+    outcome.converged = true;
+    if (Z0 < my.top) outcome = my.solver.approach(Z0, my.options.tolerance, my.options.max_iterations);
+    return my.report(Z0, outcome);
+}
+
+std::optional<Level> PeriodicElementContact::solve_under(double N) {
+    Impl& my = *impl_;
+    const ElementsOutcome outcome = my.solver.press(N / my.area(), my.options.tolerance, my.options.max_iterations);
+    return my.report(my.solver.separation(), outcome);
+}
+
+// Pixels at the hardness that would penetrate are lowered by it: the same pressures then leave no penetration anywhere.
+void PeriodicElementContact::accept(Level& level) {
+    Impl& my = *impl_;
+    my.accepted = true;
+    if (!path_dependent()) return;
+    bool lowered = false;
+    for (std::size_t k = 0; my.touches && k < my.solver.pixels().size(); ++k) {
+        const double depth = 0 - my.solver.gaps()[k];
+        if (!(my.solver.pressures()[k] >= my.options.hardness.H0) || !(depth > 0)) continue;
+        const auto [i, j] = my.solver.pixels()[k];
+        my.pressed.add(i, j, depth);
+        my.own.row(j)[i] -= depth;
+        lowered = true;
+    }
+    if (lowered) {
+        my.find_top();
+        my.solver.heights_changed();
+    }
+    level.plastic_work = my.options.hardness.H0 * my.heights.dx * my.heights.dy * my.pressed.sum();
+}
+
+bool PeriodicElementContact::path_dependent() const { return std::isfinite(impl_->options.hardness.H0); }
+
+ResidualProfile PeriodicElementContact::residual_profile() const {
+    const Impl& my = *impl_;
+    ResidualProfile profile{{}, {}, {}, my.heights.dx, my.heights.dy};
+    for (const auto& [i, j, depth] : my.pressed.points()) {
+        profile.x.push_back(my.heights.x0 + i * my.heights.dx);
+        profile.y.push_back(my.heights.y0 + j * my.heights.dy);
+        profile.depth.push_back(depth);
+    }
+    return profile;
+}
+
+double PeriodicElementContact::stiffness() { return impl_->touches ? 0 - impl_->area() * impl_->solver.stiffness(impl_->accepted) : 0; }
+double PeriodicElementContact::energy() const { return impl_->touches ? impl_->area() * impl_->solver.energy() : 0; }
+
+void PeriodicElementContact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+    impl_->indenter.x0 = x0;
+    impl_->indenter.y0 = y0;
+}
+
+double PeriodicElementContact::first_touch() const { return impl_->top; }
+const Indenter& PeriodicElementContact::indenter() const { return impl_->indenter; }
+double PeriodicElementContact::tolerance() const { return impl_->options.tolerance; }
+
+// A flat punch as wide as the period: force control does not ask, as solve_under() answers.
+double PeriodicElementContact::first_place_force(double depth) {
+    return impl_->indenter.E_star * std::max(impl_->heights.Lx(), impl_->heights.Ly()) * depth;
+}
+
+}  // namespace rsc

@@ -1,0 +1,44 @@
+// Two rough flats that repeat, by the points of the surface: element_contact.hpp with boundary = 'periodic' (Johnson 1985, chapter 13).
+#pragma once
+
+#include <memory>
+
+#include "contact/contact.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+// Separations are from z = 0 of the heights, their mean plane where they have one (made surfaces, detrended maps), to the flat, the mean of
+// all deflections being 0. As between asperities, and as the pressure's modes answer: 2/(E* |k|), k = 0 with nothing.
+class PeriodicElementContact final : public Contact {
+public:
+    // The heights must outlive the contact, which never changes them; the map is the period. Of the options it takes the tolerance, the
+    // number of iterations and the hardness. Throws Error(bad_input) for moduli, radii, heights or options out of range.
+    PeriodicElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
+    ~PeriodicElementContact() override;
+
+    double stiffness() override;
+    double energy() const override;  // W = p'Kp dx dy/2, as in element_contact.hpp
+    void move_tip(double x0, double y0) override;
+    double first_touch() const override;
+    const Indenter& indenter() const override;
+    bool path_dependent() const override;  // with a hardness, as in element_contact.hpp
+    ResidualProfile residual_profile() const override;
+
+protected:
+    void forget_levels() override {}  // a level depends on no other
+    // Throw Error(bad_input) where the gap is closed altogether.
+    Level solve(double Z0) override;
+    std::optional<Level> solve_under(double N) override;
+    void accept(Level& level) override;
+    double tolerance() const override;
+    double first_place_force(double depth) override;
+    std::optional<double> likely_separation() const override { return std::nullopt; }
+    std::size_t levels_since_move() const override { return 0; }
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,122 @@
+#include "contact/pixel_spots.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "contact/interaction/love.hpp"
+#include "contact/solver/spot_blocks.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+// Sides of each pixel without a neighbour under pressure: those of the contacts' borders.
+std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bool periodic) {
+    std::vector<int> open(pixels.size(), 4);
+    std::vector<std::size_t> begin(at(ny) + 1, 0);
+    for (const Pixel& q : pixels) ++begin[at(q.y) + 1];
+    for (int j = 0; j < ny; ++j) begin[at(j) + 1] += begin[at(j)];
+    for (int j = 0; j < ny; ++j) {
+        const std::size_t first = begin[at(j)], end = begin[at(j) + 1];
+        if (first == end) continue;
+        for (std::size_t k = first + 1; k < end; ++k)
+            if (pixels[k].x == pixels[k - 1].x + 1) --open[k - 1], --open[k];
+        if (periodic && pixels[first].x == 0 && pixels[end - 1].x == nx - 1) --open[first], --open[end - 1];
+        if (j == 0 && !periodic) continue;
+        const int above = j > 0 ? j - 1 : ny - 1;
+        for (std::size_t k = first, l = begin[at(above)]; k < end; ++k) {
+            while (l < begin[at(above) + 1] && pixels[l].x < pixels[k].x) ++l;
+            if (l < begin[at(above) + 1] && pixels[l].x == pixels[k].x) --open[l], --open[k];
+        }
+    }
+    return open;
+}
+
+}  // namespace
+
+const HeightMap& require_elements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
+    if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) throw Error(Failure::bad_input, "E* must be positive and finite");
+    if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
+    if (indenter.period.finite() && !std::isinf(indenter.R))
+        throw Error(Failure::bad_input, "a periodic contact is one of two flats: both radii must be Infinity");
+    if (!(options.tolerance > 0)) throw Error(Failure::bad_input, "the tolerance must be positive");
+    if (heights.nx < 1 || heights.ny < 1 || !(heights.dx > 0) || !(heights.dy > 0))
+        throw Error(Failure::bad_input, "elements: the map of heights is empty");
+    constexpr double thinnest = 32;
+    if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
+        throw Error(Failure::bad_input, "elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
+                                            " are longer than 32 times their width");
+    if (!(options.hardness.H0 > 0)) throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
+    if (std::isfinite(options.hardness.H0) && options.hardness.length != 0)
+        throw Error(Failure::bad_input,
+                    "solids%size_effect: elements have no radius to scale the hardness by; give the hardness that holds");
+    return heights;
+}
+
+void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0, const std::vector<Pixel>& touching,
+                std::vector<double> pressure) {
+    const bool periodic = indenter.period.finite();
+    std::vector<int> label;
+    const int contacts = connected_sets(touching, label, periodic ? map.nx : 0, periodic ? map.ny : 0);
+    const std::vector<int> open = open_sides(touching, map.nx, map.ny, periodic);
+    struct Sum {
+        double p = 0, px = 0, py = 0, highest = 0, own = 0;
+        long pixels = 0, border = 0;  // border: sides without a neighbour, of pixels below the hardness
+        bool yields = false;
+        Pixel peak{0, 0};
+    };
+    std::vector<Sum> sums(at(contacts));
+    double extreme = 0;  // pixels
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        Sum& s = sums[at(label[k])];
+        s.p += pressure[k];
+        s.pixels += 1;
+        const bool yields = pressure[k] >= H0;
+        s.yields = s.yields || yields;
+        if (!yields) s.border += open[k];
+        if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
+        if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = touching[k];
+    }
+    // Places are counted from the highest pressure, to the nearest of all images.
+    const auto nearest = [&](int offset, int n) {
+        if (!periodic) return offset;
+        if (2 * offset > n) return offset - n;
+        return 2 * offset < -n ? offset + n : offset;
+    };
+    const double aspect = map.dy / map.dx;
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        Sum& s = sums[at(label[k])];
+        const int dx = nearest(touching[k].x - s.peak.x, map.nx), dy = nearest(touching[k].y - s.peak.y, map.ny);
+        s.px += pressure[k] * dx;
+        s.py += pressure[k] * dy;
+        s.own += pressure[k] * pixel_kernel(dx, dy * aspect, aspect);
+    }
+    const auto inside = [&](double column, int n) { return periodic ? column - n * std::floor(column / n) : column; };
+    const double pixel = map.dx * map.dy;
+    const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
+    for (const Sum& s : sums) {
+        const double area = pixel * (static_cast<double>(s.pixels) - border * static_cast<double>(s.border));
+        level.add_contact(s.peak.y * map.nx + s.peak.x, map.x0 + map.dx * inside(s.peak.x + s.px / s.p, map.nx),
+                          map.y0 + map.dy * inside(s.peak.y + s.py / s.p, map.ny), s.p * pixel, std::sqrt(area / std::numbers::pi),
+                          s.own * map.dx / (std::numbers::pi * indenter.E_star));
+        level.force += s.p * pixel;
+        level.area += area;
+        if (std::isfinite(H0)) level.yields.push_back(s.yields);
+        level.plastic_contacts += s.yields;
+    }
+    if (!touching.empty()) level.extreme_area_fraction = extreme / static_cast<double>(touching.size());
+    level.area_pixels = pixel * static_cast<double>(touching.size());
+    level.pixels.columns = map.nx;
+    level.pixels.x0 = map.x0;
+    level.pixels.y0 = map.y0;
+    level.pixels.dx = map.dx;
+    level.pixels.dy = map.dy;
+    for (const Pixel& q : touching) level.pixels.index.push_back(q.y * map.nx + q.x);
+    level.pixels.contact = std::move(label);
+    level.pixels.pressure = std::move(pressure);
+}
+
+}  // namespace rsc

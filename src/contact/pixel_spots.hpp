@@ -1,0 +1,25 @@
+// What contacts of elements have in common: what they ask of their input, and what is told of the pixels under pressure.
+#pragma once
+
+#include <vector>
+
+#include "contact/indentation.hpp"
+#include "contact/interaction/pixel_products.hpp"
+#include "contact/level.hpp"
+#include "rough/surface.hpp"
+
+namespace rsc {
+
+// Gives the heights back; throws Error(bad_input) for moduli, radii, heights or options out of range.
+const HeightMap& require_elements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
+
+// Puts contacts, force, areas and pixels into a level. Contacts are sets of pixels connected by sides, with indenter.period finite also
+// across the seam, and centroids then lie within the map. Areas are those of the pixels less (pi - 1 + ln 2)/24 of a pixel for each
+// side of their border (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017), but where a pixel at the hardness H0 has it:
+// there the middle of the pixel decides, and a count is as often too low as too high. A contact yields when one of its pixels does. Its
+// penetration is how far it alone presses in the place of its highest pressure (Johnson 1985, eq. 3.25).
+// `touching`: pixels under pressure, row by row, with their pressures > 0 [force/length^2].
+void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0, const std::vector<Pixel>& touching,
+                std::vector<double> pressure);
+
+}  // namespace rsc

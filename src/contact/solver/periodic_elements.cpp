@@ -1,0 +1,140 @@
+#include "contact/solver/periodic_elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "contact/solver/periodic_grid.hpp"
+#include "error.hpp"
+#include "format.hpp"
+
+namespace rsc {
+namespace {
+
+// Of the solutions on coarser grids: a start is wanted, no more.
+constexpr double kCoarseError = 1e-2;
+
+// The solution on the coarsened grid, got in the same way, and from there.
+ElementsOutcome solve_from_coarse(PeriodicGrid& grid, Given given, double tolerance, int most_iterations, bool finest) {
+    bool started = false;
+    if (grid.can_be_coarsened()) {
+        std::vector<double> heights;
+        const auto coarse = grid.coarsened(heights);
+        solve_from_coarse(*coarse, given, kCoarseError, most_iterations, false);
+        grid.start(*coarse);
+        started = !grid.bare();
+    }
+    if (!started) grid.start(given);
+    return grid.solve(given, tolerance, most_iterations, finest);
+}
+
+}  // namespace
+
+struct PeriodicElements::Impl {
+    Relief relief;
+    double E_star, highest;
+    // Heights are counted in `rms` from `zero`, both of the first heights, pressures in E* rms/dx: numbers of the order of 1.
+    double zero = 0, rms = 0;
+    double mean = 0;  // of the heights as they are
+    std::unique_ptr<PeriodicGrid> grid;
+    std::vector<Pixel> pixels;
+    std::vector<double> pressures, gaps;
+
+    double pressure_unit() const { return E_star * (rms / relief.dx); }
+    template <class F>
+    double mean_of(F&& f) const;
+    double mean_height() const {
+        return mean_of([](double z) { return z; });
+    }
+    void prepare();
+    ElementsOutcome solve(Given given, double tolerance, int most_iterations);
+};
+
+// Of a function of the heights.
+template <class F>
+double PeriodicElements::Impl::mean_of(F&& f) const {
+    double all = 0;
+    for (int j = 0; j < relief.ny; ++j) {
+        double row = 0;
+        for (int i = 0; i < relief.nx; ++i) row += f(relief.z[j * relief.stride + i]);
+        all += row / relief.nx;
+    }
+    return all / relief.ny;
+}
+
+void PeriodicElements::Impl::prepare() {
+    mean = zero = mean_height();
+    double largest = 0;
+    mean_of([&](double z) { return largest = std::max(largest, std::abs(z - mean)); });
+    if (!(largest > 0)) throw Error(Failure::bad_input, "the surface is flat: two flats without roughness touch everywhere");
+    rms = largest * std::sqrt(mean_of([&](double z) { return (z - mean) / largest * ((z - mean) / largest); }));
+    grid = std::make_unique<PeriodicGrid>(relief.nx, relief.ny, relief.dy / relief.dx, 1.0, highest / pressure_unit(),
+                                          StoredHeights{relief.z, relief.stride, zero, 1 / rms});
+}
+
+ElementsOutcome PeriodicElements::Impl::solve(Given given, double tolerance, int most_iterations) {
+    const ElementsOutcome outcome = solve_from_coarse(*grid, given, tolerance, most_iterations, true);
+    pixels.clear();
+    pressures.clear();
+    gaps.clear();
+    const PixelRows& set = grid->set();
+    for (int j = 0; j < relief.ny; ++j)
+        for (std::size_t k = set.begin[static_cast<std::size_t>(j)]; k < set.begin[static_cast<std::size_t>(j) + 1]; ++k) {
+            if (!(grid->pressures()[k] > 0)) continue;
+            pixels.push_back({set.column[k], j});
+            const double p = grid->pressures()[k];
+            pressures.push_back(p >= highest / pressure_unit() ? highest : p * pressure_unit());
+            gaps.push_back(grid->gaps()[k] * rms);
+        }
+    return outcome;
+}
+
+PeriodicElements::PeriodicElements(const Relief& relief, double E_star, double highest)
+    : impl_(std::make_unique<Impl>(Impl{relief, E_star, highest, 0, 0, 0, nullptr, {}, {}, {}})) {
+    impl_->prepare();
+}
+PeriodicElements::~PeriodicElements() = default;
+
+void PeriodicElements::heights_changed() {
+    impl_->grid->press_out();
+    impl_->mean = impl_->mean_height();
+}
+
+ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, int most_iterations) {
+    Impl& my = *impl_;
+    if (!(mean_pressure < my.highest))
+        throw Error(Failure::bad_input, format("a nominal pressure of %.9g is more than the hardness %.9g", mean_pressure, my.highest));
+    const ElementsOutcome outcome = my.solve({true, mean_pressure / my.pressure_unit()}, tolerance, most_iterations);
+    if (my.grid->full())
+        throw Error(Failure::bad_input,
+                    format("a nominal pressure of %.9g closes the gap altogether: on this surface nothing is left of it from %.9g on",
+                           mean_pressure, closing_pressure()));
+    return outcome;
+}
+
+ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {
+    Impl& my = *impl_;
+    if (!(Z0 > my.mean))
+        throw Error(Failure::bad_input,
+                    format("a separation of %.9g closes the gap altogether: between the mean planes nothing is left at %.9g", Z0, my.mean));
+    return my.solve({false, (Z0 - my.zero) / my.rms}, tolerance, most_iterations);
+}
+
+double PeriodicElements::closing_pressure() { return 0 - impl_->grid->least_inverse() * impl_->pressure_unit(); }
+
+double PeriodicElements::separation() const { return impl_->zero + impl_->grid->Z0() * impl_->rms; }
+const std::vector<Pixel>& PeriodicElements::pixels() const { return impl_->pixels; }
+const std::vector<double>& PeriodicElements::pressures() const { return impl_->pressures; }
+const std::vector<double>& PeriodicElements::gaps() const { return impl_->gaps; }
+
+double PeriodicElements::stiffness(bool back) {
+    const double points = static_cast<double>(impl_->relief.nx) * static_cast<double>(impl_->relief.ny);
+    return impl_->grid->stiffness(back) / points * (impl_->pressure_unit() / impl_->rms);
+}
+
+double PeriodicElements::energy() const {
+    const double points = static_cast<double>(impl_->relief.nx) * static_cast<double>(impl_->relief.ny);
+    return impl_->grid->energy() / points * (impl_->pressure_unit() * impl_->rms);
+}
+
+}  // namespace rsc
