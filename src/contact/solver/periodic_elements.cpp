@@ -114,7 +114,8 @@ ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, 
 
 ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {
     Impl& my = *impl_;
-    if (!(Z0 > my.mean))
+    constexpr double rounding = 1e-12;
+    if (!(Z0 - my.mean > rounding * my.rms))
         throw Error(Failure::bad_input,
                     format("a separation of %.9g closes the gap altogether: between the mean planes nothing is left at %.9g", Z0, my.mean));
     return my.solve({false, (Z0 - my.zero) / my.rms}, tolerance, most_iterations);

@@ -1,0 +1,141 @@
+// Elements between two flats that repeat: against an independent solver, closed forms, conservation, and themselves by another way.
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/lateral.hpp"
+#include "error.hpp"
+#include "periodic_elements.hpp"
+#include "rough/synthesis.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kE = 2.0;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+SolverOptions options(double tolerance) {
+    SolverOptions o;
+    o.tolerance = tolerance;
+    o.max_iterations = 200;
+    return o;
+}
+
+HeightMap empty(int nx, int ny, double dx, double dy) {
+    HeightMap map;
+    map.allocate(nx, ny, nx);
+    map.dx = dx, map.dy = dy;
+    map.periodic = true;
+    return map;
+}
+
+Indenter flat(const HeightMap& map) { return {kE, kInfinity, 0, 0, {map.Lx(), map.Ly()}}; }
+
+constexpr double kSigma = 0.01;
+HeightMap rough(int n, double L_lambda_s, double* slope = nullptr) {
+    const Spectrum spectrum{1, 0.8, 4, L_lambda_s, false, kSigma};
+    if (slope) *slope = std::sqrt(2 * theoretical_moments(spectrum).m2);
+    return synthesize(spectrum, n, Normalise::sample, 1, 1, nullptr, 1);
+}
+
+std::vector<double> values(const HeightMap& map) {
+    std::vector<double> z;
+    for (int j = 0; j < map.ny; ++j) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
+    return z;
+}
+
+// Conjugate gradients in double on the whole grid: the same pixels to a few that carry next to nothing, the same separation. By force and
+// at the separation found.
+void independent(int n, double L_lambda_s) {
+    constexpr double kArea = 1e-4, kSeparation = 1e-6, kForce = 1e-5;
+    double slope;
+    const HeightMap map = rough(n, L_lambda_s, &slope);
+    const auto contact = make_element_contact(map, flat(map), options(1e-8));
+    PeriodicElementSolver other(n, 1, values(map), kE);
+    for (const double p : {0.1, 0.05, 0.02, 0.005}) {
+        const double N = p * kE * slope;
+        const PeriodicElements truth = other.press(N, 1e-8, 20000);
+        const Level level = contact->at_force(N);
+        CHECK(level.status == LevelStatus::converged);
+        std::printf(
+            "%d^2, p/(E* h') = %.3f: A %.6f, %.1e from the independent one; separation %.1e sigma; %d rounds, %ld products (its: %d)\n", n,
+            p, level.area, level.area / truth.border - 1, (level.separation - truth.separation) / kSigma, level.iterations,
+            static_cast<long>(level.products), 2 * truth.iterations);
+        CHECK(truth.gap < 1e-8);
+        CHECK_RELATIVE(level.force, N, 1e-12);
+        CHECK_RELATIVE(level.area, truth.border, kArea);
+        CHECK_RELATIVE(level.area_pixels, truth.area_fraction, kArea);
+        CHECK_CLOSE(level.separation / kSigma, truth.separation / kSigma, kSeparation);
+        const Level again = contact->at_separation(level.separation);
+        CHECK(again.status == LevelStatus::converged);
+        CHECK_RELATIVE(again.force, N, kForce);
+        CHECK_RELATIVE(again.area, level.area, kArea);
+    }
+}
+
+// A wave of one direction: Westergaard (Johnson 1985, section 13.2): p/p* = sin^2(pi A/(2 A0)), p* = E* k Delta/2.
+void westergaard() {
+    constexpr double Delta = 0.01;
+    const double k = 2 * kPi, closed = kE * k * Delta / 2;
+    // Widths are known to a pixel and its neighbour, separations converge with the square of the pixel.
+    double before = 0;
+    for (const int n : {32, 64, 128, 256}) {
+        HeightMap map = empty(n, 4, 1.0 / n, 8.0 / n);
+        for (int j = 0; j < 4; ++j)
+            for (int i = 0; i < n; ++i) map.row(j)[i] = Delta * std::cos(k * i / n);
+        const auto contact = make_element_contact(map, flat(map), options(1e-10));
+        for (const double share : {0.1, 0.5, 0.9}) {
+            const Level level = contact->at_force(share * closed * map.Ly());
+            const double width = 2 / kPi * std::asin(std::sqrt(share));
+            CHECK(level.status == LevelStatus::converged);
+            CHECK_CLOSE(level.area_pixels / map.Ly(), width, 1.5 / n);
+            if (share != 0.5) continue;
+            // With s = p/p* the stiffness is p*/(Delta ln(1/s)): Z0 = Delta (1 - s + s ln s).
+            const double Z0 = Delta * (1 - share + share * std::log(share)), error = level.separation / Z0 - 1;
+            const double stiffness = closed * map.Ly() / (Delta * std::log(1 / share));
+            std::printf("Westergaard, %3d points a wave: A %.4f (%.4f), Z0 %.2e, stiffness %.2e\n", n, level.area_pixels / map.Ly(), width,
+                        error, -contact->stiffness() / stiffness - 1);
+            CHECK(std::abs(error) < 2 / static_cast<double>(n * n));
+            if (before != 0) CHECK_CLOSE(std::log2(before / error), 2.0, 0.25);
+            CHECK_RELATIVE(contact->stiffness(), -stiffness, 3.5 / n);
+            // What the pressure did: the integral of p dZ0.
+            const double s = share, work = closed * Delta * map.Ly() * (s * s / 4 - s * s / 2 * std::log(s));
+            CHECK_RELATIVE(contact->energy(), work, 20.0 / (n * n));
+            before = error;
+        }
+        // Closed altogether it is told, with the pressure that does it, to rounding here.
+        try {
+            contact->at_force(1.001 * closed * map.Ly());
+            CHECK(!"a closed gap is told");
+        } catch (const Error& e) {
+            const std::string said = e.what();
+            CHECK(e.kind() == Failure::bad_input && said.find("closes the gap altogether") != std::string::npos);
+            const std::size_t from = said.find(" from ");
+            CHECK_RELATIVE(std::strtod(said.c_str() + from + 6, nullptr), closed, 1e-8);
+        }
+        CHECK(contact->at_force(0.9999 * closed * map.Ly()).area_pixels < map.Ly());
+        CHECK_THROWS(contact->at_separation(0), Error);
+        CHECK_THROWS(contact->at_separation(-1), Error);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char**) {
+    if (argc > 1) {
+        independent(512, 32);
+        return check::summary();
+    }
+    independent(128, 16);
+    westergaard();
+    return check::summary();
+}
