@@ -13,6 +13,7 @@
 #include "error.hpp"
 #include "file/output_path.hpp"
 #include "run/campaign_manifest.hpp"
+#include "run/campaign_merge.hpp"
 #include "run/campaign_study.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
@@ -91,6 +92,13 @@ void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
 #endif
 }
 
+// With MPI they are caught already.
+void catch_signals_early() {
+#ifndef RSC_MPI
+    rsc::catch_signals();
+#endif
+}
+
 int run_program(int argc, char** argv, Job& job) {
     const rsc::Options options = rsc::parse_options(argc, argv);
     if (options.help) {
@@ -116,12 +124,14 @@ int run_program(int argc, char** argv, Job& job) {
         return 0;
     }
     refuse_mpi(options);
+    if (!options.merge.empty()) {
+        catch_signals_early();
+        return rsc::merge_campaigns(options.merge, *options.output, how_to_run(options, command_line(argc, argv))).failed == 0 ? 0 : 1;
+    }
     // A result file is a case, too.
     const std::optional<std::string> inside = options.case_path.empty() ? std::nullopt : rsc::case_in_result(options.case_path);
     const rsc::ReadCase read = inside ? rsc::read_case_text(*inside, options.case_path, options) : rsc::read_case(options);
-#ifndef RSC_MPI
-    rsc::catch_signals();  // until here there is nothing to be left in order, and waiting for standard input could not be ended
-#endif
+    catch_signals_early();  // until here there is nothing to be left in order, and waiting for standard input could not be ended
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
         if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");

@@ -17,9 +17,9 @@ struct Flag {
 };
 
 constexpr Flag kFlags[] = {
-    {'\0', "case", false}, {'o', "output", true},  {'s', "set", true},       {'\0', "check", false},   {'\0', "describe", false},
-    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false},  {'\0', "progress", true}, {'q', "quiet", false},
-    {'h', "help", false},  {'\0', "man", false},   {'\0', "version", false},
+    {'\0', "case", false}, {'o', "output", true},  {'s', "set", true},      {'\0', "check", false},   {'\0', "describe", false},
+    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false}, {'\0', "merge", false},   {'\0', "progress", true},
+    {'q', "quiet", false}, {'h', "help", false},   {'\0', "man", false},    {'\0', "version", false},
 };
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, text + " (--help lists the options)"); }
@@ -73,6 +73,8 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
         options.list = true;
     else if (flag.name == "resume")
         options.resume = true;
+    else if (flag.name == "merge")
+        options.merge.emplace_back();
     else if (flag.name == "quiet")
         options.quiet = true;
     else if (flag.name == "help")
@@ -128,6 +130,14 @@ Options parse_options(int argc, const char* const* argv) {
         if (!paths.empty()) options.describe_what = paths.front();
         return options;
     }
+    if (!options.merge.empty()) {
+        if (paths.size() < 2) refuse("--merge needs two result files or more");
+        if (!options.output) refuse("--merge needs --output FILE, the result to write");
+        if (!options.set.empty() || options.check || options.list || options.member || options.resume || options.show_case)
+            refuse("--merge computes nothing: it goes with --output, --quiet and --progress alone");
+        options.merge = paths;
+        return options;
+    }
     if (paths.size() > 1) refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
     if (options.show_case && paths.empty()) refuse("--case needs the name of a result file");
     if (!paths.empty()) {
@@ -146,7 +156,8 @@ std::string usage_text() {
            "      --describe [group[%key]]     every key: type, unit, default, bounds, meaning\n"
            "      --list                       the members of a &study, one a line\n"
            "      --member K                   run only member K of a &study\n"
-           "      --resume                     go on with an interrupted campaign\n"
+           "      --resume                     go on with an interrupted campaign, or add realizations to a finished one\n"
+           "      --merge FILE.nc FILE.nc ...  put results of parts of a campaign together, into the FILE of --output\n"
            "      --progress auto|always|never show progress on stderr (auto: on a terminal)\n"
            "  -q, --quiet                      no table on stdout\n"
            "  -h, --help                       this text\n"

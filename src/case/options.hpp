@@ -28,7 +28,8 @@ struct Options {
     bool describe = false;
     std::string describe_what;  // "", "group" or "group%key"
     bool list = false;
-    std::optional<int> member;  // 1-based
+    std::optional<int> member;       // 1-based
+    std::vector<std::string> merge;  // results of parts of a campaign, to be put together into `output`
     bool resume = false;
     Progress progress = Progress::automatic;
     bool quiet = false;

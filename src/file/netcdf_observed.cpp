@@ -2,6 +2,7 @@
 #include <netcdf.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "file/netcdf_table.hpp"
 #include "observe/regimes.hpp"
@@ -45,6 +46,11 @@ void ResultTable::maps() {
         comment("A' = sum of pi a^2/w^2 over the asperities in the cell"));
     add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations", o_.map_pressure,
         comment("p = sum of f/w^2 over the asperities in the cell"));
+    if (o_.realizations == 1) return;
+    const std::string rest = ": what the sum over realizations has beyond the mean's product with their number and w^2",
+                      why = "for rsc --merge and --resume, which add realizations without rounding";
+    add("map_area_fraction_rest", dims, unit(2), "rest of map_area_fraction" + rest, o_.map_area_rest, comment(why));
+    add("map_pressure_rest", dims, unit(0, 1), "rest of map_pressure" + rest, o_.map_force_rest, comment(why));
 }
 
 void ResultTable::radial() {
@@ -97,6 +103,20 @@ void ResultTable::distributions() {
     mean_pressure();
     pressure();
     spot_area();
+    if (o_.realizations == 1) return;
+    std::vector<double> sums;
+    for (const DistributionSums& level : o_.distribution_sums)
+        for (const ExactSum& sum : level.numbers) sums.push_back(sum.high), sums.push_back(sum.low);
+    std::vector<std::int32_t> number(o_.distribution_sums.front().numbers.size());
+    std::iota(number.begin(), number.end(), 1);
+    file_.dimension("pdf_sum", number.size());
+    file_.dimension("part", 2);
+    add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", number);
+    add("part", {"part"}, "1", "part of a sum", std::vector<std::int32_t>{1, 2},
+        {{"flag_values", std::vector<std::int32_t>{1, 2}}, {"flag_meanings", "rounded rest"}});
+    add("pdf_sums", {"pdf_level", "pdf_sum", "part"}, "1", "sums over realizations of which the distributions are made", sums,
+        comment(
+            "exact: the sum of the two parts, in powers of the units of length and force; for rsc --merge and --resume, which add realizations without rounding"));
 }
 
 void ResultTable::counts(const std::string& name, const std::string& axis, const std::string& long_name,

@@ -13,6 +13,7 @@
 
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
+#include "version.h"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -28,10 +29,6 @@ fs::path existing_ancestor(fs::path folder) {
     }
     return folder;
 }
-
-}  // namespace
-
-namespace {
 
 // By the first bytes: nothing else is asked of NetCDF and HDF5, which take their time to wake up.
 bool begins_as_netcdf(const std::string& path) {
@@ -50,7 +47,9 @@ void require_memory(const std::string& path) {
 
 }  // namespace
 
-std::optional<std::string> case_in_result(const std::string& path) {
+bool ResultHead::this_version() const { return source.starts_with("rsc " RSC_VERSION ","); }
+
+std::optional<ResultHead> head_of_result(const std::string& path) {
     const std::lock_guard lock(netcdf_mutex());
     std::error_code error;
     int file = -1;
@@ -67,11 +66,15 @@ std::optional<std::string> case_in_result(const std::string& path) {
         if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
         return value;
     };
-    const std::string source = text("source");
-    std::string found = text("case");
+    ResultHead head{text("source"), text("case")};
     nc_close(file);
-    if (!source.starts_with("rsc ") || found.empty()) return std::nullopt;
-    return found;
+    if (!head.source.starts_with("rsc ") || head.case_text.empty()) return std::nullopt;
+    return head;
+}
+
+std::optional<std::string> case_in_result(const std::string& path) {
+    std::optional<ResultHead> head = head_of_result(path);
+    return head ? std::optional(std::move(head->case_text)) : std::nullopt;
 }
 
 bool check_output(const std::string& path, const std::vector<std::string>& inputs) {

@@ -7,8 +7,15 @@
 
 namespace rsc {
 
-// The effective namelist inside a NetCDF file that rsc wrote (attributes `source` and `case`): a result or the manifest of a study.
-// None for any other file, or none at all.
+// What a NetCDF file that rsc wrote, a result or the manifest of a study, says of itself.
+struct ResultHead {
+    std::string source;     // "rsc 0.2.0, deterministic ..."
+    std::string case_text;  // the effective namelist
+    bool this_version() const;
+};
+// None for any other file, or where there is none.
+std::optional<ResultHead> head_of_result(const std::string& path);
+// The case alone.
 std::optional<std::string> case_in_result(const std::string& path);
 
 // Can a result be written there? Changes nothing on the disk. `inputs`: files the run reads; names that are no plain file are

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <type_traits>
 
 #include "error.hpp"
 
@@ -59,18 +60,13 @@ void add_pixels(AreaHistogram& h, const Level& level, double width) {
         for (double a : of_contact) h.squares += a * a;
 }
 
-void add(CountHistogram& a, const CountHistogram& b) {
-    for (std::size_t i = 0; i < a.count.size(); ++i) a.count[i] += b.count[i];
-    a.overflow += b.overflow;
-    for (std::size_t k = 0; k < a.power.size(); ++k) a.power[k] += b.power[k];
-}
-
-void add(AreaHistogram& a, const AreaHistogram& b) {
-    for (std::size_t i = 0; i < a.area.size(); ++i) a.area[i] += b.area[i];
-    a.overflow += b.overflow;
-    a.total += b.total;
-    a.squares += b.squares;
-    for (std::size_t k = 0; k < a.power.size(); ++k) a.power[k] += b.power[k];
+Distributions no_contacts(const PdfBins& bins) {
+    const auto n = static_cast<std::size_t>(bins.bins);
+    Distributions d;
+    d.mean_pressure.count.assign(n, 0);
+    d.pressure.area.assign(n, 0.0);
+    d.spot_area.count.assign(n, 0);
+    return d;
 }
 
 Binned binned(const CountHistogram& h, double width) {
@@ -104,14 +100,10 @@ std::int64_t CountHistogram::total() const {
 }
 
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step) {
-    const auto n = static_cast<std::size_t>(bins.bins);
-    Distributions d;
+    Distributions d = no_contacts(bins);
     d.separation = level.separation;
     d.levels = 1;
     d.step = step;
-    d.mean_pressure.count.assign(n, 0);
-    d.pressure.area.assign(n, 0.0);
-    d.spot_area.count.assign(n, 0);
     for (std::size_t k = 0; k < level.a.size(); ++k) {
         const double area = std::numbers::pi * level.a[k] * level.a[k];
         if (!(area > 0)) continue;
@@ -124,17 +116,35 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
     return d;
 }
 
-void add(Distributions& a, const Distributions& b) {
-    if (a.levels == 0) {
-        a = b;
+// Powers of small values keep their digits with a quantum as fine as this, and a million realizations their exact sum.
+constexpr int kSumBits = 84;
+
+void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one) {
+    DistributionSums term{one.step, {}};
+    for_each_number(one, bins, [&term](const auto& number, double scale) {
+        term.numbers.push_back(exact_term(static_cast<double>(number), quantum_of(scale, kSumBits)));
+    });
+    add(sums, term);
+}
+
+void add(DistributionSums& sums, const DistributionSums& more) {
+    if (sums.numbers.empty()) {
+        sums = more;
         return;
     }
-    if (a.step != b.step) a.step = -1;
-    a.separation += b.separation;
-    a.levels += b.levels;
-    add(a.mean_pressure, b.mean_pressure);
-    add(a.pressure, b.pressure);
-    add(a.spot_area, b.spot_area);
+    if (sums.step != more.step) sums.step = -1;
+    for (std::size_t k = 0; k < sums.numbers.size(); ++k) sums.numbers[k].add(more.numbers[k]);
+}
+
+Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations) {
+    Distributions d = no_contacts(bins);
+    d.levels = sums.numbers.empty() ? 0 : realizations;
+    d.step = sums.step;
+    auto next = sums.numbers.begin();
+    if (!sums.numbers.empty())
+        for_each_number(d, bins,
+                        [&next](auto& number, double) { number = static_cast<std::remove_reference_t<decltype(number)>>((next++)->high); });
+    return d;
 }
 
 DistributionMoments moments_of(double count, const std::array<double, 4>& power) {

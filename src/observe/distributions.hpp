@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "contact/level.hpp"
+#include "observe/exact_sum.hpp"
 #include "observe/fits.hpp"
 
 namespace rsc {
@@ -59,8 +61,38 @@ struct Distributions {
 // f/(pi a^2), integrated exactly over each bin. Contacts of no area are left out. A level with pixels gives the point pressures of those.
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step);
 
-// a += b, in the fixed order the caller gives.
-void add(Distributions& a, const Distributions& b);
+// Every number of `d` that adds up over realizations, in a fixed order, with the size it typically has: visit(number, scale). Scale 0:
+// whole numbers.
+template <class D, class Visit>
+void for_each_number(D& d, const PdfBins& bins, Visit visit) {
+    const double p = bins.pressure_max, area = bins.area_max;
+    visit(d.separation, std::sqrt(area));
+    for (auto& count : d.mean_pressure.count) visit(count, 0.0);
+    visit(d.mean_pressure.overflow, 0.0);
+    for (auto& value : d.pressure.area) visit(value, area);
+    visit(d.pressure.overflow, area);
+    visit(d.pressure.total, area);
+    visit(d.pressure.squares, area * area);
+    for (auto& count : d.spot_area.count) visit(count, 0.0);
+    visit(d.spot_area.overflow, 0.0);
+    double p_power = 1, area_power = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+        p_power *= p, area_power *= area;
+        visit(d.mean_pressure.power[k], p_power);
+        visit(d.pressure.power[k], area * p_power);
+        visit(d.spot_area.power[k], area_power);
+    }
+}
+
+// The distributions of a level summed over realizations.
+struct DistributionSums {
+    std::int32_t step = 0;          // the level's index, from 0; -1 once realizations differ in it
+    std::vector<ExactSum> numbers;  // by for_each_number; empty: of no realization
+};
+
+void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one);
+void add(DistributionSums& sums, const DistributionSums& more);
+Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations);
 
 struct DistributionMoments {
     double mean = kAbsent, deviation = kAbsent, skewness = kAbsent, kurtosis = kAbsent;  // kurtosis is 3 for a Gaussian

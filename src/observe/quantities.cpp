@@ -97,6 +97,10 @@ double LevelQuantity::of(const LevelValues& level) const {
     return std::visit([&](auto m) { return static_cast<double>(level.*m); }, member);
 }
 
+void LevelQuantity::put(LevelValues& level, double value) const {
+    std::visit([&](auto m) { level.*m = static_cast<std::remove_reference_t<decltype(level.*m)>>(value); }, member);
+}
+
 std::span<const LevelQuantity> level_quantities() { return kQuantities; }
 
 const LevelQuantity* find_quantity(std::string_view name) {

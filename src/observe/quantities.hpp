@@ -29,6 +29,8 @@ struct LevelQuantity {
 
     // Its value as a number, NaN if it was not computed.
     double of(const LevelValues& level) const;
+    // The other way: puts a value that of() gave back.
+    void put(LevelValues& level, double value) const;
     bool integer() const { return !std::holds_alternative<double LevelValues::*>(member); }
 };
 

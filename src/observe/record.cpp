@@ -1,5 +1,6 @@
 #include "observe/record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -14,6 +15,17 @@ void require_finite(const Level& level, std::size_t step) {
         std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual);
     for (std::size_t k = 0; k < level.asperity.size(); ++k) finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
     if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
+}
+
+// From a cell's sum over realizations to its mean fraction or pressure.
+double map_divisor(const MapGrid& grid, std::size_t realizations) {
+    return grid.side * grid.side * static_cast<double>(std::max<std::size_t>(1, realizations));
+}
+
+// Rounded to a double on every machine, also where the compiler would fuse it with the sum that follows.
+double rounded_product(double a, double b) {
+    const volatile double product = a * b;
+    return product;
 }
 
 }  // namespace
@@ -68,7 +80,7 @@ LevelStatistics Observations::statistics(const std::function<double(const LevelV
 }
 
 Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_) : options(options_), steps(steps_) {
-    map_area.assign(steps * static_cast<std::size_t>(options.map.cells()), 0.0);
+    map_area.assign(steps * static_cast<std::size_t>(options.map.cells()), ExactSum{});
     map_force = map_area;
     distributions.resize(steps > 0 ? options.pdf_levels.size() : 0);
 }
@@ -84,14 +96,29 @@ void Accumulators::add(const RealizationRecord& record) {
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());
     const auto cells = static_cast<std::size_t>(options.map.cells());
+    constexpr int kBits = 64;  // a full cell is this many bits above the quantum: 11 more than a double has
+    const double cell_area = options.map.side * options.map.side, area_quantum = quantum_of(cell_area, kBits),
+                 force_quantum = quantum_of(options.pdf.pressure_max * cell_area, kBits);
     for (std::size_t s = 0; s < steps; ++s) {
         const MapLevel& map = record.maps[s];
         for (std::size_t k = 0; k < map.cell.size(); ++k) {
-            map_area[s * cells + static_cast<std::size_t>(map.cell[k])] += map.area[k];
-            map_force[s * cells + static_cast<std::size_t>(map.cell[k])] += map.force[k];
+            map_area[s * cells + static_cast<std::size_t>(map.cell[k])].add(exact_term(map.area[k], area_quantum));
+            map_force[s * cells + static_cast<std::size_t>(map.cell[k])].add(exact_term(map.force[k], force_quantum));
         }
     }
-    for (std::size_t d = 0; d < distributions.size(); ++d) rsc::add(distributions[d], record.distributions[d]);
+    for (std::size_t d = 0; d < distributions.size(); ++d) rsc::add(distributions[d], options.pdf, record.distributions[d]);
+}
+
+void Accumulators::append(const Accumulators& later) {
+    if (later.steps != steps || later.map_area.size() != map_area.size() || later.distributions.size() != distributions.size() ||
+        (!realization.empty() && !later.realization.empty() && later.realization.front() <= realization.back()))
+        throw Error(Failure::internal, "sums over realizations that do not follow those before them are appended");
+    realization.insert(realization.end(), later.realization.begin(), later.realization.end());
+    surface.insert(surface.end(), later.surface.begin(), later.surface.end());
+    rows.insert(rows.end(), later.rows.begin(), later.rows.end());
+    for (std::size_t k = 0; k < map_area.size(); ++k) map_area[k].add(later.map_area[k]);
+    for (std::size_t k = 0; k < map_force.size(); ++k) map_force[k].add(later.map_force[k]);
+    for (std::size_t d = 0; d < distributions.size(); ++d) rsc::add(distributions[d], later.distributions[d]);
 }
 
 Observations Accumulators::finish() const {
@@ -106,11 +133,16 @@ Observations Accumulators::finish() const {
     o.force = o.statistics([](const LevelValues& r) { return r.force; });
     o.area = o.statistics([](const LevelValues& r) { return r.area; });
 
-    const double divisor = options.map.side * options.map.side * static_cast<double>(o.realizations > 0 ? o.realizations : 1);
-    o.map_area_fraction = map_area;
-    o.map_pressure = map_force;
-    for (double& v : o.map_area_fraction) v /= divisor;
-    for (double& v : o.map_pressure) v /= divisor;
+    const double divisor = map_divisor(options.map, o.realizations);
+    const auto divide = [divisor](const std::vector<ExactSum>& sums, std::vector<double>& means, std::vector<double>& rests) {
+        means.reserve(sums.size()), rests.reserve(sums.size());
+        for (const ExactSum& sum : sums) {
+            means.push_back(sum.high / divisor);
+            rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
+        }
+    };
+    divide(map_area, o.map_area_fraction, o.map_area_rest);
+    divide(map_force, o.map_pressure, o.map_force_rest);
 
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
@@ -119,8 +151,18 @@ Observations Accumulators::finish() const {
         for (double v : mean(o.map_area_fraction.data() + s * cells)) o.radial_area_fraction.push_back(v);
         for (double v : mean(o.map_pressure.data() + s * cells)) o.radial_pressure.push_back(v);
     }
-    for (const Distributions& d : distributions) o.distributions.push_back(fit_distributions(options.pdf, d));
+    for (const DistributionSums& d : distributions)
+        o.distributions.push_back(fit_distributions(options.pdf, rounded(d, options.pdf, static_cast<std::int64_t>(o.realizations))));
+    o.distribution_sums = distributions;
     return o;
+}
+
+std::vector<ExactSum> map_sums(const MapGrid& grid, std::size_t realizations, const std::vector<double>& means,
+                               const std::vector<double>& rests) {
+    const double divisor = map_divisor(grid, realizations);
+    std::vector<ExactSum> sums(means.size());
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = ExactSum::of_two(rounded_product(means[k], divisor), rests[k]);
+    return sums;
 }
 
 }  // namespace rsc

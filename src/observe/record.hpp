@@ -56,15 +56,17 @@ struct Accumulators {
     std::size_t steps = 0;
     std::vector<std::int64_t> realization;
     std::vector<SurfaceStatistics> surface;
-    std::vector<LevelValues> rows;             // [realization][step]
-    std::vector<double> map_area, map_force;   // [step][cell], sums over realizations [length^2], [force]
-    std::vector<Distributions> distributions;  // [pdf level]
+    std::vector<LevelValues> rows;                // [realization][step]
+    std::vector<ExactSum> map_area, map_force;    // [step][cell], sums over realizations [length^2], [force]
+    std::vector<DistributionSums> distributions;  // [pdf level]
 
     Accumulators() = default;
     Accumulators(const ObserveOptions& options, std::size_t steps);
     // Records come in increasing order of their realization; another order throws Error(internal), as does another number of
     // levels.
     void add(const RealizationRecord& record);
+    // Appends the sums over later realizations of the same case: they are then, bit for bit, those of adding all records one by one.
+    void append(const Accumulators& later);
     Observations finish() const;
 };
 
@@ -85,8 +87,15 @@ struct Observations {
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
     std::vector<FittedDistributions> distributions;             // [pdf level]
+    // What makes a sum over realizations again of the means above (map_sums): [step][j][i]
+    std::vector<double> map_area_rest, map_force_rest;  // [length^2], [force]
+    std::vector<DistributionSums> distribution_sums;    // [pdf level]
     const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
     LevelStatistics statistics(const std::function<double(const LevelValues&)>& of) const;
 };
+
+// The sums over realizations that gave these means of a map, from what finish() leaves of them: exactly the same.
+std::vector<ExactSum> map_sums(const MapGrid& grid, std::size_t realizations, const std::vector<double>& means,
+                               const std::vector<double>& rests);
 
 }  // namespace rsc

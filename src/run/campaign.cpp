@@ -1,26 +1,25 @@
 #include "run/campaign.hpp"
 
-#include <netcdf.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "error.hpp"
-#include "file/netcdf_file.hpp"
 #include "file/netcdf_writer.hpp"
 #include "file/output_path.hpp"
+#include "file/result_sums.hpp"
 #include "run/campaign_archive.hpp"
 #include "run/campaign_screen.hpp"
+#include "run/campaign_sums.hpp"
 #include "run/checkpoint.hpp"
-#include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
-#include "version.h"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -33,14 +32,22 @@ using Clock = std::chrono::steady_clock;
 // The realizations of a campaign that are finished: those added up, and those that wait for one before them.
 class Progressing {
 public:
-    Progressing(const Job& job, Checkpoint& checkpoint, std::size_t workers)
+    // `earlier`: the sums of a finished campaign that this one continues, where the checkpoint has none.
+    Progressing(const Job& job, Checkpoint& checkpoint, std::size_t workers, const std::function<std::optional<Accumulators>()>& earlier)
         : first_(job.settings.run.first_realization),
           count_(job.settings.run.realizations),
           window_(static_cast<std::int64_t>(4 * workers + 32)),
           sums_(job.observe, job.levels.size()),
           checkpoint_(checkpoint) {
         Checkpoint::Contents contents = checkpoint.take_contents();
-        if (contents.sums) sums_from_bytes(*contents.sums, sums_);
+        if (contents.sums) {
+            sums_from_bytes(*contents.sums, sums_);
+        } else if (std::optional<Accumulators> found = earlier()) {
+            sums_ = std::move(*found);
+            std::vector<const std::string*> rest;
+            for (const std::string& record : contents.records) rest.push_back(&record);
+            checkpoint.rewrite(to_bytes(sums_), rest);  // from here on the result file is not needed
+        }
         for (std::string& record : contents.records) take(std::move(record));
         add_in_order();
         next_ = next_to_add();
@@ -113,7 +120,9 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 
     Checkpoint checkpoint(file, settings, options.resume);
     remove_parts(file);
-    Progressing state(*job, checkpoint, team.workers());
+    Progressing state(*job, checkpoint, team.workers(), [&]() -> std::optional<Accumulators> {
+        return options.resume && replaces ? earlier_sums(*job, options.messages) : std::nullopt;
+    });
     const std::size_t already = state.finished();
     const auto total = static_cast<std::size_t>(settings.run.realizations);
 
@@ -147,14 +156,9 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     }
 
     if (state.added() != total) throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
-    Observations observations = state.sums().finish();
-    const std::vector<LevelValues> first(observations.rows.begin(),
-                                         observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
-    ComparedLevels compared = compare_levels(*job, settings.run.first_realization, 1, first, table, [] { return caught_signal() != 0; });
+    const Result result = campaign_result(*job, state.sums(), table);
     if (const int signal = caught_signal())
         throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; " + how_far(state, settings) + ": " + kGoesOn);
-    Result result = make_result(settings, case_text(settings), job->indenter, job->sigma, job->theory, std::move(observations));
-    result.compared = std::move(compared);
     try {
         write_result(result, file, {settings.output.format, settings.output.compression, options.command});
     } catch (const Error& error) {
@@ -162,36 +166,19 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
                                       ": the same command with --resume writes the file without computing them again");
     }
     checkpoint.remove();
-    RunSummary summary = campaign_summary(result.observations);
-    summary.failed += result.compared.failed;
+    const RunSummary summary = campaign_summary(result);
     if (table) print_campaign_summary(*table, *job, result.observations, seconds(), file, replaces);
     tell_failed(options, summary);
     return summary;
 }
 
 std::optional<RunSummary> finished_result(const Case& settings) {
-    if (case_in_result(settings.output.file) != case_text(settings)) return {};
-    const std::lock_guard lock(netcdf_mutex());
-    int file = -1;
-    if (nc_open(settings.output.file.c_str(), NC_NOWRITE, &file) != NC_NOERR) return {};
-    std::size_t length = 0;
-    if (nc_inq_attlen(file, NC_GLOBAL, "source", &length) != NC_NOERR) length = 0;
-    std::string source(length, '\0');
-    if (length > 0 && nc_get_att_text(file, NC_GLOBAL, "source", source.data()) != NC_NOERR) source.clear();
-    std::optional<RunSummary> summary;
-    int status = -1, dimensions[2] = {};
-    std::size_t shape[2] = {};
-    if (source.starts_with("rsc " RSC_VERSION ",") && nc_inq_varid(file, "status", &status) == NC_NOERR &&
-        nc_inq_vardimid(file, status, dimensions) == NC_NOERR && nc_inq_dimlen(file, dimensions[0], &shape[0]) == NC_NOERR &&
-        nc_inq_dimlen(file, dimensions[1], &shape[1]) == NC_NOERR) {
-        std::vector<int> values(shape[0] * shape[1]);
-        if (nc_get_var_int(file, status, values.data()) == NC_NOERR) {
-            summary.emplace();
-            summary->levels = static_cast<long>(values.size());
-            summary->failed = std::count(values.begin(), values.end(), static_cast<int>(LevelStatus::not_converged));
-        }
-    }
-    nc_close(file);
+    const std::optional<ResultHead> head = head_of_result(settings.output.file);
+    if (!head || !head->this_version() || head->case_text != case_text(settings) || input_is_newer(settings)) return {};
+    const std::optional<LevelCount> count = count_levels(settings.output.file);
+    if (!count) return {};
+    RunSummary summary;
+    summary.levels = count->levels, summary.failed = count->failed;
     return summary;
 }
 

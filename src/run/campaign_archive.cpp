@@ -87,6 +87,11 @@ void transfer(Archive& a, In<Archive, MapLevel>& m) {
     a(m.cell), a(m.area), a(m.force), a(m.outside);
 }
 
+template <class Archive>
+void transfer(Archive& a, In<Archive, DistributionSums>& d) {
+    a(d.step), a(d.numbers);
+}
+
 template <class Archive, class T>
 void transfer_each(Archive& a, T& vector) {
     if constexpr (Archive::writing) {
@@ -125,7 +130,7 @@ std::string to_bytes(const RealizationRecord& record) {
 
 std::string to_bytes(const Accumulators& sums) {
     Writer writer;
-    writer.bytes.reserve(16 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() + 65536);
+    writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() + 65536);
     transfer<Writer>(writer, sums);
     return std::move(writer.bytes);
 }
@@ -161,7 +166,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "1," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
+    return "2," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
 }
 
 }  // namespace rsc

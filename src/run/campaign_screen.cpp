@@ -77,9 +77,11 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     print_result(out, file, replaces);
 }
 
-RunSummary campaign_summary(const Observations& o) {
+RunSummary campaign_summary(const Result& result) {
+    const Observations& o = result.observations;
     RunSummary summary;
     summary.levels = static_cast<long>(o.rows.size());
+    summary.failed = result.compared.failed;
     for (const LevelValues& row : o.rows)
         if (row.status == LevelStatus::not_converged) ++summary.failed;
     summary.separation = o.separation.mean.back();

@@ -20,6 +20,6 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file,
                             bool replaces);
 
-RunSummary campaign_summary(const Observations& observations);
+RunSummary campaign_summary(const Result& result);
 
 }  // namespace rsc

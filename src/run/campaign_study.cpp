@@ -78,9 +78,6 @@ std::optional<RunSummary> finished(const Member& member) {
     const Case& settings = member.settings;
     std::error_code error;
     if (fs::exists(checkpoint_name(settings.output.file), error)) return {};
-    if (settings.surface.source != Source::synthetic &&
-        !(fs::last_write_time(settings.output.file, error) > fs::last_write_time(settings.surface.file, error)))
-        return {};
     return finished_result(settings);
 }
 

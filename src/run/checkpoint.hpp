@@ -54,8 +54,9 @@ public:
     // The campaign is finished.
     void remove();
 
-    // "surface%sigma: 0.01 there, 0.02 now", a line a key that may not differ and does.
-    static std::vector<std::string> differences(const Case& there, const Case& now);
+    // "surface%sigma: 0.01 there, 0.02 now", a line a key that may not differ and does; the two words say where a value stands.
+    static std::vector<std::string> differences(const Case& there, const Case& now, const std::string& of_there = "there",
+                                                const std::string& of_now = "now");
 
 private:
     void create();

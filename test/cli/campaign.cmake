@@ -3,7 +3,7 @@ set(rsc_mpi_program "")
 if(TARGET rsc_mpi)
   set(rsc_mpi_program $<TARGET_FILE:rsc_mpi>)
 endif()
-foreach(name threads ranks kills signals refused study limit full_disk memory)
+foreach(name threads ranks kills signals refused grow merge study limit full_disk memory)
   add_test(NAME cli.campaign_${name}
            COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/campaign.sh ${name} $<TARGET_FILE:rsc> "${rsc_mpi_program}"
                    ${CMAKE_CURRENT_BINARY_DIR}/campaign_${name}.run)

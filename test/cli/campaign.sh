@@ -202,6 +202,117 @@ test_refused() {
     says "is there and whole"
 }
 
+# A finished campaign grows: the realizations there are not computed again, and the file is that of the whole.
+test_grow() {
+    campaign 30
+    expect 0 in_folder whole "$rsc" -q ../case.nml
+    mkdir grown && cd grown
+    expect 0 "$rsc" -q -s run%realizations=11 ../case.nml
+    expect 0 "$rsc" --resume -s run%title="'x'" -s run%realizations=11 ../case.nml   # only the title: nothing is computed
+    says "11 realizations of 20 levels.*; 11 of them are done"
+    expect 0 "$rsc" --resume -s run%realizations=18 ../case.nml
+    says "18 realizations of 20 levels.*; 11 of them are done"
+    expect 0 "$rsc" --resume ../case.nml
+    says "30 realizations of 20 levels.*; 18 of them are done"
+    same ../whole/out.nc out.nc
+    # A growth that is interrupted goes on from its own state, without the result.
+    sed 's/= 30 /= 30000 /' ../case.nml > long.nml
+    "$rsc" -q --resume long.nml 2> /dev/null &
+    until_state 3000000 $!
+    kill -s KILL $! && wait $!
+    cp out.nc.checkpoint before
+    rm out.nc
+    "$rsc" --resume long.nml > said 2>&1 &
+    until_state "$(stat -c %s out.nc.checkpoint)" $!
+    kill -s KILL $! && wait $!
+    [ "$(sed -n 's/.*; \([0-9]*\) of them are done/\1/p' said)" -ge 30 ] || { cat said; fail "what the result had is lost"; }
+    rm -f out.nc.checkpoint before long.nml
+    # Another case, or fewer: told, and computed.
+    expect 0 "$rsc" -q ../case.nml
+    expect 0 "$rsc" --resume -s surface%hurst=0.75 ../case.nml
+    says "is not the first part of this campaign (surface%hurst: 0.7 there, 0.75 now): all realizations are computed"
+    grep -q "are done" said && fail "realizations of another case were taken"
+    expect 0 "$rsc" --resume -s surface%hurst=0.75 -s run%realizations=5 ../case.nml
+    says "run%realizations: 30 there, 5 now"
+    expect 0 "$rsc" --resume -s surface%hurst=0.75 -s run%realizations=9 -s run%first_realization=1 ../case.nml
+    says "run%first_realization: 3 there, 1 now"
+    # Forces, and a comparison with elements.
+    local pressed="-q -s indentation%control='force' -s indentation%levels=1,3,10 -s compare%levels=3"
+    expect 0 in_folder ../forces "$rsc" $pressed ../case.nml
+    rm out.nc
+    expect 0 "$rsc" $pressed -s run%realizations=7 ../case.nml
+    expect 0 "$rsc" --resume $pressed ../case.nml
+    same ../forces/out.nc out.nc
+}
+
+# Parts of a campaign are put together into the file of the whole; what does not belong together is refused by name.
+test_merge() {
+    campaign 30
+    expect 0 in_folder whole "$rsc" -q ../case.nml
+    part() { expect 0 in_folder "$1" "$rsc" -q -s run%first_realization="$2" -s run%realizations="$3" "${@:4}" ../case.nml; }
+    part a 3 11
+    part b 14 3
+    part c 17 16
+    mkdir merged && cd merged
+    expect 0 "$rsc" --merge ../c/out.nc ../a/out.nc ../b/out.nc -o out.nc
+    says "30 realizations, 600 levels"
+    same ../whole/out.nc out.nc
+    # Of what was merged before, in whatever order; an existing result is replaced.
+    rm out.nc
+    expect 0 "$rsc" -q --merge ../b/out.nc ../c/out.nc --output=later.nc
+    expect 0 "$rsc" -q --merge ../a/out.nc later.nc -o out.nc
+    same ../whole/out.nc out.nc
+    expect 0 "$rsc" --merge later.nc ../a/out.nc -o out.nc
+    says "out.nc (replaces"
+    same ../whole/out.nc out.nc
+    cd ..
+    part law 14 4 -s "asperities%law='elliptic'" -s solver%tolerance=1e-7
+    part cells 14 4 -s output%map_cells=10
+    part grid 14 4 -s surface%n=512
+    part one 14 1
+    part classic 14 3 -s "output%format='classic'"
+    study
+    expect 0 in_folder study "$rsc" -q ../case.nml
+    echo text > text.nc
+    refused() { expect 2 "$rsc" --merge "$@" -o new.nc; [ ! -e new.nc ] || fail "a refusal has written"; }
+    refused a/out.nc law/out.nc
+    says "'law/out.nc' is of another case than 'a/out.nc'"
+    says "asperities%law: 'hertz' in 'a/out.nc', 'elliptic' in 'law/out.nc'"
+    says "solver%tolerance: 1e-06 in"
+    refused a/out.nc cells/out.nc
+    says "output%map_cells: 20 in 'a/out.nc', 10 in 'cells/out.nc'"
+    refused a/out.nc grid/out.nc
+    says "surface%n: 256 in"
+    refused a/out.nc one/out.nc
+    says "'one/out.nc' holds a single realization"
+    refused a/out.nc study/out/rsc_manifest.nc
+    says "rsc_manifest.nc' is the manifest of a study"
+    refused a/out.nc text.nc
+    says "'text.nc' is no result of rsc"
+    refused a/out.nc a/../a/out.nc
+    says "realizations 3 to 13 are in 'a/out.nc' and in 'a/../a/out.nc'"
+    refused a/out.nc merged/out.nc
+    says "realizations 3 to 13 are in"
+    refused a/out.nc merged/later.nc b/out.nc
+    says "realizations 14 to 16 are in"
+    refused a/out.nc c/out.nc
+    says "realizations 14 to 16 of the campaign are in none of the files"
+    sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' classic/out.nc
+    refused a/out.nc classic/out.nc
+    says "'classic/out.nc' is of another version (rsc 0.0.9)"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc -o text.nc
+    says "text.nc.*is no result of rsc"
+    grep -q text text.nc || fail "a file of somebody else was replaced"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc -o b/out.nc
+    says "this is an input of the run"
+    expect 2 "$rsc" --merge a/out.nc -o new.nc
+    says "two result files or more"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc
+    says "--output"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc -o new.nc -s run%seed=2
+    says "computes nothing"
+}
+
 # A study in one go and as an array of jobs: the same files. A bad member is refused before anything runs.
 test_study() {
     study

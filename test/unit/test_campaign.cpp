@@ -36,6 +36,11 @@ Case small_case() {
     return c;
 }
 
+bool same(const std::vector<ExactSum>& a, const std::vector<ExactSum>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const ExactSum& x, const ExactSum& y) { return x.high == y.high && x.low == y.low; });
+}
+
 void test_archive() {
     const Job job = prepare(small_case());
     Accumulators sums(job.observe, job.levels.size()), again = sums, restored = sums;
@@ -54,6 +59,15 @@ void test_archive() {
     }
     CHECK(to_bytes(again) == to_bytes(sums));
     CHECK(to_bytes(restored) == to_bytes(sums));
+    // Summed in groups, and after a way through a file, they are the same.
+    Accumulators left(job.observe, job.levels.size()), right = left;
+    for (int k = 1; k <= 6; ++k) (k <= 2 ? left : right).add(observe(job, k, realize(job, k, 1)));
+    CHECK_THROWS(Accumulators(right).append(left), Error);
+    left.append(right);
+    CHECK(to_bytes(left) == to_bytes(sums));
+    const Observations o = sums.finish();
+    CHECK(same(map_sums(job.observe.map, 6, o.map_area_fraction, o.map_area_rest), sums.map_area));
+    CHECK(same(map_sums(job.observe.map, 6, o.map_pressure, o.map_force_rest), sums.map_force));
     Accumulators other(job.observe, job.levels.size() + 1);
     CHECK_THROWS(sums_from_bytes(to_bytes(sums), other), Error);
 }

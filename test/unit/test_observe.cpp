@@ -10,6 +10,7 @@
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"
+#include "observe/exact_sum.hpp"
 #include "observe/radial.hpp"
 #include "observe/record.hpp"
 #include "observe/regimes.hpp"
@@ -409,6 +410,39 @@ void test_accumulation() {
     CHECK_THROWS(other.add(records[0]), Error);
 }
 
+__extension__ using Wide = __int128;
+
+// Against integers: in any order, in any groups.
+void test_exact_sums() {
+    constexpr double kScale = 1e-3;
+    const double quantum = quantum_of(kScale, 64);
+    std::mt19937_64 random(7);
+    std::vector<double> values(5000);
+    for (double& v : values) v = kScale * std::exp2(-40.0 * std::generate_canonical<double, 53>(random));  // of very unlike sizes
+    Wide truth = 0;
+    for (double v : values) {
+        CHECK(std::abs(exact_term(v, quantum).high - v) <= quantum / 2);
+        truth += static_cast<Wide>(exact_term(v, quantum).high / quantum);
+    }
+    for (int trial = 0; trial < 5; ++trial) {
+        ExactSum whole, group;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            group.add(exact_term(values[k], quantum));
+            if (random() % 10 == 0 || k + 1 == values.size()) {
+                whole.add(group);
+                group = {};
+            }
+        }
+        const Wide high = static_cast<Wide>(whole.high / quantum);
+        CHECK(high + static_cast<Wide>(whole.low / quantum) == truth);
+        CHECK(whole.high == static_cast<double>(truth) * quantum);  // the nearest double
+        std::shuffle(values.begin(), values.end(), random);
+    }
+    // Where the quantum would leave the range of doubles, and of nothing.
+    CHECK(exact_term(1e-305, quantum_of(1e-300, 64)).high == 1e-305);
+    CHECK(exact_term(0.3, quantum_of(0, 0)).high == 0.3);
+}
+
 }  // namespace
 
 int main() {
@@ -423,5 +457,6 @@ int main() {
     test_gamma_fit();
     test_gamma_errors();
     test_accumulation();
+    test_exact_sums();
     return check::summary();
 }
