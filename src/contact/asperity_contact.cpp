@@ -61,7 +61,8 @@ struct AsperityContact::Impl {
           indenter(indenter_),
           options(options_),
           kernel(make_kernel(options_.interaction, indenter_.E_star, indenter_.period)),
-          law(make_yielding(make_law(options_.law, asperities_, indenter_.E_star), asperities_, options_.hardness)),
+          law(make_yielding(make_law(options_.law, asperities_, indenter_.E_star), asperities_, options_.hardness,
+                            traits(options_.law).sinks)),
           direct(make_direct_products(kernel)),
           newton(*law) {
         use(Method::direct);

@@ -35,9 +35,7 @@ public:
 protected:
     void forget_levels() override;
     // There is one solution (K is positive definite); earlier levels are a start, and change the answer within the tolerance only.
-    // Contacts are sets of pixels connected by sides. Areas are those of the pixels less (pi - 1 + ln 2)/24 of a pixel for each side of
-    // their border (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017), but where a pixel at the hardness has it: there
-    // the middle of the pixel decides, and a count is as often too low as too high. A contact yields when one of its pixels does.
+    // Contacts and their areas: pixel_spots.hpp.
     Level solve(double Z0) override;
     void accept(Level& level) override;
     double tolerance() const override;

@@ -64,8 +64,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     const std::vector<int> open = open_sides(touching, map.nx, map.ny, periodic);
     struct Sum {
         double p = 0, px = 0, py = 0, highest = 0, own = 0;
-        long pixels = 0, border = 0;  // border: sides without a neighbour, of pixels below the hardness
-        bool yields = false;
+        long pixels = 0, hard = 0, border = 0;  // at the hardness; sides without a neighbour, of those that are not
         Pixel peak{0, 0};
     };
     std::vector<Sum> sums(at(contacts));
@@ -75,7 +74,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         s.p += pressure[k];
         s.pixels += 1;
         const bool yields = pressure[k] >= H0;
-        s.yields = s.yields || yields;
+        s.hard += yields;
         if (!yields) s.border += open[k];
         if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
         if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = touching[k];
@@ -98,14 +97,15 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     const double pixel = map.dx * map.dy;
     const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
     for (const Sum& s : sums) {
-        const double area = pixel * (static_cast<double>(s.pixels) - border * static_cast<double>(s.border));
+        const double flat = static_cast<double>(s.hard) / static_cast<double>(s.pixels);
+        const double area = pixel * (static_cast<double>(s.pixels) - (1 + flat * flat) * border * static_cast<double>(s.border));
         level.add_contact(s.peak.y * map.nx + s.peak.x, map.x0 + map.dx * inside(s.peak.x + s.px / s.p, map.nx),
                           map.y0 + map.dy * inside(s.peak.y + s.py / s.p, map.ny), s.p * pixel, std::sqrt(area / std::numbers::pi),
                           s.own * map.dx / (std::numbers::pi * indenter.E_star));
         level.force += s.p * pixel;
         level.area += area;
-        if (std::isfinite(H0)) level.yields.push_back(s.yields);
-        level.plastic_contacts += s.yields;
+        if (std::isfinite(H0)) level.yields.push_back(s.hard > 0);
+        level.plastic_contacts += s.hard > 0;
     }
     if (!touching.empty()) level.extreme_area_fraction = extreme / static_cast<double>(touching.size());
     level.area_pixels = pixel * static_cast<double>(touching.size());

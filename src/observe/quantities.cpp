@@ -17,7 +17,8 @@ constexpr LevelQuantity kQuantities[] = {
      .statistics = true, .plain = "contact area", .heading = "A", .width = 14, .digits = 8},
     {.name = "contact_area_pixels", .member = &V::area_pixels, .length_power = 2,
      .meaning = "area of the pixels under pressure, not corrected for their border",
-     .comment = "elements: contact_area is this less (pi - 1 + ln 2)/24 of a pixel for each side of the border, but of pixels at the hardness",
+     .comment = "elements: contact_area is this less (pi - 1 + ln 2)/24 of a pixel for each side of the border; where it yields, "
+                "see src/contact/element_contact.hpp",
      .always = false},
     {.name = "pressure", .member = &V::pressure, .length_power = -2, .force_power = 1, .meaning = "nominal pressure between two flats, N/A0",
      .always = false, .statistics = true, .plain = "pressure", .heading = "p", .width = 14, .digits = 6},

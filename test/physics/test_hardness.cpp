@@ -84,7 +84,7 @@ void test_laws() {
         for (const double flattening : {8.0, -5.0, 0.01}) {
             a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
             const auto elastic = make_law(kind, a, kE);
-            const auto law = make_yielding(make_law(kind, a, kE), a, {4000, 0});
+            const auto law = make_yielding(make_law(kind, a, kE), a, {4000, 0}, traits(kind).sinks);
             for (Law* l : {elastic.get(), law.get()}) l->prepare({&i, 1});
             const double uc = law->yield_penetration(0, 4000);
             CHECK_RELATIVE(elastic->force(0, uc), 4000 * elastic->area(0, uc), 1e-12);
@@ -112,6 +112,24 @@ void test_laws() {
                 CHECK(law->force(0, deep) > 0 && std::abs(law->force(0, deep) / (4000 * law->area(0, deep)) - 1) < 1e-12);
             }
         }
+}
+
+// fourth_order on a sphere: the summit pressed flat sinks in, a^2 = a_c^2 + 2 r [u - u_c - k (a - a_c)], k = 4 H/(pi E*).
+void test_sinking() {
+    const double r = 0.004, H = 3000;
+    Asperities a = one(r);
+    a.kappa1 = a.kappa2 = {1 / r}, a.angle = {0}, a.biharmonic = {0};
+    SolverOptions options = options_with(H);
+    options.law = LawKind::fourth_order;
+    AsperityContact contact(a, {kE, kFlat, 0.5, 0.5}, options);
+    const double uc = std::pow(3 * pi * H / (4 * kE), 2) * r, ac = std::sqrt(r * uc), b = r * 4 * H / (pi * kE);
+    for (const double times : {1.001, 1.5, 4.0, 30.0}) {
+        const Level level = contact.at_separation(-times * uc);
+        const double radius = std::sqrt((b + ac) * (b + ac) + 2 * r * uc * (times - 1)) - b;
+        CHECK_RELATIVE(level.area, pi * radius * radius, 1e-12);
+        CHECK_RELATIVE(level.force, H * level.area, 1e-12);
+        CHECK(level.area < pi * r * uc * (2 * times - 1));
+    }
 }
 
 Asperities few(std::mt19937& random, int n) {
@@ -254,6 +272,7 @@ void test_limits() {
 
 int main() {
     test_one();
+    test_sinking();
     test_laws();
     test_independent();
     test_path();

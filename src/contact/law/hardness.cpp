@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -17,8 +18,8 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 class Yielding final : public Law {
 public:
-    Yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness)
-        : elastic_(std::move(elastic)), radius_(asperities.radius), hardness_(hardness), place_(asperities.size(), -1) {}
+    Yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness, bool sinks)
+        : elastic_(std::move(elastic)), radius_(asperities.radius), hardness_(hardness), sinks_(sinks), place_(asperities.size(), -1) {}
 
     bool convex() const override { return false; }  // the slope falls where a reloaded asperity yields on
     bool path_dependent() const override { return true; }
@@ -32,9 +33,9 @@ public:
             s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
             s.yield = elastic_->yield_penetration(i, s.H);
             const double force = elastic_->force(i, s.yield), area = elastic_->area(i, s.yield);
-            s.area = area;
-            s.spread = elastic_->spread(i, s.yield);
-            s.modulus = 3 * force / (4 * std::sqrt(area / pi) * s.yield);
+            s.start = {s.yield, area, std::sqrt(area / pi), elastic_->spread(i, s.yield)};
+            s.modulus = 3 * force / (4 * s.start.radius * s.yield);
+            s.sink = sinks_ ? 4 * s.H / (pi * s.modulus) : 0.0;
             summits_.push_back(s);
         }
     }
@@ -54,25 +55,24 @@ public:
                 work[k] = 0.4 * force[k] * x;
                 continue;
             }
-            const Spread now = elastic_->spread(asperity[k], u[k]);
-            force[k] = s.H * (s.area + 2 * (now.area - s.spread.area));
-            slope[k] = 2 * s.H * now.slope;
-            work[k] = s.deepest > 0 ? recoverable(s, s.deepest) + flow(s, s.deepest_spread, s.deepest, now, u[k])
-                                    : elastic_work(asperity[k]) + flow(s, s.spread, s.yield, now, u[k]);
+            const Flat now = flat(asperity[k], u[k]);
+            force[k] = s.H * now.area;
+            slope[k] = s.H * growth(s, now.spread.slope, now.radius);
+            work[k] = s.deepest > 0 ? recoverable(s, s.deepest) + flow(s, s.end, now) : elastic_work(asperity[k]) + flow(s, s.start, now);
         }
     }
 
     double force(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? s.c * (u - s.rest) * std::sqrt(u - s.rest) : 0.0;
-        return u > s.yield ? s.H * flowing_area(asperity, u) : elastic_->force(asperity, u);
+        return u > s.yield ? s.H * flat(asperity, u).area : elastic_->force(asperity, u);
     }
 
     double area(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         // c = (4/3) E' sqrt(r')
         if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? pi * std::pow(0.75 * s.c / s.modulus, 2) * (u - s.rest) : 0.0;
-        return u > s.yield ? flowing_area(asperity, u) : elastic_->area(asperity, u);
+        return u > s.yield ? flat(asperity, u).area : elastic_->area(asperity, u);
     }
 
     double axes(int asperity) const override { return elastic_->axes(asperity); }
@@ -87,9 +87,12 @@ public:
             respond(1, &asperity, &u, &f, &D, &W);
             return D;
         };
-        double most = slope(high);
-        if (s.deepest > 0 && high > s.deepest) most = std::max(most, slope(s.deepest));
-        return most;
+        if (high <= (s.deepest > 0 ? s.deepest : s.yield)) return slope(high);
+        // The elastic branch up to where the area goes on growing, and that growth: it rises with the radius, and the spread's slope
+        // falls or rises all the way.
+        const Flat &from = s.deepest > 0 ? s.end : s.start, to = flat(asperity, high);
+        return std::max(slope(s.deepest > 0 ? s.deepest : s.yield),
+                        s.H * growth(s, std::max(from.spread.slope, to.spread.slope), to.radius));
     }
 
     bool yields(int asperity, double u) const override {
@@ -107,12 +110,11 @@ public:
         for (int k = 0; k < n; ++k) {
             Summit& s = summits_[at(place_[at(asperity[k])])];
             if (!(u[k] > s.yield && u[k] > s.deepest)) continue;
-            const Spread now = elastic_->spread(asperity[k], u[k]);
-            const double area = s.area + 2 * (now.area - s.spread.area), f = s.H * area, a = std::sqrt(area / pi);
-            const double spent = elastic_work(asperity[k]) + flow(s, s.spread, s.yield, now, u[k]);
-            const double x = 0.75 * f / (s.modulus * a);  // a^2/r'
+            const Flat now = flat(asperity[k], u[k]);
+            const double f = s.H * now.area, spent = elastic_work(asperity[k]) + flow(s, s.start, now);
+            const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
             s.deepest = u[k];
-            s.deepest_spread = now;
+            s.end = now;
             s.rest = u[k] - x;
             s.c = f / (x * std::sqrt(x));
             s.lost = spent - recoverable(s, u[k]);
@@ -120,29 +122,59 @@ public:
     }
 
 private:
+    // A summit that is pressed flat: how far, what it has sunk in left out, its area and radius, and the elastic law's spread there.
+    struct Flat {
+        double depth = 0, area = 0, radius = 0;
+        Spread spread;
+    };
     struct Summit {
         double H = 0;
         double yield = 0;    // u_c
-        double area = 0;     // at u_c
-        Spread spread;       // at u_c
+        Flat start;          // at u_c
         double modulus = 0;  // E'
+        double sink = 0;     // 4 H/(pi E'), or 0
         // History; deepest = 0: has never yielded.
-        double deepest = 0;     // u_m
-        Spread deepest_spread;  // at u_m
-        double rest = 0;        // u_r
-        double c = 0;           // f = c (u - u_r)^(3/2)
-        double lost = 0;        // work that does not come back
+        double deepest = 0;  // u_m
+        Flat end;            // at u_m
+        double rest = 0;     // u_r
+        double c = 0;        // f = c (u - u_r)^(3/2)
+        double lost = 0;     // work that does not come back
     };
 
     const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }
 
-    double flowing_area(int asperity, double u) const {
+    Flat flat_at(int asperity, double depth) const {
         const Summit& s = summit(asperity);
-        return s.area + 2 * (elastic_->spread(asperity, u).area - s.spread.area);
+        const Spread spread = elastic_->spread(asperity, depth);
+        const double area = s.start.area + 2 * (spread.area - s.start.spread.area);
+        return {depth, area, std::sqrt(area / pi), spread};
+    }
+    // Beyond u_c. Where summits sink, depth + sink [a(depth) - a(u_c)] = u by Newton's method, from the answer for a paraboloid.
+    Flat flat(int asperity, double u) const {
+        const Summit& s = summit(asperity);
+        if (s.sink == 0) return flat_at(asperity, u);
+        const double b = s.sink * s.start.spread.slope / pi, c = s.start.radius;
+        const double guess = std::sqrt((b + c) * (b + c) + 2 * s.start.spread.slope / pi * (u - s.yield)) - b;
+        double depth = u - s.sink * (guess - c);
+        Flat now = flat_at(asperity, depth);
+        constexpr int most = 30;
+        for (int i = 0; i < most; ++i) {
+            const double miss = depth + s.sink * (now.radius - c) - u;
+            if (std::abs(miss) <= 4 * std::numeric_limits<double>::epsilon() * u) break;
+            depth -= miss / (1 + s.sink * now.spread.slope / (pi * now.radius));
+            now = flat_at(asperity, depth);
+        }
+        return now;
+    }
+    // dA/du.
+    static double growth(const Summit& s, double spread_slope, double radius) {
+        return 2 * spread_slope / (1 + s.sink * spread_slope / (pi * radius));
     }
     // int f du at constant pressure between two penetrations.
-    static double flow(const Summit& s, const Spread& from, double u_from, const Spread& to, double u_to) {
-        return s.H * ((s.area - 2 * s.spread.area) * (u_to - u_from) + 2 * (to.integral - from.integral));
+    static double flow(const Summit& s, const Flat& from, const Flat& to) {
+        const double sunk = s.sink * pi / 3 * (to.radius * to.radius * to.radius - from.radius * from.radius * from.radius);
+        return s.H * ((s.start.area - 2 * s.start.spread.area) * (to.depth - from.depth) + 2 * (to.spread.integral - from.spread.integral) +
+                      sunk);
     }
     static double recoverable(const Summit& s, double u) { return 0.4 * s.c * (u - s.rest) * (u - s.rest) * std::sqrt(u - s.rest); }
     double elastic_work(int asperity) const {
@@ -154,17 +186,18 @@ private:
     std::unique_ptr<Law> elastic_;
     const std::vector<double>& radius_;
     Hardness hardness_;
+    bool sinks_;
     std::vector<int> place_;  // of an asperity in summits_; -1: not prepared
     std::vector<Summit> summits_;
 };
 
 }  // namespace
 
-std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness) {
+std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness, bool sinks) {
     if (!(hardness.H0 > 0)) throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
     if (!(hardness.length >= 0) || std::isinf(hardness.length)) throw Error(Failure::bad_input, "solids%size_effect must not be negative");
     if (std::isinf(hardness.H0)) return elastic;
-    return std::make_unique<Yielding>(std::move(elastic), asperities, hardness);
+    return std::make_unique<Yielding>(std::move(elastic), asperities, hardness, sinks);
 }
 
 }  // namespace rsc

@@ -184,11 +184,11 @@ private:
 }  // namespace
 
 const LawTraits& traits(LawKind kind) {
-    //                                       curvatures  biharmonic  between points  elliptic spots
+    //             curvatures, biharmonic, between points, sinks, elliptic spots
     static constexpr LawTraits table[] = {
-        {kLawNames[0], false, false, false, false},
-        {kLawNames[1], true, false, true, true},
-        {kLawNames[2], true, true, true, true},
+        {kLawNames[0], false, false, false, false, false},
+        {kLawNames[1], true, false, true, false, true},
+        {kLawNames[2], true, true, true, true, true},
     };
     return table[static_cast<int>(kind)];
 }

@@ -14,6 +14,7 @@ struct LawTraits {
     bool needs_curvatures;  // kappa1, kappa2 and angle of every asperity
     bool needs_biharmonic;  // nabla^4 z at every summit
     bool between_points;    // wants the summits between the points of the grid, not the highest points (rough/summits.hpp)
+    bool sinks;             // a summit that is pressed flat sinks in as a whole (hardness.hpp)
     bool elliptic_spots;    // spots are ellipses, and the contact area that of their union; otherwise circles whose areas add up
 };
 const LawTraits& traits(LawKind kind);
