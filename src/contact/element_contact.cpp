@@ -157,7 +157,7 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
         pressure.push_back(p[k]);
     }
     add_pixels(level, heights, indenter, options.hardness.H0, touching, std::move(pressure));
-    judge_edges(level, options);
+    judge_edges(level, indenter, options);
     return level;
 }
 

@@ -10,11 +10,15 @@ namespace {
 // Distance to the border, negative outside.
 double inside(const Rectangle& r, double x, double y) { return std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y}); }
 
-// Area of the smallest disc about the tip that holds all spots; no more than the surface has.
+// Area of the smallest disc about the tip that holds all spots, or all pixels where there are any; no more than the surface has.
 double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
     double radius = 0;
-    for (std::size_t k = 0; k < level.x.size(); ++k)
+    for (std::size_t k = 0; k < level.x.size() && level.pixels.index.empty(); ++k)
         radius = std::max(radius, std::hypot(level.x[k] - indenter.x0, level.y[k] - indenter.y0) + level.a[k]);
+    const LevelPixels& pixels = level.pixels;
+    for (std::size_t k = 0; k < pixels.index.size(); ++k)
+        radius = std::max(radius, std::hypot(std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
+                                             std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy));
     const double disc = std::numbers::pi * radius * radius;
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
@@ -38,10 +42,14 @@ void judge_range(Level& level, const Indenter& indenter, const SolverOptions& op
         level.status = std::max(level.status, LevelStatus::out_of_validity);
 }
 
-void judge_edges(Level& level, const SolverOptions& options) {
-    level.edge_contacts = 0;
-    for (std::size_t k = 0; k < level.x.size() && options.surface.known(); ++k)
-        level.edge_contacts += inside(options.surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+void judge_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
+    level.large_contacts = level.edge_contacts = 0;
+    for (std::size_t k = 0; k < level.x.size(); ++k) {
+        level.large_contacts += options.mean_spacing > 0 && level.a[k] > options.mean_spacing / 4;
+        level.edge_contacts +=
+            options.surface.known() && inside(options.surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+    }
+    level.nominal_area = nominal_area(level, indenter, options.surface);
     if (level.edge_contacts > 0) level.status = std::max(level.status, LevelStatus::out_of_validity);
 }
 

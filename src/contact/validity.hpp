@@ -18,8 +18,9 @@ bool exceeds_nominal_area(const LevelValues& level);
 // known.
 void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options);
 
-// For elements, whose contacts may be of any size: edge_contacts alone, those that come within <d> of the border of a free surface, and the
-// status that goes with them.
-void judge_edges(Level& level, const SolverOptions& options);
+// The same numbers for elements, whose contacts may be of any size and at any depth: edge_contacts are those that come within <d> of the
+// border of a free surface, nominal_area is that of the smallest disc about the tip that holds all pixels. Only edge_contacts raise the
+// status.
+void judge_edges(Level& level, const Indenter& indenter, const SolverOptions& options);
 
 }  // namespace rsc

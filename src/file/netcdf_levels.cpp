@@ -149,10 +149,12 @@ void ResultTable::surfaces() {
                "sqrt(2 m2); the theory is one of small slopes");
     std::vector<std::int32_t> summits, saddles;
     for (const SurfaceStatistics& s : o_.surface) summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
-    add("summits", dims, "1", "number of asperities", summits);
-    add("saddles", dims, "1", "grid maxima that are no asperities, not kept", saddles,
-        comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' those that lead to no summit between the grid "
-                "points, or to one already found"));
+    if (std::any_of(summits.begin(), summits.end(), [](auto n) { return n > 0; })) {  // elements do not look for summits
+        add("summits", dims, "1", "number of asperities", summits);
+        add("saddles", dims, "1", "grid maxima that are no asperities, not kept", saddles,
+            comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' those that lead to no summit between the grid "
+                    "points, or to one already found"));
+    }
     add_absent("mean_kappa_g", dims, unit(-1), "mean geometric curvature of the summits",
                of_surfaces([](const auto& s) { return s.mean_kappa_g; }), "1.356 sqrt(m4) in theory");
     add_absent("mean_kappa_a", dims, unit(-1), "mean algebraic curvature of the summits",

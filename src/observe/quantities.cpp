@@ -56,7 +56,7 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "edge_contacts", .member = &V::edge_contacts, .meaning = "contacts within <d> of the border of a free surface",
      .comment = "what would carry beyond the border is missing: the load is too small"},
     {.name = "nominal_area", .member = &V::nominal_area, .length_power = 2, .meaning = "nominal area under the sphere",
-     .comment = "the smallest disc about the tip that holds all contacts, at most the area of the surface"},
+     .comment = "the smallest disc about the tip that holds all contacts (elements: all pixels under pressure), at most the area of the surface"},
     {.name = "plastic_contacts", .member = &V::plastic_contacts, .meaning = "contacts that yield",
      .comment = "mean pressure at the hardness H = H0 sqrt(1 + l/r), and as deep as ever or deeper; elements: contacts with a pixel at the "
                 "hardness", .always = false},
@@ -65,7 +65,8 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "elements: H times the volume pressed out; levels depend on those before them where something yields", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
-     .comment = "no metal bears such pressures elastically: solids%hardness bounds them"},
+     .comment = "of contacts; elements: of pixels, each with its own pressure. No metal bears such pressures elastically: solids%hardness "
+                "bounds them"},
     {.name = "crowded_cells", .member = &V::crowded_cells,
      .meaning = "cells of the map with an area fraction above pi/16",
      .comment = "19.6 %: beyond it point forces do not describe the interaction well"},

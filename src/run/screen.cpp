@@ -115,7 +115,7 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
     out << '\n';
 }
 
-void print_statuses(std::ostream& out, std::span<const LevelValues> levels, double sigma) {
+void print_statuses(std::ostream& out, std::span<const LevelValues> levels, double sigma, bool elements) {
     const auto count = [&](auto holds) { return static_cast<long>(std::count_if(levels.begin(), levels.end(), holds)); };
     const auto tell = [&](long found, const std::string& what) {
         if (found > 0) out << format("  %ld of %zu levels: ", found, levels.size()) << what << '\n';
@@ -126,13 +126,15 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, doub
     // What makes a level out_of_validity; told also where a more serious status hides that one.
     tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
          "contacts within <d> of the surface's border - what would carry beyond it is missing: N is too small.");
-    tell(
-        count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
-        "separation below -3 sigma - the sphere's tip lies under all but a thousandth of the surface: the asperity model is out of its range.");
-    tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
-         "contact area above the nominal area under the sphere - the asperity model is out of its range.");
-    tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
-         "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is leaving its range.");
+    if (!elements) {
+        tell(
+            count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
+            "separation below -3 sigma - the sphere's tip lies under all but a thousandth of the surface: the asperity model is out of its range.");
+        tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
+             "contact area above the nominal area under the sphere - the asperity model is out of its range.");
+        tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
+             "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is leaving its range.");
+    }
     tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
          "contacts pressed beyond what the law knows of a summit (beyond_law in the file).");
     tell_status(LevelStatus::overlapping,
@@ -149,7 +151,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, doub
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     const bool elements = job.settings.solver.model == Model::elements;
     if (!elements) print_methods(out, levels);
-    print_statuses(out, levels, job.sigma);
+    print_statuses(out, levels, job.sigma, elements);
     const auto much = std::count_if(levels.begin(), levels.end(), [](const LevelValues& level) {
         return static_cast<double>(level.beyond_law) > kMuchBeyondLaw * level.contacts;
     });
