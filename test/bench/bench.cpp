@@ -1,19 +1,15 @@
-// What rsc costs, as ratios of times measured in one run. `rsc_bench` runs everything (a few minutes); `rsc_bench NAME...` only the
-// parts named: pairs, realization, solve, laws, rough, largest, many,
-// close.
-#include <fftw3.h>
-#include <sys/resource.h>
+// What rsc costs: processor times, and their ratios in one run, on one thread. `rsc_bench` runs all parts but those of minutes and
+// gigabytes; `rsc_bench NAME...` only the parts named, in the table at the end of this file.
+#include "bench.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <fftw3.h>
+#include <omp.h>
+
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <numbers>
 #include <random>
 #include <string>
-#include <vector>
 
 #include "contact/asperity_contact.hpp"
 #include "contact/interaction/pairs.hpp"
@@ -23,29 +19,9 @@
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 using namespace rsc;
+using bench::kGold, bench::now, bench::peak_memory_mb, bench::shortest;
 
 namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-// The shortest of several runs: what the code costs when nothing else disturbs it.
-double shortest(int runs, const std::function<void()>& work) {
-    double best = 1e300;
-    for (int i = 0; i < runs; ++i) {
-        const double start = now();
-        work();
-        best = std::min(best, now() - start);
-    }
-    return best;
-}
-
-double peak_memory_mb() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-const Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
 
 Asperities surface(double sigma, std::int64_t realization) {
     Spectrum spectrum;
@@ -200,7 +176,7 @@ Asperities lattice(int n) {
 
 void bench_many() {
     std::printf("\nmany: one level cold on a jittered lattice, a third in contact, to a residual of 1e-6\n");
-    std::vector<double> log_n, log_t;
+    std::vector<double> number, times;
     for (int n : {10000, 30000, 100000, 300000, 600000}) {
         const Asperities a = lattice(n);
         const double sigma = 0.05 / std::sqrt(n);
@@ -214,13 +190,10 @@ void bench_many() {
         std::printf("  N = %6d: %6zu contacts (%.0f %%), area %.2f %%, %d Newton steps, %ld products, residual %.1e, %s, %.2f s\n", n,
                     level.f.size(), 100.0 * static_cast<double>(level.f.size()) / n, 100 * level.area, level.iterations, level.products,
                     level.residual, level.status == LevelStatus::not_converged ? "NOT CONVERGED" : "converged", time);
-        log_n.push_back(std::log(n));
-        log_t.push_back(std::log(time));
+        number.push_back(n);
+        times.push_back(time);
     }
-    double mn = 0, mt = 0, cov = 0, var = 0;
-    for (std::size_t k = 0; k < log_n.size(); ++k) mn += log_n[k] / 5, mt += log_t[k] / 5;
-    for (std::size_t k = 0; k < log_n.size(); ++k) cov += (log_n[k] - mn) * (log_t[k] - mt), var += (log_n[k] - mn) * (log_n[k] - mn);
-    std::printf("  time ~ N^%.2f (wanted: 1.2); peak memory %.0f MB (wanted: 8000)\n", cov / var, peak_memory_mb());
+    std::printf("  time ~ N^%.2f (wanted: 1.2); peak memory %.0f MB (wanted: 8000)\n", bench::exponent(number, times), peak_memory_mb());
 }
 
 void bench_largest() {
@@ -269,14 +242,40 @@ void bench_close() {
 
 }  // namespace
 
+struct Part {
+    const char* name;
+    void (*run)();
+    bool only_named = false;  // minutes or gigabytes: not run unless asked for
+};
+const Part kParts[] = {
+    {"pairs", bench_pairs},
+    {"realization", bench_realization},
+    {"solve", bench_solve},
+    {"laws", bench_laws},
+    {"rough", bench_rough},
+    {"largest", bench_largest},
+    {"many", bench_many},
+    {"close", bench_close},
+    {"elements", bench::elements},
+    {"elements_growth", bench::elements_growth},
+    {"elements_finest", bench::elements_finest, true},
+    {"friction", bench::friction},
+};
+
 int main(int argc, char** argv) {
+    omp_set_num_threads(1);
     if (openblas_set_num_threads) openblas_set_num_threads(1);
-    const std::pair<const char*, void (*)()> parts[] = {
-        {"pairs", bench_pairs}, {"realization", bench_realization}, {"solve", bench_solve}, {"laws", bench_laws},
-        {"rough", bench_rough}, {"largest", bench_largest},         {"many", bench_many},   {"close", bench_close}};
-    for (const auto& [name, part] : parts) {
-        const bool wanted = argc == 1 || std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, name) == 0; });
-        if (wanted) part();
+    for (int k = 1; k < argc; ++k) {
+        if (std::any_of(std::begin(kParts), std::end(kParts), [&](const Part& part) { return std::strcmp(argv[k], part.name) == 0; }))
+            continue;
+        std::fprintf(stderr, "rsc_bench: no part %s; there are", argv[k]);
+        for (const Part& part : kParts) std::fprintf(stderr, " %s", part.name);
+        std::fprintf(stderr, "\n");
+        return 2;
+    }
+    for (const Part& part : kParts) {
+        const bool named = std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, part.name) == 0; });
+        if (named || (argc == 1 && !part.only_named)) part.run();
         std::fflush(stdout);
     }
     return 0;

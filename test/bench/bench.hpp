@@ -1,0 +1,61 @@
+// What the parts of the bench share. A part is a function without arguments that prints its rows; bench.cpp lists them all.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <vector>
+
+#include "contact/indentation.hpp"
+
+namespace bench {
+
+// Processor time of all threads: a machine busy with other things spoils it less than the time on the wall.
+inline double now() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// The shortest of several runs: what the code costs when nothing else disturbs it.
+inline double shortest(int runs, const std::function<void()>& work) {
+    double best = 1e300;
+    for (int i = 0; i < runs; ++i) {
+        const double start = now();
+        work();
+        best = std::min(best, now() - start);
+    }
+    return best;
+}
+
+inline double peak_memory_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+// The exponent b of y ~ x^b, by least squares of the logarithms.
+inline double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+    const double n = static_cast<double>(x.size());
+    double mx = 0, my = 0, cov = 0, var = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) mx += std::log(x[k]) / n, my += std::log(y[k]) / n;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        const double dx = std::log(x[k]) - mx;
+        cov += dx * (std::log(y[k]) - my), var += dx * dx;
+    }
+    return cov / var;
+}
+
+inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
+
+// bench_elements.cpp
+void elements();
+void elements_finest();
+void elements_growth();
+// bench_friction.cpp
+void friction();
+
+}  // namespace bench
