@@ -11,15 +11,14 @@
 using namespace rsc;
 
 namespace bench {
+namespace {
 
-void friction() {
+void friction(const char* name, LawKind law, Detail detail) {
     constexpr double sigma = 0.01;
     constexpr int points = 100;
-    std::printf("\nfriction: default surface, Z0 = sigma, mu = 0.3, one thread\n");
-    const Asperities a =
-        make_asperities(Spectrum{}, 2048, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
+    const Asperities a = make_asperities(Spectrum{}, 2048, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, detail);
     SolverOptions options;
-    options.law = LawKind::fourth_order;
+    options.law = law;
     options.sigma = sigma;
     const Friction coulomb{0.3, 0.75};
     const auto contact = [&] { return AsperityContact(a, kGold, options); };
@@ -34,7 +33,7 @@ void friction() {
         for (int k = 1; k <= points; ++k) slides.push_back(full * k / points);
         last = slide_to(curve, coulomb, -sigma, slides).back().force;
     });
-    std::printf("  Q(xi) at %d points up to full slip, Q = %.2f N: %.1f ms, of one level cold %.2f (wanted: 10)\n", points, last,
+    std::printf("  %s: Q(xi) at %d points up to full slip, Q = %.2f N: %.1f ms, of one level cold %.1f (wanted: 10)\n", name, points, last,
                 1e3 * loading, loading / level);
 
     // Pressed on and slid on in small steps, as a code that calls for every time step does.
@@ -50,7 +49,16 @@ void friction() {
         FrictionHistory history(coulomb);
         for (int k = 0; k <= steps; ++k) history.go_to(curve, approach(k), {2e-3 * sigma * k, 0});
     });
-    std::printf("  %d updates of a path, %.0f us each, of a force call %.2f (wanted: 2)\n", steps, 1e6 * updates / steps, updates / calls);
+    std::printf("  %s: %d updates of a path, %.1f ms each, of a force call %.2f (wanted: 2)\n", name, steps, 1e3 * updates / steps,
+                updates / calls);
+}
+
+}  // namespace
+
+void friction() {
+    std::printf("\nfriction: default surface, Z0 = sigma, mu = 0.3, one thread\n");
+    friction("hertz", LawKind::hertz, Detail::grid);
+    friction("fourth_order", LawKind::fourth_order, Detail::subgrid);
 }
 
 }  // namespace bench
