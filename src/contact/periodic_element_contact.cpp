@@ -63,6 +63,7 @@ Level PeriodicElementContact::Impl::report(double Z0, const ElementsOutcome& out
         add_pixels(level, heights, indenter, options.hardness.H0, solver.pixels(), solver.pressures());
     else
         add_pixels(level, heights, indenter, options.hardness.H0, {}, {});
+    level.nominal_area = area();
     return level;
 }
 

@@ -10,8 +10,10 @@ namespace {
 // Distance to the border, negative outside.
 double inside(const Rectangle& r, double x, double y) { return std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y}); }
 
-// Area of the smallest disc about the tip that holds all spots, or all pixels where there are any; no more than the surface has.
+// Area of the smallest disc about the tip that holds all spots, or all pixels where there are any; no more than the surface has. Two flats
+// that repeat have the area of their period.
 double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
+    if (indenter.period.finite()) return indenter.period.area();
     double radius = 0;
     for (std::size_t k = 0; k < level.x.size() && level.pixels.index.empty(); ++k)
         radius = std::max(radius, std::hypot(level.x[k] - indenter.x0, level.y[k] - indenter.y0) + level.a[k]);

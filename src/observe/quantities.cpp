@@ -55,8 +55,9 @@ constexpr LevelQuantity kQuantities[] = {
                 "and the stiffness with it; 0 for the other laws"},
     {.name = "edge_contacts", .member = &V::edge_contacts, .meaning = "contacts within <d> of the border of a free surface",
      .comment = "what would carry beyond the border is missing: the load is too small"},
-    {.name = "nominal_area", .member = &V::nominal_area, .length_power = 2, .meaning = "nominal area under the sphere",
-     .comment = "the smallest disc about the tip that holds all contacts (elements: all pixels under pressure), at most the area of the surface"},
+    {.name = "nominal_area", .member = &V::nominal_area, .length_power = 2, .meaning = "nominal area under the sphere, or of two flats",
+     .comment = "the smallest disc about the tip that holds all contacts (elements: all pixels under pressure), at most the area of the "
+                "surface; two flats: A0"},
     {.name = "plastic_contacts", .member = &V::plastic_contacts, .meaning = "contacts that yield",
      .comment = "mean pressure at the hardness H = H0 sqrt(1 + l/r), and as deep as ever or deeper; elements: contacts with a pixel at the "
                 "hardness", .always = false},

@@ -73,6 +73,11 @@ void nominal() {
     options.mean_spacing = 0.039;
     judge_range(level, indenter, options);
     CHECK(level.large_contacts == 2);
+    // Two flats have the area of their period, wherever the tip is.
+    Indenter flat{1.0, __builtin_huge_val(), 0.5, 0.4};
+    flat.period = {0.3, 0.2};
+    judge_range(level, flat, options);
+    CHECK_RELATIVE(level.nominal_area, 0.06, 1e-12);
     // One spot right under the tip has all its nominal area, and no more.
     const Level one = level_at(0.5, 0.4);
     CHECK(one.status == LevelStatus::converged);
