@@ -27,6 +27,8 @@ look() {
     need libnetcdff-dev pkg-config --exists netcdf-fortran
     need libudunits2-dev header_udunits
     need librandom123-dev header Random123/philox.h
+    need libboost-dev header boost/math/special_functions/gamma.hpp
+    need zlib1g-dev header zlib.h
     need netcdf-bin command -v ncdump
     need python3 command -v python3
     need python3-matplotlib plots

@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set_target_properties(rsc_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-set(rsc_dependencies LAPACK::LAPACK OpenMP::OpenMP_CXX PkgConfig::FFTW PkgConfig::NETCDF rsc_udunits)
+set(rsc_dependencies LAPACK::LAPACK OpenMP::OpenMP_CXX PkgConfig::FFTW PkgConfig::NETCDF rsc_udunits ZLIB::ZLIB)
 
 add_library(rsc_shared SHARED $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_shared PROPERTIES OUTPUT_NAME rsc EXPORT_NAME rsc VERSION ${PROJECT_VERSION}
@@ -19,7 +19,7 @@ endif()
 add_library(rsc_static STATIC $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_static PROPERTIES OUTPUT_NAME rsc EXPORT_NAME static LINKER_LANGUAGE CXX)
 target_link_libraries(rsc_static PUBLIC "$<BUILD_INTERFACE:${rsc_dependencies}>"
-                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;OpenMP::OpenMP_CXX;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2>")
+                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;OpenMP::OpenMP_CXX;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2;ZLIB::ZLIB>")
 
 foreach(library rsc_shared rsc_static)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

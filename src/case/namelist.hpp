@@ -1,5 +1,8 @@
 // Fortran namelist text, parsed without knowing any key: groups of assignments, each with its subscript and its list of values.
 // Separators, repeat counts, null values and comments are taken as gfortran's runtime takes them.
+//
+// By hand: the readers that exist are parts of Fortran runtimes. They need the keys declared beforehand, stop at the first error, and
+// do not say where it stands.
 #pragma once
 
 #include <optional>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 namespace rsc {
@@ -147,33 +148,18 @@ ScaleFit fit_exponential(double count, double sum, const Binned& binned) {
 }
 
 IncompleteGamma incomplete_gamma(double a, double x) {
+    // NaN instead of exceptions, doubles all through.
+    using Quiet = boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
+                                                boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
+                                                boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
+                                                boost::math::policies::promote_double<false>>;
     if (!(x > 0)) return {0, 1};
     if (std::isinf(x)) return {1, 0};
-    const double front = std::exp(a * std::log(x) - x) / std::tgamma(a);
     if (x < a + 1) {
-        double term = 1 / a, sum = term;
-        for (int k = 1; k < 2000 && term > 1e-17 * sum; ++k) {
-            term *= x / (a + k);
-            sum += term;
-        }
-        const double P = std::min(1.0, front * sum);
+        const double P = boost::math::gamma_p(a, x, Quiet());
         return {P, 1 - P};
     }
-    // Lentz's evaluation of the continued fraction.
-    constexpr double tiny = 1e-300;
-    double b = x + 1 - a, c = 1 / tiny, d = 1 / b, h = d;
-    for (int k = 1; k < 2000; ++k) {
-        const double an = -k * (k - a);
-        b += 2;
-        d = an * d + b;
-        if (std::abs(d) < tiny) d = tiny;
-        c = b + an / c;
-        if (std::abs(c) < tiny) c = tiny;
-        d = 1 / d;
-        h *= d * c;
-        if (std::abs(d * c - 1) < 1e-16) break;
-    }
-    const double Q = std::clamp(front * h, 0.0, 1.0);
+    const double Q = boost::math::gamma_q(a, x, Quiet());
     return {1 - Q, Q};
 }
 

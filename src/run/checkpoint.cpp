@@ -4,9 +4,9 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -32,34 +32,11 @@ constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // not worth a rew
 constexpr double kSyncShare = 0.01;                           // of the time may go into waiting for the disk
 constexpr double kSyncSeconds = 5;
 
-// CRC-32 (IEEE 802.3), eight bytes at a time.
-std::uint32_t crc32(std::uint32_t crc, const char* data, std::size_t n) {
-    static const auto table = [] {
-        std::array<std::array<std::uint32_t, 256>, 8> t{};
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            std::uint32_t c = i;
-            for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
-            t[0][i] = c;
-        }
-        for (std::size_t k = 1; k < 8; ++k)
-            for (std::size_t i = 0; i < 256; ++i) t[k][i] = (t[k - 1][i] >> 8) ^ t[0][t[k - 1][i] & 255];
-        return t;
-    }();
-    crc = ~crc;
-    const auto byte = [](char c) { return static_cast<std::uint32_t>(static_cast<unsigned char>(c)); };
-    for (; n >= 8; data += 8, n -= 8) {
-        crc ^= byte(data[0]) | byte(data[1]) << 8 | byte(data[2]) << 16 | byte(data[3]) << 24;
-        crc = table[7][crc & 255] ^ table[6][crc >> 8 & 255] ^ table[5][crc >> 16 & 255] ^ table[4][crc >> 24] ^ table[3][byte(data[4])] ^
-              table[2][byte(data[5])] ^ table[1][byte(data[6])] ^ table[0][byte(data[7])];
-    }
-    for (; n > 0; ++data, --n) crc = (crc >> 8) ^ table[0][(crc ^ byte(*data)) & 255];
-    return ~crc;
-}
-
+// CRC-32 of kind, length and bytes.
 std::uint32_t checksum_of(const FrameHead& head, const std::string& bytes) {
-    std::uint32_t crc = crc32(0, reinterpret_cast<const char*>(&head.kind), sizeof head.kind);
-    crc = crc32(crc, reinterpret_cast<const char*>(&head.length), sizeof head.length);
-    return crc32(crc, bytes.data(), bytes.size());
+    const auto add = [](uLong crc, const void* data, std::size_t n) { return crc32_z(crc, static_cast<const Bytef*>(data), n); };
+    const uLong crc = add(add(0, &head.kind, sizeof head.kind), &head.length, sizeof head.length);
+    return static_cast<std::uint32_t>(add(crc, bytes.data(), bytes.size()));
 }
 
 // 0, or errno.

@@ -5,6 +5,8 @@
 // finish; when they have outgrown the sums, the file is written anew (sums of all that can be added, the rest) under another name
 // and takes the old one's place. A process killed at any moment leaves at most a torn frame at the end, which reading ignores:
 // what is lost are the realizations that were being computed.
+//
+// By hand: a process killed while it writes to a NetCDF or HDF5 file may leave one that cannot be opened at all.
 #pragma once
 
 #include <chrono>

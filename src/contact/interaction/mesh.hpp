@@ -5,6 +5,9 @@
 // boundary: nothing is periodic), and read off again. The error is one of the band limit and of the spreading window, the same at
 // every density of points. Where everything repeats, the sum over images less 1/d to the nearest one is smooth and goes to the mesh
 // with F, which needs no doubling then.
+//
+// By hand, over FFTW: libraries for such sums (multipole methods, Ewald sums) are made for points in three dimensions or for periodic
+// boxes, take forces that change at every product at the price of new ones, or give bits that depend on the number of threads.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 #include "contact/interaction/mesh_split.hpp"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <functional>
 #include <mutex>
@@ -25,39 +26,9 @@ double bessel_i0_of_root(double z) {
 
 double bell(double beta, double t) { return bessel_i0_of_root(beta * beta * std::max(0.0, 1 - t * t)); }
 
-// Gauss-Legendre rule on [0, 1].
-struct Rule {
-    static constexpr int kPoints = 40;
-    double x[kPoints], w[kPoints];
-    Rule() {
-        for (int i = 0; i < kPoints; ++i) {
-            long double z = std::cos(std::numbers::pi_v<long double> * (i + 0.75L) / (kPoints + 0.5L)), slope = 1;
-            for (int pass = 0; pass < 8; ++pass) {
-                long double p = 1, before = 0;
-                for (int k = 0; k < kPoints; ++k) {
-                    const long double next = ((2 * k + 1) * z * p - k * before) / (k + 1);
-                    before = p;
-                    p = next;
-                }
-                slope = kPoints * (z * p - before) / (z * z - 1);
-                z -= p / slope;
-            }
-            x[i] = static_cast<double>((1 + z) / 2);
-            w[i] = static_cast<double>(1 / ((1 - z * z) * slope * slope));
-        }
-    }
-};
-
-const Rule& rule() {
-    static const Rule rule;
-    return rule;
-}
-
 template <class Function>
 double integral(double a, double b, Function function) {
-    double sum = 0;
-    for (int i = 0; i < Rule::kPoints; ++i) sum += rule().w[i] * function(a + (b - a) * rule().x[i]);
-    return (b - a) * sum;
+    return boost::math::quadrature::gauss<double, 40>::integrate(function, a, b);
 }
 
 // Coefficients of t^k, t in [-1, 1], of the Chebyshev interpolant of a function, cut where what follows is below `tolerance`.

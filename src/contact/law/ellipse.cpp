@@ -8,6 +8,9 @@
 namespace rsc {
 namespace {
 
+// By hand: the functions of the C++ library and of Boost take the modulus k, which for a narrow ellipse is 1 less a number that rounding
+// takes away; these take the complementary one.
+//
 // Complete elliptic integrals of the modulus k: K, and B = [E - (1 - k^2) K]/k^2, D = (K - E)/k^2, which stay finite and exact at k = 0.
 struct Elliptic {
     double K, B, D;
