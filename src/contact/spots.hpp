@@ -1,7 +1,7 @@
 // Contact spots: which overlap, and their area.
 //
-// By hand: libraries for geometry give the area of a union of polygons, or of conics by exact arithmetic, which takes thousands of times
-// as long; here borders are followed in doubles.
+// By hand: libraries for geometry give the area of a union of polygons; that of ellipses they give by exact arithmetic only, which is much
+// slower than the doubles used here.
 #pragma once
 
 #include <vector>

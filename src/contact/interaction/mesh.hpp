@@ -7,7 +7,7 @@
 // with F, which needs no doubling then.
 //
 // By hand, over FFTW: libraries for such sums (multipole methods, Ewald sums) are made for points in three dimensions or for periodic
-// boxes, take forces that change at every product at the price of new ones, or give bits that depend on the number of threads.
+// boxes, and the bits they give depend on the number of threads.
 #pragma once
 
 #include <cstddef>
