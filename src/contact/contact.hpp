@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -67,6 +68,9 @@ protected:
     // the separation Z0 of the mean planes is its Z0 - shift() N. first_touch() is the same.
     virtual double shift() const { return 0; }
 
+    // Separations from which on down nothing is left of the gap, and solve() has no answer.
+    virtual double closed() const { return -std::numeric_limits<double>::infinity(); }
+
     // What force control asks of a model.
     virtual double tolerance() const = 0;                         // relative, of the force
     virtual double first_place_force(double depth) = 0;           // of the place touched first, alone, pressed in so far
@@ -84,7 +88,8 @@ private:
     };
     std::optional<Trial> last_;  // the last level, where shift() > 0: a place to begin
 
-    void remember(const Level& level);
+    // Accepts a level, unless it did not converge, and completes it by what an area is needed for.
+    void finish(Level& level);
     double last_force_ = 0;  // of the last level, 0 if it did not converge
 };
 

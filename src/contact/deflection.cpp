@@ -45,9 +45,12 @@ double deflection(const Level& level, const Kernel& kernel, double x, double y) 
     const Period period = kernel.period();
     double sum = 0;
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k)
-        sum += pixels.pressure[k] * pixels.dx *
-               pixel_kernel((x - pixels.x(k)) / pixels.dx, (y - pixels.y(k)) / pixels.dx, pixels.dy / pixels.dx);
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+        const double dx = period.nearest_x(x - pixels.x(k)), dy = period.nearest_y(y - pixels.y(k));
+        double of_one = pixel_kernel(dx / pixels.dx, dy / pixels.dx, pixels.dy / pixels.dx);
+        if (kernel.lattice()) of_one += pixels.dy * kernel.lattice()->rest(dx, dy);
+        sum += pixels.pressure[k] * pixels.dx * of_one;
+    }
     if (!pixels.index.empty()) return sum / (std::numbers::pi * kernel.modulus());
     for (std::size_t k = 0; k < level.f.size(); ++k) {
         const double dx = period.nearest_x(x - level.x[k]), dy = period.nearest_y(y - level.y[k]);

@@ -17,12 +17,19 @@ constexpr double kFarAbove = 100;  // times the force asked for
 Level Contact::at_separation(double Z0) {
     if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
-    if (level.status != LevelStatus::not_converged) accept(level);
-    remember(level);
+    finish(level);
     return level;
 }
 
-void Contact::remember(const Level& level) { last_force_ = level.status == LevelStatus::not_converged ? 0.0 : level.force; }
+void Contact::finish(Level& level) {
+    const bool converged = level.status != LevelStatus::not_converged;
+    if (converged) accept(level);
+    last_force_ = converged ? level.force : 0.0;
+    if (const Period& period = indenter().period; period.finite()) {
+        level.pressure = level.force / period.area();
+        level.area_fraction = level.area / period.area();
+    }
+}
 
 double Contact::slope() {
     const double S = stiffness();
@@ -75,11 +82,10 @@ Level Contact::at_force(double N) {
     double above = first_touch();  // separations that carry less
     if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the sphere: no force can be carried");
     if (std::optional<Level> level = solve_under(N)) {
-        if (level->status != LevelStatus::not_converged) accept(*level);
-        remember(*level);
+        finish(*level);
         return std::move(*level);
     }
-    double below = -kInfinity;  // separations that carry more
+    double below = closed();  // separations that carry more
     // A first depth: what the place touched first would need alone.
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (first_place_force(depth) < N) depth *= 2;
@@ -92,6 +98,7 @@ Level Contact::at_force(double N) {
             if (!(Z0 < above)) Z0 = above - 0.25 * depth;
         }
     }
+    if (!(Z0 > below)) Z0 = 0.5 * (above + below);
     Level level;
     int iterations = 0;
     long products = 0;
@@ -124,10 +131,9 @@ Level Contact::at_force(double N) {
         last_ = {level.separation, level.force, slope()};
         level.separation += shift() * level.force;
     }
-    if (level.status != LevelStatus::not_converged) accept(level);
+    finish(level);
     level.iterations = iterations;
     level.products = products;
-    remember(level);
     return level;
 }
 

@@ -8,6 +8,7 @@
 #include "contact/pressed_out.hpp"
 #include "contact/solver/periodic_elements.hpp"
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 
@@ -81,7 +82,10 @@ Level PeriodicElementContact::solve(double Z0) {
 
 std::optional<Level> PeriodicElementContact::solve_under(double N) {
     Impl& my = *impl_;
-    const ElementsOutcome outcome = my.solver.press(N / my.area(), my.options.tolerance, my.options.max_iterations);
+    const double p = N / my.area(), H = my.options.hardness.H0;
+    if (!(p < H)) throw Error(Failure::bad_input, format("a nominal pressure of %.9g is more than the hardness %.9g carries", p, H));
+    if (path_dependent()) return std::nullopt;
+    const ElementsOutcome outcome = my.solver.press(p, my.options.tolerance, my.options.max_iterations);
     return my.report(my.solver.separation(), outcome);
 }
 
@@ -128,11 +132,12 @@ void PeriodicElementContact::move_tip(double x0, double y0) {
     impl_->indenter.y0 = y0;
 }
 
+double PeriodicElementContact::closed() const { return impl_->solver.closed(); }
 double PeriodicElementContact::first_touch() const { return impl_->top; }
 const Indenter& PeriodicElementContact::indenter() const { return impl_->indenter; }
 double PeriodicElementContact::tolerance() const { return impl_->options.tolerance; }
 
-// A flat punch as wide as the period: force control does not ask, as solve_under() answers.
+// A flat punch as wide as the period: what a surface that yields needs no less depth for.
 double PeriodicElementContact::first_place_force(double depth) {
     return impl_->indenter.E_star * std::max(impl_->heights.Lx(), impl_->heights.Ly()) * depth;
 }

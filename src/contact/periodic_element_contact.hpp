@@ -31,6 +31,7 @@ protected:
     Level solve(double Z0) override;
     std::optional<Level> solve_under(double N) override;
     void accept(Level& level) override;
+    double closed() const override;
     double tolerance() const override;
     double first_place_force(double depth) override;
     std::optional<double> likely_separation() const override { return std::nullopt; }

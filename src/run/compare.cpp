@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "contact/element_contact.hpp"
+#include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
@@ -30,12 +32,13 @@ void print(std::ostream& out, const Job& job, const ComparedLevels& c, const Lev
 // The levels to compare: the nearest one to each of &compare levels. Where a level depends on those before it, in the order of the path,
 // and of levels as near as each other one that is not yet taken, so that loading and unloading can be compared both.
 std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels, bool path_dependent) {
-    const bool by_force = job.settings.indentation.control == Control::force;
-    const double unit = !by_force && job.settings.indentation.unit == LevelUnit::sigma ? job.sigma : 1.0;
+    const bool by_force = job.settings.indentation.control != Control::separation;
     std::vector<std::size_t> steps;
     for (const double wanted : job.settings.compare.levels) {
         std::size_t step = 0;
-        const auto miss = [&](std::size_t k) { return std::abs((by_force ? levels[k].force : levels[k].separation) - wanted * unit); };
+        const auto miss = [&](std::size_t k) {
+            return std::abs((by_force ? levels[k].force : levels[k].separation) - wanted * job.level_unit);
+        };
         const auto taken = [&](std::size_t k) { return std::find(steps.begin(), steps.end(), k) != steps.end(); };
         for (std::size_t k = 1; k < levels.size(); ++k) {
             if (miss(k) < miss(step) || (path_dependent && miss(k) == miss(step) && taken(step) && !taken(k))) step = k;
@@ -73,7 +76,15 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
             if (turns(levels, next))
                 on_path = contact.at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
         const LevelValues& level = levels[step];
-        Level truth = contact.at_separation(level.separation);
+        Level truth;
+        try {
+            truth = contact.at_separation(level.separation);
+        } catch (const Error& error) {  // two flats nearer than the mean planes: only asperities can be
+            if (error.kind() != Failure::bad_input) throw;
+            if (table)
+                *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1, level.separation / job.sigma, error.what());
+            continue;
+        }
         const bool found = truth.status != LevelStatus::not_converged && on_path;
         c.failed += !found;
         const auto error = [&](double model, double elements) { return found && elements > 0 ? model / elements - 1 : kNotComputed; };

@@ -91,7 +91,7 @@ double expected_candidates(const Job& job, double Z0) {
 }
 
 double expected_seconds(const Job& job, double workers) {
-    const bool force = job.settings.indentation.control == Control::force;
+    const bool force = job.settings.indentation.control != Control::separation;
     double one = job.given ? 0 : surface_seconds(job.settings);
     for (const double level : job.levels) {
         if (!force)

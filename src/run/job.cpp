@@ -9,6 +9,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "read/file_list.hpp"
 #include "run/friction_loops.hpp"
 
@@ -89,9 +90,7 @@ Job prepare(const Case& settings) {
 
     const auto& indentation = settings.indentation;
     job.levels = spaced(indentation);
-    if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) {
-        for (double& level : job.levels) level *= job.sigma;
-    }
+    if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
         // Into forces. m2 is the spectrum's, so that a pressure is the same for every realization, or that of the map read.
         const double m2 = job.theory ? job.theory->m2 : job.given->statistics.m2, full = job.indenter.E_star * std::sqrt(2 * m2);
@@ -100,15 +99,16 @@ Job prepare(const Case& settings) {
             throw Error(Failure::bad_input,
                         "indentation%unit = 'relative': the surface's rms slope is not known, only summits; use unit = 'pressure'");
         }
-        for (double& level : job.levels) {
-            if (relative) level *= full;
-            if (level >= kClosingPressure * full) {
-                throw Error(Failure::bad_input, "indentation: a pressure of " + std::to_string(level) +
-                                                    " closes the gap altogether: it must be below E* sqrt(2 m2) = " + std::to_string(full));
-            }
-            level *= job.indenter.period.area();
+        const double unit = relative ? full : 1.0;
+        for (double level : job.levels) {
+            if (level * unit >= kClosingPressure * full)
+                throw Error(Failure::bad_input,
+                            format("indentation: a pressure of %g closes the gap altogether: it must be below E* sqrt(2 m2) = %g",
+                                   level * unit, full));
         }
+        job.level_unit = unit * job.indenter.period.area();
     }
+    for (double& level : job.levels) level *= job.level_unit;
     job.observe = observe_options(settings, job.site.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
@@ -156,10 +156,6 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         Level& level = r.levels.back();
         add_answers(*contact, level, settings.solids.resistivity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
-        if (job.indenter.period.finite()) {
-            level.pressure = level.force / job.indenter.period.area();
-            level.area_fraction = level.area / job.indenter.period.area();
-        }
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();

@@ -21,7 +21,8 @@ struct Job {
     Indenter indenter;
     SolverOptions solver;
     double sigma = 0;                  // the length unit='sigma' and delta0 mean
-    std::vector<double> levels;        // separations [length], or forces [force] with control='force'
+    std::vector<double> levels;        // separations [length], or forces [force] with control='force' or 'pressure'
+    double level_unit = 1;             // what 1 of the case's levels is of them
     std::optional<Spectrum> spectrum;  // of a synthetic surface
     std::optional<Moments> theory;     // its moments
     ObserveOptions observe;

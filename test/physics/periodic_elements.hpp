@@ -41,6 +41,13 @@ public:
     PeriodicElementSolver(const PeriodicElementSolver&) = delete;
     PeriodicElementSolver& operator=(const PeriodicElementSolver&) = delete;
 
+    // Of any pressures, their mean left out.
+    std::vector<double> deflections(const std::vector<double>& p) {
+        std::vector<double> u;
+        product(p, u);
+        return u;
+    }
+
     // Goes on from the last pressures.
     PeriodicElements press(double pressure, double tolerance, int most = 3000) {
         const std::size_t points = p_.size();

@@ -13,6 +13,7 @@ namespace {
 
 // Of the solutions on coarser grids: a start is wanted, no more.
 constexpr double kCoarseError = 1e-2;
+constexpr double kRounding = 1e-12;  // of separations, in rms heights
 
 // The solution on the coarsened grid, got in the same way, and from there.
 ElementsOutcome solve_from_coarse(PeriodicGrid& grid, Given given, double tolerance, int most_iterations, bool finest) {
@@ -102,8 +103,6 @@ void PeriodicElements::heights_changed() {
 
 ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, int most_iterations) {
     Impl& my = *impl_;
-    if (!(mean_pressure < my.highest))
-        throw Error(Failure::bad_input, format("a nominal pressure of %.9g is more than the hardness %.9g", mean_pressure, my.highest));
     const ElementsOutcome outcome = my.solve({true, mean_pressure / my.pressure_unit()}, tolerance, most_iterations);
     if (my.grid->full())
         throw Error(Failure::bad_input,
@@ -114,12 +113,14 @@ ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, 
 
 ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {
     Impl& my = *impl_;
-    constexpr double rounding = 1e-12;
-    if (!(Z0 - my.mean > rounding * my.rms))
+    if (!(Z0 > closed()))
         throw Error(Failure::bad_input,
-                    format("a separation of %.9g closes the gap altogether: between the mean planes nothing is left at %.9g", Z0, my.mean));
+                    format("a separation of %.9g closes the gap altogether: between the mean planes nothing is left at %.9g", Z0,
+                           std::abs(my.mean) > kRounding * my.rms ? my.mean : 0.0));
     return my.solve({false, (Z0 - my.zero) / my.rms}, tolerance, most_iterations);
 }
+
+double PeriodicElements::closed() const { return impl_->mean + kRounding * impl_->rms; }
 
 double PeriodicElements::closing_pressure() { return 0 - impl_->grid->least_inverse() * impl_->pressure_unit(); }
 

@@ -129,7 +129,7 @@ bool PeriodicGrid::full() const {
     return set_.size() == at(nx_) * at(ny_) && std::all_of(p_.begin(), p_.end(), [](double p) { return p > 0; });
 }
 
-// The plane becomes K p, and w_ what it is on the set; under a pressure Z0 is such that its mean over the pixels between the bounds is 0.
+// The plane becomes K p, and w_ what it is on the set; under a pressure Z0 is such that its mean over the pixels under pressure is 0.
 template <class Real>
 void PeriodicGrid::evaluate(PeriodicPixels<Real>& pixels, Given given) {
     ++products_;
@@ -144,14 +144,14 @@ void PeriodicGrid::evaluate(PeriodicPixels<Real>& pixels, Given given) {
                 w_[k] = unit_ * static_cast<double>(row[set_.column[k]]) - heights_(j, set_.column[k]);
         });
     if (given.is_pressure) {
-        std::size_t between = 0;
-        for (double p : p_) between += p > 0 && p < highest_;
+        std::size_t touching = 0;
+        for (double p : p_) touching += p > 0;
         const double sum = over_rows([&](int j) {
             double part = 0;
-            for (std::size_t k = set_.begin[at(j)]; k < set_.begin[at(j) + 1]; ++k) part += p_[k] > 0 && p_[k] < highest_ ? w_[k] : 0.0;
+            for (std::size_t k = set_.begin[at(j)]; k < set_.begin[at(j) + 1]; ++k) part += p_[k] > 0 ? w_[k] : 0.0;
             return part;
         });
-        if (between > 0) Z0_ = -sum / static_cast<double>(between);
+        Z0_ = -sum / static_cast<double>(touching);
     } else {
         Z0_ = given.value;
     }
@@ -342,12 +342,12 @@ void PeriodicGrid::bound(Given given) {
         double sum = 0, room = 0;
         for (std::size_t k = 0; k < n; ++k) {
             sum += p_[k];
-            if (p_[k] > 0 && p_[k] < highest_) room += one_[k];
+            room += p_[k] > 0 ? one_[k] : 0.0;
         }
         const double missing = wanted - sum;
         if (std::abs(missing) <= 1e-14 * wanted || !(room > 0)) break;
         for (std::size_t k = 0; k < n; ++k) {
-            if (p_[k] > 0 && p_[k] < highest_) p_[k] = std::clamp(p_[k] + missing / room * one_[k], 0.0, highest_);
+            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / room * one_[k], 0.0);
         }
     }
 }

@@ -11,7 +11,7 @@
 
 namespace rsc {
 
-// What is given: the mean of p over the grid, or Z0.
+// What is given: the mean of p over the grid (where pressures have no highest), or Z0.
 struct Given {
     bool is_pressure;
     double value;
