@@ -1,6 +1,7 @@
 // Contacts: levels, what they hold, and the deflection of the surface around them.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "api/guard.hpp"
@@ -12,6 +13,34 @@
 
 namespace rsc::api {
 namespace {
+
+// Whether `constant` is "RSC_LEVEL_" and the name in capitals.
+constexpr bool is_constant_of(std::string_view constant, std::string_view name) {
+    constexpr std::string_view prefix = "RSC_LEVEL_";
+    if (!constant.starts_with(prefix) || constant.size() != prefix.size() + name.size()) return false;
+    for (std::size_t k = 0; k < name.size(); ++k)
+        if (constant[prefix.size() + k] != (name[k] == '_' ? '_' : name[k] - 'a' + 'A')) return false;
+    return true;
+}
+
+// The levels' statuses in rsc.h are those of contact/level.hpp: the same values, the same names.
+constexpr bool level_statuses_agree() {
+    std::size_t listed = 0;
+    bool agree = true;
+#define RSC_COMPARE(constant, value, meaning)                                                  \
+    agree = agree && listed < kLevelStatusNames.size() && value == static_cast<int>(listed) && \
+            is_constant_of(#constant, kLevelStatusNames[listed]);                              \
+    ++listed;
+    RSC_LEVEL_LIST(RSC_COMPARE)
+#undef RSC_COMPARE
+    return agree && listed == kLevelStatusNames.size();
+}
+static_assert(level_statuses_agree(), "RSC_LEVEL_LIST (rsc.h) and kLevelStatusNames (contact/level.hpp) differ");
+static_assert(static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
+              static_cast<int>(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
+              static_cast<int>(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
+              static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
+              static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 // Asperities that were given one by one learn from the case how large the surface is.
 Site site_of(const Case& settings, const Ground& on) {

@@ -33,14 +33,24 @@ BezierWeights bezier_weights(int n, double s) {
     return w;
 }
 
-double interpolate(const MapGrid& grid, const std::vector<double>& values, double px, double py) {
+namespace {
+
+// Calls use(cell, weight) for each cell that the value at a point of the map is made of.
+template <class Use>
+void for_each_weight(const MapGrid& grid, double px, double py, Use use) {
     const BezierWeights wx = bezier_weights(grid.nx, (px - grid.x0) / grid.side - 0.5);
     const BezierWeights wy = bezier_weights(grid.ny, (py - grid.y0) / grid.side - 0.5);
-    double sum = 0;
     for (int j = 0; j < wy.count; ++j)
         for (int i = 0; i < wx.count; ++i)
-            sum += wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)] *
-                   values[static_cast<std::size_t>((wy.first + j) * grid.nx + wx.first + i)];
+            use(static_cast<std::size_t>((wy.first + j) * grid.nx + wx.first + i),
+                wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace
+
+double interpolate(const MapGrid& grid, const std::vector<double>& values, double px, double py) {
+    double sum = 0;
+    for_each_weight(grid, px, py, [&](std::size_t cell, double weight) { sum += weight * values[cell]; });
     return sum;
 }
 
@@ -57,12 +67,8 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) : st
         std::fill(row.begin(), row.end(), 0.0);
         for (int k = 0; k < angles; ++k) {
             const double phi = 2 * std::numbers::pi * (k + 0.5) / angles;
-            const BezierWeights wx = bezier_weights(grid.nx, (x0 + r * std::cos(phi) - grid.x0) / grid.side - 0.5);
-            const BezierWeights wy = bezier_weights(grid.ny, (y0 + r * std::sin(phi) - grid.y0) / grid.side - 0.5);
-            for (int j = 0; j < wy.count; ++j)
-                for (int i = 0; i < wx.count; ++i)
-                    row[static_cast<std::size_t>((wy.first + j) * grid.nx + wx.first + i)] +=
-                        wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)] / angles;
+            for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi),
+                            [&](std::size_t cell, double weight) { row[cell] += weight / angles; });
         }
         for (int c = 0; c < grid.cells(); ++c) {
             if (row[static_cast<std::size_t>(c)] == 0) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rough/dispatch.hpp"
+#include "rough/neighbours.hpp"
 
 namespace rsc {
 namespace {
@@ -43,24 +44,23 @@ struct Step {
     bool peak = false;  // Newton's step, and the surface is curved down in all directions
 };
 
-Step step_to_summit(double zx, double zy, double zxx, double zxy, double zyy) {
-    const double determinant = zxx * zyy - zxy * zxy;
+Step step_to_summit(const Differences& d) {
+    const double determinant = d.determinant();
     Step s;
-    if (determinant > 0 && zxx + zyy < 0) {
-        s = {(zxy * zy - zyy * zx) / determinant, (zxy * zx - zxx * zy) / determinant, true};
+    if (determinant > 0 && d.zxx + d.zyy < 0) {
+        s = {d.step_x() / determinant, d.step_y() / determinant, true};
         const double longest = std::max(std::abs(s.x), std::abs(s.y));
         if (longest > 1) s = {s.x / longest, s.y / longest, true};
-    } else if (const double slope = std::hypot(zx, zy); slope > 0) {
-        s = {0.5 * zx / slope, 0.5 * zy / slope, false};
+    } else if (const double slope = std::hypot(d.zx, d.zy); slope > 0) {
+        s = {0.5 * d.zx / slope, 0.5 * d.zy / slope, false};
     }
     return s;
 }
 
 // From second differences about the middle point: saves an evaluation or two.
 Step first_step(const Patch& patch) {
-    const auto z = [&](int i, int j) { return patch.z[Patch::kMargin + j][Patch::kMargin + i]; };
-    return step_to_summit(0.5 * (z(1, 0) - z(-1, 0)), 0.5 * (z(0, 1) - z(0, -1)), z(1, 0) - 2 * z(0, 0) + z(-1, 0),
-                          0.25 * (z(1, 1) - z(-1, 1) - z(1, -1) + z(-1, -1)), z(0, 1) - 2 * z(0, 0) + z(0, -1));
+    constexpr int m = Patch::kMargin;
+    return step_to_summit(differences(patch.z[m - 1], patch.z[m], patch.z[m + 1], m - 1, m, m + 1));
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         double d[kOrders][kOrders];
         const int corner = Patch::kMargin - stencil.reach();
         contract(&patch.z[corner + static_cast<int>(ry)][corner + static_cast<int>(rx)], 2 * stencil.reach() + 1, orders, wx, wy, d);
-        const Step s = step_to_summit(d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]);
+        const Step s = step_to_summit({d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]});
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
             // Half of gradient times step is what is left to the top.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rough/neighbours.hpp"
+
 namespace rsc {
 namespace {
 
@@ -83,22 +85,13 @@ bool SummitClimber::seen_from_maximum(int i, int j, const std::function<const do
         double x, y;
     };
     const auto top = [&](int l, int k) -> Top {  // of the paraboloid about point (k, l) of z
-        const double h = z[l][k], zx = 0.5 * (z[l][k + 1] - z[l][k - 1]), zy = 0.5 * (z[l + 1][k] - z[l - 1][k]);
-        const double zxx = z[l][k + 1] - 2 * h + z[l][k - 1], zyy = z[l + 1][k] - 2 * h + z[l - 1][k];
-        const double zxy = 0.25 * (z[l + 1][k + 1] - z[l + 1][k - 1] - z[l - 1][k + 1] + z[l - 1][k - 1]);
-        const double determinant = zxx * zyy - zxy * zxy;
-        return {k + (zxy * zy - zyy * zx) / determinant, l + (zxy * zx - zxx * zy) / determinant};
-    };
-    const auto maximum = [&](int l, int k) {
-        for (int b = -1; b <= 1; ++b)
-            for (int a = -1; a <= 1; ++a)
-                if ((a != 0 || b != 0) && !(z[l][k] > z[l + b][k + a])) return false;
-        return true;
+        const Differences d = differences(z[l - 1], z[l], z[l + 1], k - 1, k, k + 1);
+        return {k + d.step_x() / d.determinant(), l + d.step_y() / d.determinant()};
     };
     const Top own = top(2, 2);
     for (int l = 1; l <= 3; ++l)
         for (int k = 1; k <= 3; ++k) {
-            if (!maximum(l, k)) continue;
+            if (!above_neighbours(z[l - 1], z[l], z[l + 1], k - 1, k, k + 1)) continue;
             const Top its = top(l, k);
             if (std::abs(its.x - own.x) < kSameTop && std::abs(its.y - own.y) < kSameTop) return true;
         }

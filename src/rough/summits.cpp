@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "rough/dispatch.hpp"
+#include "rough/neighbours.hpp"
 
 namespace rsc {
 namespace {
@@ -23,10 +24,7 @@ RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, co
         std::uint64_t above_all[kGroup];
         for (int k = 0; k < kGroup; ++k) {
             const int i = first + k;
-            const double h = z[i];
-            const bool summit = (h > z[i - 1]) & (h > z[i + 1]) & (h > below[i - 1]) & (h > below[i]) & (h > below[i + 1]) &
-                                (h > above[i - 1]) & (h > above[i]) & (h > above[i + 1]);
-            above_all[k] = summit ? ~std::uint64_t{0} : 0;
+            above_all[k] = above_neighbours(below, z, above, i - 1, i, i + 1) ? ~std::uint64_t{0} : 0;
         }
         std::uint64_t any = 0;
         for (int k = 0; k < kGroup; ++k) any |= above_all[k];
@@ -41,13 +39,10 @@ RSC_DISPATCH(flag_groups, flag_groups_body, (const double* below, const double* 
 // grid steps, 2 where the point is above its neighbours along both axes.
 RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, const double* above, int points, std::uint64_t* flags) {
     for (int i = 0; i < points; ++i) {
-        const double h = z[i], l = z[i - 1] - h, r = z[i + 1] - h, b = below[i] - h, a = above[i] - h;
-        const double zx = 0.5 * (r - l), zy = 0.5 * (a - b), zxx = l + r, zyy = a + b;
-        const double zxy = 0.25 * ((above[i + 1] - above[i - 1]) - (below[i + 1] - below[i - 1]));
-        const double determinant = zxx * zyy - zxy * zxy, reach = kNearStep * determinant;
-        const double x = zxy * zy - zyy * zx, y = zxy * zx - zxx * zy;  // the step, times the determinant
-        const bool top = (zxx < 0) & (determinant > 0) & (x <= reach) & (-x <= reach) & (y <= reach) & (-y <= reach);
-        const bool above_four = (l < 0) & (r < 0) & (a < 0) & (b < 0);
+        const Differences d = differences(below, z, above, i - 1, i, i + 1);
+        const double determinant = d.determinant(), reach = kNearStep * determinant, x = d.step_x(), y = d.step_y();
+        const bool top = (d.zxx < 0) & (determinant > 0) & (x <= reach) & (-x <= reach) & (y <= reach) & (-y <= reach);
+        const bool above_four = (z[i - 1] < z[i]) & (z[i + 1] < z[i]) & (below[i] < z[i]) & (above[i] < z[i]);
         flags[i] = (top ? std::uint64_t{1} : 0) | (above_four ? std::uint64_t{2} : 0);
     }
 }
@@ -59,9 +54,7 @@ RSC_DISPATCH(flag_near, flag_near_body, (const double* below, const double* z, c
 template <class Keep>
 void scan_row(const RowPlace& place, const double* below, const double* z, const double* above, Keep keep) {
     const auto test = [&](int l, int i, int r) {
-        const double h = z[i];
-        if (h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] && h > above[r])
-            keep(l, i, r);
+        if (above_neighbours(below, z, above, l, i, r)) keep(l, i, r);
     };
     const int nx = place.nx;
     if (nx < 2) return;
@@ -106,12 +99,10 @@ long append_summits(const RowPlace& place, const double* below, const double* z,
                     Asperities& found) {
     long saddles = 0;
     scan_row(place, below, z, above, [&](int l, int i, int r) {
-        const double h = z[i];
-        SecondOrder second;
-        second.a = 0.5 * ((z[l] - h) + (z[r] - h)) / (place.dx * place.dx);
-        second.b = 0.5 * ((below[i] - h) + (above[i] - h)) / (place.dy * place.dy);
-        second.c = 0.125 * ((above[r] - above[l]) - (below[r] - below[l])) / (place.dx * place.dy);
-        if (!append_summit(place.x0 + i * place.dx, place.y, h, second, curvature, found)) ++saddles;
+        const Differences d = differences(below, z, above, l, i, r);
+        const SecondOrder second{0.5 * d.zxx / (place.dx * place.dx), 0.5 * d.zyy / (place.dy * place.dy),
+                                 0.5 * d.zxy / (place.dx * place.dy)};
+        if (!append_summit(place.x0 + i * place.dx, place.y, z[i], second, curvature, found)) ++saddles;
     });
     return saddles;
 }
@@ -123,9 +114,7 @@ void find_starts(const RowPlace& place, const double* below, const double* z, co
     constexpr int kBuffer = 1024;
     std::uint64_t near[kBuffer];
     const auto test = [&](int l, int i, int r) {
-        const double h = z[i];
-        const bool maximum =
-            h > z[l] && h > z[r] && h > below[l] && h > below[i] && h > below[r] && h > above[l] && h > above[i] && h > above[r];
+        const bool maximum = above_neighbours(below, z, above, l, i, r);
         if (maximum) starts.push_back({i, true});
         return maximum;
     };
