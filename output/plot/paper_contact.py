@@ -75,8 +75,8 @@ def area(folder, report):
         report.raw(f"    {m.sigma:6g} {m.waves:5.0f} {m.low:5.0f} {m.R:4.1f} {m.beta:8.4f} {m.beta_error:7.4f}  {kappa[0]:8.3f} .. {kappa[-1]:6.3f}{'':12s} "
                    f"{formula[0]:13.2f} +- {formula[1]:5.2f} " + (f"{data[0]:8.2f} +- {data[1]:4.2f} {data[0] * m.unit:9.3g}" if np.isfinite(data[0]) else f"{'-':>8s}    {'-':>4s} {'-':>9s}")
                    + f" {212.66 * m.unit:10.4g}")
-    report.finding("beta does not come out 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is where full boundary-element solutions of rough contact lie, too (about 2, falling with "
-                "the load), and the asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 lies far below all of them.")
+    report.finding("beta does not come out 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is not far from that of the same surfaces without asperities (last section), and the "
+                "asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 lies far below all of them.")
     c = [m.crossing_formula()[0] for m in base]
     d = [m.crossing_data()[0] for m in base if np.isfinite(m.crossing_data()[0])]
     report.row("N*/(m2^(3/2) E*/m4), A_I by r_g = 0.737/sqrt(m4)", 212.66, np.mean(c), np.std(c, ddof=1) / np.sqrt(len(c)),

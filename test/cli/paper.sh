@@ -78,19 +78,24 @@ for words in 'kappa1/kappa2 at the mode  *2\.214 ' '<kappa_g>/sqrt(m4), geometri
              'contacts at Z0/sigma = 2, ' 'contacts at Z0/sigma = 2\.5, ' 'contacts at Z0/sigma = 3, ' 'Rayleigh scale at' 'hardness at r = 0\.18 um \[N/mm2\]  *1200  *550 ' \
              'r_g = 1/<kappa_g> \[um\], no plateau, of the grid  *0\.18 ' 'rms slope of the gold surface  *4\.7 ' 'exponent alpha at .*0\.6667 ' 'exponent beta at .*1\.5 ' \
              'mean spot area at' 'grid error, .*H = 0\.9 ' 'grid error, .*H = 0\.1 ' 'solves a level' \
-             'beta at 1 sigma, .*law hertz  *0\.2 ' 'beta at 1 sigma, .*law fourth_order  *0\.2 ' '64 boundary elements' '128 boundary elements' \
+             'beta at 1 sigma, .*, hertz  *0\.2 ' 'beta at 1 sigma, .*, fourth_order  *0\.2 ' 'beta at 1 sigma, .*, elements  *0\.2 ' \
+             'N at Z0/sigma = 1\.43 \[N\], plateau, elements  *116\.6 ' 'no plateau, elements .*, ' \
              'r_g sqrt(m4) = 1/<kappa_g.>  *0\.737 '; do
     grep -q "$words" "$report" || fail "no row in the report like: $words"
 done
 # What does not depend on the size of the run: Greenwood's mode by its own formula, kappa1/kappa2 = 2.2153.
 grep -q 'ratio 2\.2153' "$report" || fail "the mode of Greenwood's density is not at kappa1/kappa2 = 2.2153"
 grep -q "same of Greenwood's formula itself  *1\.356  *1\.356 " "$report" || fail "the mean of Greenwood's density is not 1.356"
-# The surfaces beside boundary elements are not shortened: load by fourth_order within 1 % in the mean, by hertz 2 to 5 % too low (README).
+# The surfaces beside elements are not shortened, only fewer: eight points to the shortest wave, of which hertz takes the highest for
+# summits, so that its load is 4 to 9 % too low; that of fourth_order is within 3 %.
 for waves in 64 128; do
     load() { sed -n "s/^ *$waves $1  *\([-+][0-9.]*\) (.*/\1/p" "$report"; }
-    awk -v h="$(load hertz)" -v f="$(load fourth_order)" 'BEGIN { exit !(h != "" && f != "" && h < -2 && h > -5 && f > -1 && f < 1) }' ||
-        fail "load beside boundary elements, L/lambda_s = $waves: hertz $(load hertz) %, fourth_order $(load fourth_order) %"
+    awk -v h="$(load hertz)" -v f="$(load fourth_order)" 'BEGIN { exit !(h != "" && f != "" && h < -4 && h > -9 && f > -3 && f < 1) }' ||
+        fail "load beside elements, L/lambda_s = $waves: hertz $(load hertz) %, fourth_order $(load fourth_order) %"
 done
+# Rough elastic contact, solved without asperities: beta near 0.9 on these surfaces.
+beta=$(sed -n 's/^ *beta at 1 sigma, .*, elements *0\.2 *\([0-9.]*\) .*/\1/p' "$report")
+awk -v b="$beta" 'BEGIN { exit !(b > 0.8 && b < 1.05) }' || fail "beta of elements = '$beta'"
 # Six small surfaces scatter, but A E* slope/N of any rough elastic contact lies between Persson's 1.6 and Bush, Gibson and Thomas' 2.5
 # within a fifth: beta between 0.5 and 1.2. The paper's 0.2, or a lost factor of 2, is outside.
 beta=$(sed -n 's/^ *beta, mean of the six members *0\.2 *\([0-9.]*\) .*/\1/p' "$report")
