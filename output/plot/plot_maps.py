@@ -159,6 +159,14 @@ def contacts_of(result, step):
     return x, y, result.window("contact_radius", span)
 
 
+def yields_of(result, step):
+    """Which spots of a level yield; none where the file says nothing of it."""
+    first, count = int(result["contact_start"][step]) - 1, int(result["contact_count"][step])
+    if "contact_yields" not in result:
+        return np.zeros(count, bool)
+    return result.window("contact_yields", slice(first, first + count)) > 0
+
+
 def spots(results, options):
     """The contact spots of a level, true to size, over the heights: all of them, and the neighbourhood of the largest with the summits that do not touch."""
     result = results[0]
@@ -169,6 +177,7 @@ def spots(results, options):
     if step is None or counts[step] == 0:
         return None
     x, y, a = contacts_of(result, step)
+    yields = yields_of(result, step)
     big = int(np.argmax(a))
     centre, half = ((x - a).min() + (x + a).max()) / 2, 0.55 * max((x + a).max() - (x - a).min(), (y + a).max() - (y - a).min())
     middle = ((y - a).min() + (y + a).max()) / 2
@@ -177,8 +186,9 @@ def spots(results, options):
     for axis, (cx, cy, h) in zip(axes, ((centre, middle, half), (x[big], y[big], near))):
         window = (cx - h, cx + h, cy - h, cy + h)
         _heights(result, axis, figure, window)
-        axis.add_collection(EllipseCollection(2 * a, 2 * a, np.zeros_like(a), units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData, facecolors="#d62728",
-                                              edgecolors="k" if axis is axes[1] else "#d62728", linewidths=0.3, gid="spots"))
+        for some, colour, name in ((~yields, "#d62728", "spots"), (yields, "#f2b400", "yielding spots")):
+            axis.add_collection(EllipseCollection(2 * a[some], 2 * a[some], np.zeros(some.sum()), units="xy", offsets=np.column_stack([x[some], y[some]]), transOffset=axis.transData,
+                                                  facecolors=colour, edgecolors="k" if axis is axes[1] else colour, linewidths=0.3, gid=name))
         if axis is axes[1] and "asperity_x" in result:
             ax, ay = result["asperity_x"], result["asperity_y"]
             inside = (abs(ax - cx) <= h) & (abs(ay - cy) <= h)
@@ -187,8 +197,11 @@ def spots(results, options):
         axis.set(xlim=window[:2], ylim=window[2:], aspect="equal", xlabel="$x$" + result.unit("x"), ylabel="$y$" + result.unit("y"))
         axis.locator_params(nbins=5)
     axes[0].plot(float(result["tip_x"]), float(result["tip_y"]), "kx", ms=6, label="tip")
+    if "contact_yields" in result:
+        for colour, name in (("#f2b400", "yields"), ("#d62728", "elastic")):
+            axes[0].plot([], [], "o", color=colour, ms=4, label=name)
     axes[0].legend(loc="upper right")
-    axes[0].set_title(f"{x.size} contact spots, true to size")
+    axes[0].set_title(f"{x.size} contact spots, true to size" + (f"; {yields.sum()} yield" if "contact_yields" in result else ""))
     axes[1].set_title("around the largest")
     figure.suptitle(result.heading(f"Contact spots at {result.level_name(step)}{result.warning(step)}, $N$ = {result['force_mean'][step]:.3g}{plain(result.unit('force'))}"), fontsize=8)
     return figure

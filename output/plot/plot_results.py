@@ -154,7 +154,8 @@ def names(results):
         texts = []
         for result in results:
             parts = [(*key_label(key, result), value_text(result.case.get(key, ""))) for key in keys]
-            texts.append(", ".join(f"{symbol} = {value}" + (f" {unit}" if unit else "") if value else f"{symbol} at default" for symbol, unit, value in parts))
+            texts.append(", ".join("elastic" if key == "solids%hardness" and value == "inf" else f"{symbol} = {value}" + (f" {unit}" if unit else "") if value else f"{symbol} at default"
+                                   for key, (symbol, unit, value) in zip(keys, parts)))
         if len(set(texts)) == len(texts) and max(map(len, texts)) < 90:
             return texts
     titles = [result.title for result in results]

@@ -146,6 +146,23 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, doub
                 "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }
 
+// What a run with hardness ends in.
+void print_yielding(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+    if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
+    const auto most = std::max_element(levels.begin(), levels.end(),
+                                       [](const LevelValues& p, const LevelValues& q) { return p.plastic_contacts < q.plastic_contacts; });
+    if (most->plastic_contacts == 0) {
+        out << "  nothing yields: pressures stay below the hardness.\n";
+        return;
+    }
+    out << format("  at Z0/sigma = %.4g, %d of %d contacts yield", most->separation / job.sigma, most->plastic_contacts, most->contacts);
+    double lost = 0;
+    for (const LevelValues& level : levels) lost = std::max(lost, level.plastic_work);  // NaN where a level did not converge
+    if (job.settings.run.realizations == 1)
+        out << format("; %.4g %s %s of work are lost", lost, job.settings.run.force_unit.c_str(), job.settings.run.length_unit.c_str());
+    out << ". Levels depend on those before them.\n";
+}
+
 }  // namespace
 
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
@@ -155,7 +172,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     const auto much = std::count_if(levels.begin(), levels.end(), [](const LevelValues& level) {
         return static_cast<double>(level.beyond_law) > kMuchBeyondLaw * level.contacts;
     });
-    if (much > 0)
+    if (much > 0 && !std::isfinite(job.settings.solids.hardness))
         out << format(
             "  %ld of %zu levels: spots cover much of each other, more than %.0f %% of the contacts lie beyond the law. Against elements on "
             "such surfaces the area was 32 %% too low on average (1 to 56), the force 7 %% (0 to 26): see &compare.\n",
@@ -168,6 +185,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
             "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal bears them elastically; solids%%hardness "
             "bounds them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
+    print_yielding(out, levels, job);
     std::int64_t crowded = 0;
     for (const LevelValues& level : levels) crowded += level.crowded_cells;
     if (crowded > 0 && !elements)

@@ -13,6 +13,7 @@
 #include "contact/law/hardness.hpp"
 #include "error.hpp"
 #include "random_asperities.hpp"
+#include "rough/detection.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
@@ -34,8 +35,11 @@ struct Yielding {
         if (u > std::max(uc, deepest)) return {H * loading_area(u), loading_area(u)};
         if (deepest <= uc) return u > 0 ? Answer{4.0L / 3 * kE * std::sqrt(r) * std::pow(u, 1.5L), p * r * u} : Answer{0, 0};
         const long double area = loading_area(deepest), f = H * area, a = std::sqrt(area / p), R = 4 * kE * a * a * a / (3 * f);
-        const long double x = u - (deepest - a * a / R);
-        return x > 0 ? Answer{4.0L / 3 * kE * std::sqrt(R) * std::pow(x, 1.5L), p * R * x} : Answer{0, 0};
+        const long double whole = a * a / R, x = u - (deepest - whole);
+        // No more work comes back than was done: f whole/(1 + m).
+        const long double spent = 2 * H * p * r * uc * uc / 5 + H * p * r * (deepest - uc) * deepest,
+                          m = std::max(1.5L, f * whole / spent - 1);
+        return x > 0 ? Answer{f * std::pow(x / whole, m), p * R * x} : Answer{0, 0};
     }
 };
 
@@ -130,6 +134,36 @@ void test_sinking() {
         CHECK_RELATIVE(level.force, H * level.area, 1e-12);
         CHECK(level.area < pi * r * uc * (2 * times - 1));
     }
+}
+
+// A cycle of one asperity, pressed to any depth: what the loop encloses is the work lost, and never less than nothing.
+void test_cycle() {
+    Asperities a = one(0.004);
+    a.kappa1 = {1.6 / 0.004}, a.kappa2 = {1 / (1.6 * 0.004)}, a.angle = {0.3};
+    const int i = 0;
+    for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
+        for (const double flattening : {30.0, -5.0}) {
+            a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
+            for (const double times : {1.0001, 1.1, 1.3, 1.5, 3.0, 20.0}) {
+                const auto law = make_yielding(make_law(kind, a, kE), a, {16000, 0}, traits(kind).sinks);
+                law->prepare({&i, 1});
+                const double deepest = times * law->yield_penetration(0, 16000);
+                const auto work = [&] {  // int f du to `deepest`, Simpson over x with u = deepest (1 - x^2)
+                    const int steps = 4000;
+                    double sum = 0;
+                    for (int k = 0; k <= steps; ++k) {
+                        const double x = static_cast<double>(k) / steps, weight = k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2;
+                        sum += weight * law->force(0, deepest * (1 - x * x)) * 2 * x * deepest / steps / 3;
+                    }
+                    return sum;
+                };
+                const double spent = work();
+                law->commit(1, &i, &deepest);
+                CHECK(law->work_lost() >= 0);
+                CHECK(times < 2 || law->work_lost() > 0.1 * spent);
+                CHECK_CLOSE(spent - work(), law->work_lost(), 1e-6 * spent);  // of the rule, at kinks
+            }
+        }
 }
 
 Asperities few(std::mt19937& random, int n) {
@@ -252,6 +286,27 @@ void test_path() {
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
 }
 
+// A rough sphere pressed so deep that flattened asperities cover each other, and let go again: every level is solved on the way back, too,
+// where many asperities have let go below their old depth.
+void test_way_back() {
+    Spectrum spectrum;
+    spectrum.sigma = 1e-3, spectrum.L_lambda_l = 8, spectrum.L_lambda_s = 64;
+    const Asperities a = make_asperities(spectrum, 256, Normalise::sample, 1, 1, Curvature::geometric);
+    SolverOptions options = options_with(2000);
+    options.tolerance = 1e-10;
+    AsperityContact contact(a, {115e3, 2.5, 0.5, 0.5}, options);
+    const double touch = contact.first_touch();
+    const int steps = 80;
+    double before = 0;
+    for (int k = 1; k < 2 * steps; ++k) {
+        const int depth = k < steps ? k : 2 * steps - k;
+        const Level level = contact.at_separation(touch - 8e-3 * depth / steps);
+        CHECK(level.status != LevelStatus::not_converged);
+        CHECK(k <= steps ? level.force > before : level.force <= before);
+        before = level.force;
+    }
+}
+
 void test_limits() {
     std::mt19937 random(5);
     const Asperities a = few(random, 40);
@@ -273,9 +328,11 @@ void test_limits() {
 int main() {
     test_one();
     test_sinking();
+    test_cycle();
     test_laws();
     test_independent();
     test_path();
+    test_way_back();
     test_limits();
     return check::summary();
 }

@@ -30,6 +30,7 @@ CASES = {
     "one": SURFACE + "&indentation start=5.0 stop=0.0 steps=26 / &output map_cells=20 heights=.true. pdf_levels=0.0,3.0 / &run title='One surface' /",
     "many": SURFACE + "&run realizations=8 / &indentation start=3.5 stop=0.5 steps=13 /",
     "flat": SURFACE + "&solids R=Infinity,Infinity / &indentation steps=4 /",
+    "yielding": SURFACE + "&solids hardness=5.0e4 / &indentation levels=2.5,1.0 /",
     "far": SURFACE + "&indentation start=9.0 stop=7.0 steps=3 /",
     "failed": SURFACE + "&indentation start=2.0 stop=0.0 steps=5 / &solver tolerance=1.0e-14 max_iterations=1 /",
     "study": SURFACE + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=0.005,0.01,0.02 surface%hurst=0.5,0.8 /",
@@ -180,6 +181,17 @@ class Places(unittest.TestCase):
         self.assertEqual(collection._units, "xy")
         self.assertIn(f"{count} contact spots", figure.axes[0].get_title())
         self.assertTrue(any("[mm]" in axis.get_xlabel() and "height" in axis.get_xlabel() for axis in figure.axes))
+
+    def test_yielding_spots(self):
+        figure = plot_maps.spots(results("yielding"), plot.Options())
+        of = {c.get_gid(): len(c.get_offsets()) for c in figure.axes[0].collections}
+        first, count = int(raw("yielding", "contact_start")[1]) - 1, int(raw("yielding", "contact_count")[1])
+        yields = int(raw("yielding", "contact_yields")[first : first + count].sum())
+        self.assertTrue(0 < yields < count)
+        self.assertEqual(yields, int(raw("yielding", "plastic_contacts")[0, 1]))
+        self.assertEqual(of, {"spots": count - yields, "yielding spots": yields})
+        self.assertIn(f"{yields} yield", figure.axes[0].get_title())
+        self.assertEqual(names(results("one", "yielding"))[0][:7], "elastic")
 
     def test_radial(self):
         figure = plot_maps.radial(results("one"), plot.Options(step=26))

@@ -49,29 +49,28 @@ public:
                 continue;
             }
             if (u[k] <= s.deepest) {
-                const double x = u[k] - s.rest, f_over_x = s.c * std::sqrt(x);
-                force[k] = f_over_x * x;
-                slope[k] = 1.5 * f_over_x;
-                work[k] = 0.4 * force[k] * x;
+                const double x = u[k] - s.rest;
+                force[k] = back(s, x);
+                slope[k] = s.power * force[k] / x;
+                work[k] = force[k] * x / (1 + s.power);
                 continue;
             }
             const Flat now = flat(asperity[k], u[k]);
             force[k] = s.H * now.area;
             slope[k] = s.H * growth(s, now.spread.slope, now.radius);
-            work[k] = s.deepest > 0 ? recoverable(s, s.deepest) + flow(s, s.end, now) : elastic_work(asperity[k]) + flow(s, s.start, now);
+            work[k] = s.deepest > 0 ? recoverable(s) + flow(s, s.end, now) : elastic_work(asperity[k]) + flow(s, s.start, now);
         }
     }
 
     double force(int asperity, double u) const override {
         const Summit& s = summit(asperity);
-        if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? s.c * (u - s.rest) * std::sqrt(u - s.rest) : 0.0;
+        if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? back(s, u - s.rest) : 0.0;
         return u > s.yield ? s.H * flat(asperity, u).area : elastic_->force(asperity, u);
     }
 
     double area(int asperity, double u) const override {
         const Summit& s = summit(asperity);
-        // c = (4/3) E' sqrt(r')
-        if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? pi * std::pow(0.75 * s.c / s.modulus, 2) * (u - s.rest) : 0.0;
+        if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? s.end.area * ((u - s.rest) / (s.deepest - s.rest)) : 0.0;
         return u > s.yield ? flat(asperity, u).area : elastic_->area(asperity, u);
     }
 
@@ -115,9 +114,9 @@ public:
             const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
             s.deepest = u[k];
             s.end = now;
+            s.power = std::max(1.5, f * x / spent - 1);
             s.rest = u[k] - x;
-            s.c = f / (x * std::sqrt(x));
-            s.lost = spent - recoverable(s, u[k]);
+            s.lost = std::max(spent - recoverable(s), 0.0);  // rounding
         }
     }
 
@@ -137,7 +136,7 @@ private:
         double deepest = 0;  // u_m
         Flat end;            // at u_m
         double rest = 0;     // u_r
-        double c = 0;        // f = c (u - u_r)^(3/2)
+        double power = 1.5;  // m of the way back
         double lost = 0;     // work that does not come back
     };
 
@@ -176,7 +175,12 @@ private:
         return s.H * ((s.start.area - 2 * s.start.spread.area) * (to.depth - from.depth) + 2 * (to.spread.integral - from.spread.integral) +
                       sunk);
     }
-    static double recoverable(const Summit& s, double u) { return 0.4 * s.c * (u - s.rest) * (u - s.rest) * std::sqrt(u - s.rest); }
+    // The way back from u_m, x = u - u_r above where it ends: H A_m (x/x_m)^m.
+    static double back(const Summit& s, double x) {
+        const double share = x / (s.deepest - s.rest);
+        return s.H * s.end.area * (s.power == 1.5 ? share * std::sqrt(share) : std::pow(share, s.power));
+    }
+    static double recoverable(const Summit& s) { return s.H * s.end.area * (s.deepest - s.rest) / (1 + s.power); }
     double elastic_work(int asperity) const {
         double f, D, W;
         elastic_->respond(1, &asperity, &summit(asperity).yield, &f, &D, &W);

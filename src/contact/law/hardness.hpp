@@ -7,6 +7,8 @@
 // the slope jumps up at u_c (sphere: from 1.5 pi H r to 2 pi H r). Unloading from (u_m, f_m, a_m) is elastic, a sphere of radius
 // r' = 4 E' a_m^3/(3 f_m) that touches at u_r = u_m - a_m^2/r'; E' = 3 f(u_c)/(4 a(u_c) u_c), E* for a sphere, makes u_r = 0 where
 // yielding begins, for elliptic spots, too. Reloading goes back along it, then on. History is u_m of every asperity.
+// From u_m barely above u_c (a sphere: below 1.42 u_c) that unloading would give more work back than was done. There the force falls with
+// (u - u_r)^m, m > 3/2 such that it gives back all of it and no more: a closed cycle never yields work.
 //
 // Nearer the truth, where `sinks` (law 'fourth_order'): the summit pressed flat sinks in as a whole, by 4 H a/(pi E') at its border (the
 // disc of constant pressure, Johnson 1985, eq. 3.29b), so that its area grows with

@@ -152,7 +152,8 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
         const std::size_t i = at(passive[k]);
         const double change = -state.res[i] - passive_[k];
         const double reached = state.v[i] + change;
-        out.dv[i] = reached > 0 ? entering * reached - state.v[i] : change;
+        const double begin = law_.residual_depth(set.asperity[i]);  // of the force
+        out.dv[i] = reached > begin ? begin + entering * (reached - begin) - state.v[i] : change;
     }
 }
 
@@ -182,8 +183,11 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             break;
         }
         const double forcing = std::clamp(std::max(std::min(0.1, std::sqrt(now_.residual)), 0.2 * tolerance / now_.residual), 1e-5, 0.3);
-        double size2 = 0;  // |S v|: the natural size of a step
-        for (int k : now_.active) size2 += now_.slope[at(k)] * now_.v[at(k)] * now_.v[at(k)];
+        double size2 = 0;  // |S v|, v from where the force begins: the natural size of a step
+        for (int k : now_.active) {
+            const double v = now_.v[at(k)] - law_.residual_depth(set.asperity[at(k)]);
+            size2 += now_.slope[at(k)] * v * v;
+        }
         radius = std::min(radius, 2 * std::sqrt(size2));
         bool accepted = false;
         for (int attempt = 0; attempt < 40 && !accepted; ++attempt) {
@@ -245,7 +249,8 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
 void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
     double largest = 0;
     for (std::size_t k = 0; k < w.size(); ++k) {
-        largest = std::max(largest, std::abs(w[k] / root_[k]) / now_.v[at(now_.active[k])]);
+        const std::size_t i = at(now_.active[k]);
+        largest = std::max(largest, std::abs(w[k] / root_[k]) / (now_.v[i] - law_.residual_depth(set.asperity[i])));
     }
     double gradient = 0;
     for (std::size_t k = 0; k < w.size(); ++k) gradient += w[k] * root_[k] * now_.res[at(now_.active[k])];

@@ -1,0 +1,57 @@
+! The coefficient of restitution of a steel ball against its speed: it hits a rough surface whose asperities yield, once at every speed and
+! each time a virgin surface, by the velocity Verlet method, and leaves with what is left. Kinetic and elastic energy and the plastic work
+! must stay what they were when it came, and what it leaves with must be what it came with less the plastic work. Slow balls bounce back from
+! elastic asperities; faster ones flatten them and lose most; still faster ones press on to the smooth sphere, which stays elastic here.
+! An argument is how many of the speeds are done, from the slowest on; all without.
+! Units: mm, N, s, hence t (1000 kg) for masses and N mm for energies.
+program impact
+  use rsc
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  implicit none
+  real(dp), parameter :: pi = acos(-1.0_dp), R = 2.5_dp, mass = 7.8e-9_dp * 4 / 3.0_dp * pi * R**3
+  real(dp), parameter :: speeds(*) = [1.0_dp, 3.0_dp, 10.0_dp, 30.0_dp, 100.0_dp, 300.0_dp]
+  real(dp), parameter :: step = 1.2e-7_dp       ! of the way at 1 mm/s, where the ball goes some 5e-5 mm deep [mm]
+  real(dp), parameter :: tolerance = 1.0e-5_dp  ! of the energy it came with
+  type(rsc_case) :: options
+  type(rsc_asperities) :: asperities
+  type(rsc_contact) :: contact
+  real(dp) :: z, v, dt, force, touch, coming, lost, worst, deepest, largest
+  integer :: k, many
+  character(len=20) :: argument
+
+  many = size(speeds)
+  call get_command_argument(1, argument)
+  if (argument /= '') read (argument, *) many
+  call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
+      '&solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5, hardness=2.0d3 / &solver tolerance=1d-10 /')
+  call asperities%make(options)
+  print '(a)', '  speed [mm/s]   restitution   deepest [um]   largest force [N]   plastic work/energy   energy kept to'
+  do k = 1, many
+    call contact%create_from_case(asperities, options)
+    touch = contact%first_touch()
+    z = touch
+    v = -speeds(k)
+    coming = 0.5_dp * mass * v**2
+    dt = step * speeds(k)**0.8_dp / speeds(k)  ! the depth goes with the speed to the power of some 4/5
+    deepest = z
+    largest = 0
+    worst = 0
+    force = 0
+    do
+      v = v + 0.5_dp * dt * force / mass
+      z = z + dt * v
+      call contact%indent(z, force)
+      v = v + 0.5_dp * dt * force / mass
+      lost = contact%value('plastic_work')
+      worst = max(worst, abs(0.5_dp * mass * v**2 + contact%energy() + lost - coming))
+      deepest = min(deepest, z)
+      largest = max(largest, force)
+      if (v > 0 .and. force <= 0) exit
+    end do
+    print '(f14.1,f14.4,f15.4,f20.4,f22.4,es17.1)', speeds(k), v / speeds(k), 1e3_dp * (touch - deepest), largest, lost / coming, &
+        worst / coming
+    if (.not. worst <= tolerance * coming) error stop 'the energy is not kept'
+    if (.not. (lost >= 0 .and. lost < coming)) error stop 'the plastic work is not between nothing and all'
+    if (.not. abs((v / speeds(k))**2 - (1 - lost / coming)) <= tolerance) error stop 'the ball does not leave with what is left'
+  end do
+end program
