@@ -30,10 +30,9 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, int can
     if (options.method != Method::automatic) return options.method;
     // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
     constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
-    const double pairs_per_second = kernel.lattice() ? 2e8 : 6e9;  // with images there are no sums in single precision
     const double contacts = contacts_per_candidate * static_cast<double>(candidates);
     const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates), 1e-3);
-    return contacts * contacts / pairs_per_second > mesh_cost ? Method::mesh : Method::direct;
+    return contacts * contacts / direct_rate(kernel) > mesh_cost ? Method::mesh : Method::direct;
 }
 
 }  // namespace
@@ -50,6 +49,8 @@ struct AsperityContact::Impl {
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
+    NewtonOutcome outcome;  // of pass() and settle()
+    bool passed = false;    // the solution is one of pass(), not settled
 
     EarlierLevels earlier;
     std::unique_ptr<Products> direct, mesh;  // mesh: made when first wanted
@@ -78,7 +79,11 @@ struct AsperityContact::Impl {
 
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     void use(Method how);
+    void select(double Z0);  // candidates and method
     NewtonOutcome solve_from(const Vector& start, bool rough_start);
+    // The rule that defines the answer: from the no-interaction start, downhill to a minimum.
+    NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
+    Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     NewtonOutcome solve_by_paper(Fallback& why_not);
     bool one_solution() const {
         const auto& [v, force, slope] = solution;
@@ -98,9 +103,13 @@ void AsperityContact::Impl::use(Method how) {
     newton.use(*products);
 }
 
+void AsperityContact::Impl::select(double Z0) {
+    candidates = select_candidates(ranking, asperities, indenter, options, *law, Z0);
+    use(choose_method(options, *kernel, candidates.size()));
+}
+
 NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_start) {
-    return solve_candidates(candidates.set, newton, *products,
-                            {options.tolerance, options.max_iterations, method == Method::mesh, rough_start}, start, solution);
+    return solve_candidates(candidates.set, newton, *products, {options.tolerance, options.max_iterations, rough_start}, start, solution);
 }
 
 NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
@@ -161,6 +170,16 @@ Level AsperityContact::Impl::report(double Z0) const {
     return level;
 }
 
+Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool unique) const {
+    Level level = report(Z0);
+    level.residual = outcome.residual;
+    level.method = method;
+    if (options.method == Method::mesh && method != Method::mesh) level.fallback = Fallback::no_interaction;
+    if (!unique) level.status = LevelStatus::not_unique;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    return level;
+}
+
 AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options)
     : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
 AsperityContact::~AsperityContact() = default;
@@ -168,7 +187,8 @@ AsperityContact::AsperityContact(AsperityContact&&) noexcept = default;
 
 Level AsperityContact::solve(double Z0) {
     Impl& my = *impl_;
-    my.candidates = select_candidates(my.ranking, my.asperities, my.indenter, my.options, *my.law, Z0);
+    my.passed = false;
+    my.select(Z0);
     if (my.candidates.size() == 0) {
         my.solution.clear();
         my.earlier.remember(Z0, my.candidates, my.solution.v, true);
@@ -178,11 +198,10 @@ Level AsperityContact::solve(double Z0) {
     NewtonOutcome outcome;
     int iterations = 0;
     bool unique = false;
-    const Method method = choose_method(my.options, *my.kernel, my.candidates.size());
-    const bool dense = method == Method::dgesv;
-    Fallback fallback = my.options.method == Method::mesh && method != Method::mesh ? Fallback::no_interaction : Fallback::none;
-    my.use(dense ? Method::direct : method);
+    const bool dense = my.method == Method::dgesv;
+    Fallback fallback = Fallback::none;
     if (dense) {
+        my.use(Method::direct);
         outcome = my.solve_by_paper(fallback);
         iterations = outcome.iterations;
         unique = outcome.converged && my.one_solution();
@@ -190,28 +209,62 @@ Level AsperityContact::solve(double Z0) {
         my.newton.take(my.candidates.set, my.solution.v);
     } else {
         Vector start;
-        if (my.earlier.predict(Z0, my.candidates, start)) {
+        if (my.earlier.unique() && my.earlier.predict(Z0, my.candidates, start)) {
             outcome = my.solve_from(start, false);
             iterations = outcome.iterations;
             unique = outcome.converged && my.one_solution();
         }
     }
     const bool by_dgesv = dense && unique;
-    if (!unique) {  // the rule that defines the answer: from the no-interaction start, downhill to a minimum
-        outcome = my.solve_from(cold_start(*my.law, *my.products, my.candidates.set), true);
+    if (!unique) {
+        outcome = my.solve_cold();
         iterations += outcome.iterations;
         unique = outcome.converged && my.one_solution();
         if (dense && fallback == Fallback::none) fallback = Fallback::not_unique;
     }
     my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
-    Level level = my.report(Z0);
+    Level level = my.level(Z0, outcome, unique);
     level.iterations = iterations;
     level.products = by_dgesv ? iterations : my.products_taken() - products_before;
-    level.residual = outcome.residual;
-    level.method = dense && !by_dgesv ? Method::direct : method;
-    level.fallback = fallback;
-    if (!unique) level.status = LevelStatus::not_unique;
-    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    if (by_dgesv) level.method = Method::dgesv;
+    if (dense) level.fallback = fallback;
+    return level;
+}
+
+Level AsperityContact::pass(double Z0) {
+    Impl& my = *impl_;
+    my.select(Z0);
+    Vector start;
+    if (my.candidates.size() == 0 || my.method == Method::dgesv || !my.earlier.predict(Z0, my.candidates, start)) return solve(Z0);
+    const long products_before = my.products_taken();
+    my.outcome = my.solve_from(start, false);
+    if (!my.outcome.converged) return solve(Z0);
+    my.passed = true;
+    my.earlier.remember_passed(Z0, my.candidates, my.solution.v);
+    Level level;
+    level.separation = Z0;
+    for (double f : my.solution.force) level.force += f;
+    level.iterations = my.outcome.iterations;
+    level.products = my.products_taken() - products_before;
+    return level;
+}
+
+Level AsperityContact::settle(const Level& passed) {
+    Impl& my = *impl_;
+    if (!my.passed) return Contact::settle(passed);
+    my.passed = false;
+    const long products_before = my.products_taken();
+    bool unique = my.one_solution();
+    int iterations = 0;
+    if (!unique) {
+        my.outcome = my.solve_cold();
+        iterations = my.outcome.iterations;
+        unique = my.outcome.converged && my.one_solution();
+    }
+    my.earlier.remember(passed.separation, my.candidates, my.solution.v, unique);
+    Level level = my.level(passed.separation, my.outcome, unique);
+    level.iterations = iterations;
+    level.products = my.products_taken() - products_before;
     return level;
 }
 
@@ -246,10 +299,14 @@ bool AsperityContact::path_dependent() const { return impl_->law->path_dependent
 
 double AsperityContact::tolerance() const { return impl_->options.tolerance; }
 
-double AsperityContact::first_place_force(double depth) {
-    const int highest = impl_->ranking.highest_asperity();
-    impl_->law->prepare({&highest, 1});
-    return impl_->law->force(highest, depth);
+// Without interaction: others only take from it.
+double AsperityContact::force_at_most(double depth) {
+    Impl& my = *impl_;
+    const double Z0 = first_touch() - depth;
+    const WorkingSet set = select_candidates(my.ranking, my.asperities, my.indenter, my.options, *my.law, Z0).set;
+    double sum = 0;
+    for (std::size_t k = 0; k < set.g0.size(); ++k) sum += my.law->force(set.asperity[k], set.g0[k]);
+    return sum;
 }
 
 std::optional<double> AsperityContact::likely_separation() const {
@@ -262,9 +319,14 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 double AsperityContact::shift() const { return impl_->kernel->shift(); }
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
+double AsperityContact::slope() {
+    constexpr double enough = 1e-2;  // of the residual; the slope's error is of its square
+    return impl_->solution.v.empty() ? 0 : impl_->newton.stiffness(enough, false);
+}
+
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
-    const double slope = impl_->newton.stiffness(1e-10);
+    const double slope = impl_->newton.stiffness(1e-7, true);
     return slope / (1 + shift() * slope);
 }
 

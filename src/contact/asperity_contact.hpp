@@ -34,10 +34,13 @@ protected:
     // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is
     // proved unique, and not otherwise.
     Level solve(double Z0) override;
+    Level pass(double Z0) override;
+    Level settle(const Level& passed) override;
+    double slope() override;
     void accept(Level& level) override;
     double shift() const override;
     double tolerance() const override;
-    double first_place_force(double depth) override;
+    double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
     std::size_t levels_since_move() const override;
 

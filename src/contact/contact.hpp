@@ -61,6 +61,16 @@ protected:
         (void)N;
         return std::nullopt;
     }
+    // On the way to a separation: a solution at Z0 near the last one, of its force, cheaper than solve() but not its answer where there
+    // are several. settle() then gives the answer there; its counts are those of what more was done.
+    virtual Level pass(double Z0) { return solve(Z0); }
+    virtual Level settle(const Level& passed) {
+        Level level = passed;
+        level.iterations = 0, level.products = 0;
+        return level;
+    }
+    // dN/dZ0 of the last trial as solve() counts separations, good enough for Newton's method on Z0.
+    virtual double slope();
     // The last level solved is accepted: what remembers its path goes on from here, and completes the level by what that cost.
     virtual void accept(Level& level) { (void)level; }
 
@@ -73,15 +83,13 @@ protected:
 
     // What force control asks of a model.
     virtual double tolerance() const = 0;                         // relative, of the force
-    virtual double first_place_force(double depth) = 0;           // of the place touched first, alone, pressed in so far
+    virtual double force_at_most(double depth) = 0;               // pressed in so far from the first touch; a bound, exact for one place
     virtual std::optional<double> likely_separation() const = 0;  // where to begin; none: near first touch
     virtual std::size_t levels_since_move() const = 0;            // solved since the tip was moved, at most a few
 
 private:
     // Level at the separation Z0 of the mean planes, where shift() > 0.
     Level solve_between_planes(double Z0);
-    // dN/dZ0 of the last trial as solve() counts separations.
-    double slope();
 
     struct Trial {
         double separation, force, slope;  // as solve() and slope() have them

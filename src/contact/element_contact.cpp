@@ -236,7 +236,7 @@ void ElementContact::forget_levels() {
 const Indenter& ElementContact::indenter() const { return impl_->indenter; }
 double ElementContact::tolerance() const { return impl_->options.tolerance; }
 
-double ElementContact::first_place_force(double depth) {
+double ElementContact::force_at_most(double depth) {
     const Impl& my = *impl_;
     const double half = 0.5 * std::max(my.heights.Lx(), my.heights.Ly()), E = my.indenter.E_star;
     const double punch = 2 * E * half * depth;

@@ -40,7 +40,7 @@ protected:
     void accept(Level& level) override;
     double tolerance() const override;
     // A smooth sphere's, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
-    double first_place_force(double depth) override;
+    double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
     std::size_t levels_since_move() const override;
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFarAbove = 100;  // times the force asked for
+constexpr int kPasses = 2;         // times that passing trials may lead to another solution than the answer; then answers alone lead
 
 }  // namespace
 
@@ -86,9 +87,9 @@ Level Contact::at_force(double N) {
         return std::move(*level);
     }
     double below = closed();  // separations that carry more
-    // A first depth: what the place touched first would need alone.
+    // A first depth: the force may come with it, and not before half of it.
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
-    while (first_place_force(depth) < N) depth *= 2;
+    while (force_at_most(depth) < N) depth *= 2;
     double Z0 = above - 0.25 * depth;
     // The last level is a start unless it failed, touched nothing, or lies so much deeper that coming down anew is the shorter way.
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
@@ -100,15 +101,29 @@ Level Contact::at_force(double N) {
     }
     if (!(Z0 > below)) Z0 = 0.5 * (above + below);
     Level level;
-    int iterations = 0;
-    long products = 0;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    const auto counted = [&](Level solved) {
+        iterations += solved.iterations;
+        products += solved.products;
+        return solved;
+    };
+    const auto done = [&] { return std::abs(level.force / N - 1) <= tolerance() || level.status == LevelStatus::not_converged; };
     constexpr int most = 200;
+    int passes = kPasses;
     for (int i = 0; i < most; ++i) {
-        level = solve(Z0);
-        iterations += level.iterations;
-        products += level.products;
+        bool answer = passes == 0 || i >= most / 2;
+        level = counted(answer ? solve(Z0) : pass(Z0));
+        if (!answer && done()) {
+            answer = true;
+            level = counted(settle(level));
+            if (!done()) {  // another solution than those passed: on from this one
+                --passes;
+                above = first_touch(), below = closed();
+            }
+        }
+        if (done()) break;
         const double miss = level.force / N - 1;
-        if (std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged) break;
         (miss < 0 ? above : below) = Z0;
         double next = level.force > 0 ? Z0 - std::log1p(miss) * level.force / slope() : -kInfinity;
         if (std::isinf(below)) {
@@ -118,9 +133,14 @@ Level Contact::at_force(double N) {
         }
         if (!(next < above) || !(next > below)) next = std::isinf(below) ? above - depth : 0.5 * (above + below);
         if (next == Z0 || next >= above || next <= below) {
+            if (!answer) {  // so it is for what was passed; now for the answers
+                passes = 0;
+                above = first_touch(), below = closed();
+                continue;
+            }
             // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
             const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
-            const double resolved = 2 * ulp * std::abs(slope()) + first_place_force(2 * ulp);
+            const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
             if (std::abs(level.force - N) > resolved) level.status = LevelStatus::not_converged;
             break;
         }

@@ -138,7 +138,7 @@ const Indenter& PeriodicElementContact::indenter() const { return impl_->indente
 double PeriodicElementContact::tolerance() const { return impl_->options.tolerance; }
 
 // A flat punch as wide as the period: what a surface that yields needs no less depth for.
-double PeriodicElementContact::first_place_force(double depth) {
+double PeriodicElementContact::force_at_most(double depth) {
     return impl_->indenter.E_star * std::max(impl_->heights.Lx(), impl_->heights.Ly()) * depth;
 }
 

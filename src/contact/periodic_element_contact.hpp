@@ -33,7 +33,7 @@ protected:
     void accept(Level& level) override;
     double closed() const override;
     double tolerance() const override;
-    double first_place_force(double depth) override;
+    double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override { return std::nullopt; }
     std::size_t levels_since_move() const override { return 0; }
 

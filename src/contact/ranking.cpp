@@ -82,10 +82,6 @@ void Ranking::move(double x0, double y0) {
 
 double Ranking::highest() const { return sorted_ > 0 ? entries_.front().height : highest_rest_; }
 
-int Ranking::highest_asperity() const {
-    return (sorted_ > 0 ? entries_.begin() : std::min_element(entries_.begin(), entries_.end(), comes_first))->asperity;
-}
-
 std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
     if ((x_rest_ != now_.x0 || y_rest_ != now_.y0) && bound_on_rest() > Z0) assign(*asperities_, now_);
     const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);

@@ -28,9 +28,8 @@ public:
     // bound on the heights of the rest says that none of it comes up to where levels were.
     void move(double x0, double y0);
     bool empty() const { return entries_.empty(); }
-    // Height of the highest, -Infinity if there is none, and its asperity.
+    // Height of the highest, -Infinity if there is none.
     double highest() const;
-    int highest_asperity() const;
 
     // Number of entries with height > Z0: they come first, highest first, ties by asperity. Asperities ranked for the first time
     // are appended to `fresh`. Sorting goes only as deep as levels ask for, and a little deeper.

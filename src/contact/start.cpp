@@ -17,11 +17,18 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v, bool unique) {
     unique_ = unique;
+    ++solved_;
+    if (!past_.empty() && past_.front().passed) past_.pop_front();
     const auto& rank = candidates.rank;
     Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown)};
     for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
     past_.push_front(std::move(level));
     if (past_.size() > 4) past_.pop_back();
+}
+
+void EarlierLevels::remember_passed(double Z0, const Candidates& candidates, const Vector& v) {
+    remember(Z0, candidates, v, false);
+    past_.front().passed = true;
 }
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities) {
@@ -35,6 +42,7 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
         for (std::size_t k = 0; k < v.size(); ++k) carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
     }
     past_.clear();
+    solved_ = 0;
     unique_ = true;
 }
 
@@ -51,7 +59,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
         }
         return any;
     }
-    if (past_.empty() || !unique_) return false;
+    if (past_.empty()) return false;
     std::size_t used = 1;
     while (used < past_.size() && used < 4) {
         const double gap = std::abs(past_[used - 1].separation - past_[used].separation);
@@ -93,8 +101,8 @@ std::optional<double> EarlierLevels::likely_separation(double first_touch) const
 Vector cold_start(const Law& law, Products& products, const WorkingSet& candidates) {
     const int n = candidates.size();
     Vector start(at(n)), F(at(n)), D(at(n)), W(at(n)), active_F, phi(at(n));
+    Vector x, y;  // of those that carry
     std::vector<int> active;
-    products.set_points(n, candidates.x.data(), candidates.y.data());
     double low = 0, high = candidates.g0.front();
     for (double g : candidates.g0) high = std::max(high, g);
     constexpr int bisections = 6;
@@ -103,14 +111,17 @@ Vector cold_start(const Law& law, Products& products, const WorkingSet& candidat
         for (std::size_t k = 0; k < at(n); ++k) start[k] = candidates.g0[k] - s;
         law.respond(n, candidates.asperity.data(), start.data(), F.data(), D.data(), W.data());
         active.clear();
-        active_F.clear();
+        for (Vector* list : {&active_F, &x, &y}) list->clear();
         double total = 0, weighted = 0;
         for (int k = 0; k < n; ++k) {
             if (!(F[at(k)] > 0)) continue;
-            active.push_back(k);
+            active.push_back(static_cast<int>(active.size()));
+            x.push_back(candidates.x[at(k)]);
+            y.push_back(candidates.y[at(k)]);
             active_F.push_back(F[at(k)]);
             total += F[at(k)];
         }
+        products.set_points(static_cast<int>(active.size()), x.data(), y.data());
         products.set_active(active);
         products.inner(active_F.data(), phi.data());
         for (std::size_t k = 0; k < active.size(); ++k) weighted += active_F[k] * phi[k];

@@ -18,22 +18,28 @@ public:
     // The level at Z0 with penetrations v over the candidates. `unique`: it is proved to be the only solution.
     void remember(double Z0, const Candidates& candidates, const std::vector<double>& v, bool unique);
 
+    // The same of a solution that will not stay: it gives way to the next. It may be one of several.
+    void remember_passed(double Z0, const Candidates& candidates, const std::vector<double>& v);
+
     // The tip moves: ranks lose their meaning, the last level is kept by asperity as the start of the first level after the move.
     void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities);
 
+    bool unique() const { return unique_; }  // the last is proved to be the only solution
     // Penetrations to start from at Z0; candidates without a past are taken not to touch (they are checked at the end). False: none.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
     // Where force control may begin, if below `first_touch`.
     std::optional<double> likely_separation(double first_touch) const;
-    std::size_t size() const { return past_.size(); }
+    std::size_t size() const { return solved_; }  // remembered since the tip moved
 
 private:
     struct Past {
         double separation;
         std::vector<double> phi;  // B F by rank; NaN: not known
+        bool passed = false;
     };
     std::deque<Past> past_;
+    std::size_t solved_ = 0;
     bool unique_ = true;
 
     struct Carried {

@@ -11,10 +11,10 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
     std::vector<char> in(n);
     const auto draw = [&](const Vector& penetration) {
         const double highest = *std::max_element(penetration.begin(), penetration.end());
-        for (std::size_t k = 0; k < n; ++k) in[k] = options.all || penetration[k] > -0.03 * highest;
+        for (std::size_t k = 0; k < n; ++k) in[k] = penetration[k] > -0.03 * highest;
     };
     draw(start);
-    bool settle = !options.rough_start || options.all;
+    bool settle = !options.rough_start;
     auto& [v, force, slope] = solution;
     v = start;
     NewtonOutcome total;

@@ -17,7 +17,6 @@ struct Solution {
 struct WorkingSetOptions {
     double tolerance;
     int max_iterations;
-    bool all;          // every candidate takes part: for products that cost the same for few and for many
     bool rough_start;  // the start is a guess: the set is drawn anew once the solution is known to some ten per cent, and what is
                        // found is a minimum of the energy. After another start only a proof of uniqueness tells.
 };

@@ -1,5 +1,6 @@
 // All methods give one answer, a local minimum of the energy, on many kinds of surfaces; and a level gives the same answer alone as
 // in a series. Counts of Newton steps and products are printed, so that a regression shows.
+#include <cmath>
 #include <numbers>
 
 #include "check.hpp"
@@ -125,6 +126,25 @@ void levels_do_not_remember() {
     }
 }
 
+// Pressed with one force after another, trials on the way go on from each other, where the energy has several minima into others than
+// the answer; the level found is the answer at its separation.
+void pressed_levels_do_not_remember() {
+    for (unsigned seed = 200; seed < 204; ++seed) {
+        const Asperities a = random_asperities(400, 0.003, 0.01, 0.1, 0.7, seed);
+        const Indenter indenter{kE, 1e4, 0.5, 0.5};
+        const auto fresh = [&](double Z0) { return AsperityContact(a, indenter, options(Method::direct)).at_separation(Z0); };
+        const double first = fresh(0.02).force;
+        AsperityContact pressed(a, indenter, options(Method::direct));
+        for (int k = 0; k < 12 && first > 0; ++k) {
+            const double N = first * std::pow(1.5, k);
+            const Level level = pressed.at_force(N), alone = fresh(level.separation);
+            CHECK(level.asperity == alone.asperity);
+            CHECK_CLOSE(level.force, alone.force, kTolerance * alone.force);
+            if (level.status != LevelStatus::not_converged) CHECK_CLOSE(level.force, N, kTolerance * N);
+        }
+    }
+}
+
 // Two equal asperities so close that the symmetric solution is a saddle of the energy: the paper's iteration stops there, the answer
 // must not. d < (2/pi) a makes I + S B S indefinite.
 void saddle_is_left() {
@@ -146,6 +166,7 @@ void saddle_is_left() {
 int main() {
     methods_agree();
     levels_do_not_remember();
+    pressed_levels_do_not_remember();
     saddle_is_left();
     return check::summary();
 }

@@ -24,8 +24,6 @@ void walk(const Asperities& asperities, double R, double step, int n, double rea
         Ranking fresh;
         fresh.assign(asperities, tip);
         if (moved.highest() != fresh.highest()) ++differences;
-        if (fresh.highest() > -std::numeric_limits<double>::infinity() && moved.highest_asperity() != fresh.highest_asperity())
-            ++differences;
         if (k % 3 != 0) {
             const double Z0 = fresh.highest() - reach * std::abs(uniform(random));
             std::vector<int> seen;

@@ -17,8 +17,9 @@ namespace rsc {
 
 namespace {
 
-constexpr std::size_t kDirect = 256;    // so few points are summed directly
-constexpr std::size_t kThreads = 5000;  // and so few are not worth the threads
+constexpr std::size_t kDirect = 256;        // so few points are summed directly
+constexpr std::size_t kDirectLattice = 32;  // where a pair is a sum over images
+constexpr std::size_t kThreads = 5000;      // and so few are not worth the threads
 
 // Seconds on one core, measured; they only decide how the work is shared between mesh and near field.
 constexpr double kSecondsPerNearPair = 2.3e-9;
@@ -100,7 +101,7 @@ struct MeshPotential::Parts {
     double scale = 1;  // near-field coordinate units per length, a power of two
     NearKernel kernel;
     MeshWindow window;
-    std::unique_ptr<FarField> far;
+    std::shared_ptr<const FarField> far;
 
     // Points in strips of constant y, by x within a strip; x runs along the longer side. Strips are padded for the pair loops.
     // Where everything repeats, the first `strips` of them are followed by copies: of the two lowest beyond the upper border, then of the
@@ -123,12 +124,13 @@ struct MeshPotential::Parts {
     void give_back(std::unique_ptr<Scratch> scratch) const;
     void make_strips(const double* px, const double* py, double x0, double y0, double length_y);
     void near_strip(std::size_t s, const double* f, double* phi) const;
-    void repeat(std::size_t n, const double* px, const double* py, double relative_error);
+    void repeat(std::size_t n, const double* px, const double* py, double relative_error, FarFields* kept);
     void spread(const double* f, double* mesh) const;
     void near_field(const double* f, double* phi) const;
 };
 
-MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice)
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice,
+                             FarFields* kept)
     : parts_(std::make_unique<Parts>()) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
         throw Error(Failure::bad_input, "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
@@ -147,14 +149,14 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         p.lattice = *lattice;
         p.direct = PairSums(&*p.lattice);
     }
-    if (n <= kDirect || (x_max == x_min && y_max == y_min)) {
+    if (n <= (lattice ? kDirectLattice : kDirect) || (x_max == x_min && y_max == y_min)) {
         p.direct.assign(n, x, y);
         p.choice.pairs = static_cast<double>(n) * static_cast<double>(n);
         p.choice.cost = 1e-9 * p.choice.pairs;
         return;
     }
     if (lattice) {
-        p.repeat(n, x, y, relative_error);
+        p.repeat(n, x, y, relative_error, kept);
         return;
     }
     // The kernel does not know x from y.
@@ -167,7 +169,7 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
     const double cutoff = p.design->cutoff * p.choice.spacing;
     p.kernel = near_kernel(*p.design, cutoff * p.scale);
     p.window = mesh_window(*p.design);
-    p.far = std::make_unique<FarField>(*p.design, length_x / p.choice.spacing, length_y / p.choice.spacing);
+    p.far = std::make_shared<FarField>(*p.design, length_x / p.choice.spacing, length_y / p.choice.spacing);
     p.make_strips(x, y, x_min, y_min, length_y);
 }
 
@@ -248,7 +250,7 @@ void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
 }
 
 // Points into the cell, and everything for a mesh that repeats.
-void MeshPotential::Parts::repeat(std::size_t count, const double* px, const double* py, double relative_error) {
+void MeshPotential::Parts::repeat(std::size_t count, const double* px, const double* py, double relative_error, FarFields* kept) {
     const Period& period = lattice->period();
     std::vector<double> inside_x(count), inside_y(count);
     const auto inside = [](double value, double side) {
@@ -263,7 +265,9 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
     const double cutoff = design->cutoff * choice.spacing;
     kernel = near_kernel(*design, cutoff * scale);
     window = mesh_window(*design);
-    far = std::make_unique<FarField>(*design, *lattice, choice.spacing, cutoff);
+    if (kept) far = (*kept)[{design, choice.spacing}];
+    if (!far) far = std::make_shared<FarField>(*design, *lattice, choice.spacing, cutoff);
+    if (kept) (*kept)[{design, choice.spacing}] = far;
     make_strips(inside_x.data(), inside_y.data(), 0, 0, period.y);
 }
 

@@ -11,11 +11,19 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "contact/interaction/lattice.hpp"
 
 namespace rsc {
+
+class FarField;
+struct MeshDesign;
+
+// Far fields of meshes that repeat, by design and spacing: with one lattice they are the same for all points. Not for several threads.
+using FarFields = std::map<std::pair<const MeshDesign*, double>, std::shared_ptr<const FarField>>;
 
 class MeshPotential {
 public:
@@ -23,7 +31,9 @@ public:
     // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
     // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
     // With a lattice (it is copied) everything repeats: Gamma - Gamma's least value takes the place of 1/d, and a point acts on itself.
-    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice = nullptr);
+    // `kept`: far fields made before with this lattice; what is missing is added.
+    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice = nullptr,
+                  FarFields* kept = nullptr);
     ~MeshPotential();
     MeshPotential(MeshPotential&&) noexcept;
     MeshPotential& operator=(MeshPotential&&) noexcept;

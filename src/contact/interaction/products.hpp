@@ -28,7 +28,7 @@ public:
     virtual void inner_passive(const double* f, double* phi) = 0;
     // phi = B f at every point of the working set, in inner accuracy.
     void inner_everywhere(const double* f, double* phi);
-    // phi = B f of the active points at n other places, in single precision at best.
+    // phi = B f of the active points at n other places, to 1e-5 (2-norm) at least.
     virtual void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) = 0;
     // phi = B f at every point of the working set, in full accuracy; f over the active list.
     virtual void full(const double* f, double* phi) = 0;
@@ -51,6 +51,9 @@ protected:
     std::vector<double> part_;
     long count_ = 0;
 };
+
+// Pairs a second on one core in direct inner sums, for choosing between methods.
+double direct_rate(const Kernel& kernel);
 
 // Direct sums over pairs.
 std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel);

@@ -24,12 +24,9 @@ public:
         y_.assign(y, y + n);
         f_.resize(size);
         phi_.resize(size);
-        inner_.emplace(size, x, y, inner_error_, kernel_->lattice());
+        inner_.reset();  // made when first wanted
         exact_.reset();
-        if (full_error_ < kFinest)
-            pairs_.assign(size, x, y);
-        else
-            exact_.emplace(size, x, y, full_error_, kernel_->lattice());
+        if (direct()) pairs_.assign(size, x, y);
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -50,14 +47,26 @@ public:
     }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
+        const std::size_t sources = active_.size(), targets = static_cast<std::size_t>(n);
         std::vector<double> xa, ya;
         for (int k : active_) {
             xa.push_back(x_[static_cast<std::size_t>(k)]);
             ya.push_back(y_[static_cast<std::size_t>(k)]);
         }
-        PairSums sums(kernel_->lattice());
-        sums.assign(xa.size(), xa.data(), ya.data());
-        sums.onto(true, static_cast<std::size_t>(n), x, y, f, phi);
+        constexpr double making = 3;  // and its one product, in products
+        const double pairs = static_cast<double>(sources) * static_cast<double>(targets);
+        if (pairs / direct_rate(*kernel_) < making * MeshPotential::estimated_cost(sources + targets, kElsewhere)) {
+            PairSums sums(kernel_->lattice());
+            sums.assign(sources, xa.data(), ya.data());
+            sums.onto(true, targets, x, y, f, phi);
+        } else {
+            xa.insert(xa.end(), x, x + n);
+            ya.insert(ya.end(), y, y + n);
+            std::vector<double> force(f, f + sources), all(xa.size());
+            force.resize(xa.size());
+            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_->lattice(), &far_).apply(force.data(), all.data());
+            std::copy(all.begin() + static_cast<std::ptrdiff_t>(sources), all.end(), phi);
+        }
         for (int k = 0; k < n; ++k) phi[k] *= scale_;
     }
 
@@ -67,28 +76,37 @@ public:
     }
 
     double inner_error() const override { return inner_error_; }
-    double full_error() const override { return exact_ ? full_error_ : 1e-14; }
+    double full_error() const override { return direct() ? 1e-14 : full_error_; }
 
 private:
     // What the mesh can reach; beyond it full products are direct sums.
     static constexpr double kFinest = 1e-10;
+    bool direct() const { return full_error_ < kFinest; }
+    // Of products elsewhere: well within what single precision could do for those who ask.
+    static constexpr double kElsewhere = 1e-5;
+
+    const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
+        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_->lattice(), &far_);
+        return *mesh;
+    }
 
     void everywhere(const double* f, bool exact) {
         ++count_;
         std::fill(f_.begin(), f_.end(), 0.0);
         for (std::size_t k = 0; k < active_.size(); ++k) f_[static_cast<std::size_t>(active_[k])] = f[k];
         if (!exact)
-            inner_->apply(f_.data(), phi_.data());
-        else if (exact_)
-            exact_->apply(f_.data(), phi_.data());
-        else
+            made(inner_, inner_error_).apply(f_.data(), phi_.data());
+        else if (direct())
             pairs_.apply(f_.data(), phi_.data());
+        else
+            made(exact_, full_error_).apply(f_.data(), phi_.data());
         for (double& phi : phi_) phi *= scale_;
     }
 
     double scale_, full_error_, inner_error_;
     bool precise_ = false;
     std::vector<double> x_, y_, f_, phi_;
+    FarFields far_;
     std::optional<MeshPotential> inner_, exact_;
     PairSums pairs_;
 };

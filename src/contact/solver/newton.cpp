@@ -277,10 +277,10 @@ void Newton::potential_at(std::size_t n, const double* x, const double* y, doubl
     products_->elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
 }
 
-double Newton::stiffness(double tolerance) {
+double Newton::stiffness(double tolerance, bool precise) {
     products_->set_active(now_.active);
     scale_active(now_);
-    products_->set_precise(true);
+    products_->set_precise(precise);
     Vector b(root_.size()), w;
     for (std::size_t k = 0; k < b.size(); ++k) b[k] = -root_[k];
     Step ignored;

@@ -56,8 +56,9 @@ public:
     // At the solution: B F at n other places, in single precision.
     void potential_at(std::size_t n, const double* x, const double* y, double* phi);
 
-    // At the solution: the solution of (I + B D) dv = -1 on the active set gives dN/dZ0 = sum D dv.
-    double stiffness(double tolerance);
+    // At the solution: the solution of (I + B D) dv = -1 on the active set gives dN/dZ0 = sum D dv. `tolerance` of the residual of these
+    // linear equations: the stiffness's error is of the order of its square. `precise`: by products as accurate as full ones.
+    double stiffness(double tolerance, bool precise);
 
 private:
     struct State {
