@@ -19,6 +19,8 @@ constexpr double kReduction = 0.1;
 constexpr double kClosing = 1e-2;
 // Rounds from which the energy is watched: sets that settle do so in some ten rounds.
 constexpr int kQuick = 30;
+// Deep in the roughness, the first guess of a start covers more than this share of the pixels; a smooth sphere's covers half.
+constexpr double kDeep = 0.55;
 // Full products are taken from where inner ones no longer tell, in units of their error.
 constexpr double kInnerReach = 10;
 
@@ -26,19 +28,22 @@ constexpr double kInnerReach = 10;
 
 ElementsSolver::ElementsSolver(PixelProducts& products, double highest) : products_(products), highest_(highest) {}
 
-// Pressures like those of Hertz, the root of the overlap with a surface lowered by s, with the s and the scale of least energy.
-void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p) {
-    const double top = *std::max_element(g0.begin(), g0.end());
-    const auto root = [&](std::size_t k, double s) { return std::sqrt(g0[k] - s + 1e-3 * top); };
+// Pressures like those of Hertz, the root of the overlap `over` above s, with the s and the scale of least energy, which `least` is on
+// entry and return. Returns how many pixels carry them; 0, and p as it was, where none have less energy.
+std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& over,
+                                  double& least, std::vector<double>& p) {
+    const double top = *std::max_element(over.begin(), over.end());
+    if (!(top > 0)) return 0;
+    const auto root = [&](std::size_t k, double s) { return std::sqrt(over[k] - s + 1e-3 * top); };
     std::vector<Pixel> some;
     std::vector<double> q, w, g;
-    double least = std::numeric_limits<double>::infinity(), scale = 0, best = 0;
+    double lowest = 0, scale = 0, best = 0;
     const auto energy = [&](double s) {
         some.clear();
         q.clear();
         g.clear();
         for (std::size_t k = 0; k < pixels.size(); ++k) {
-            if (!(g0[k] >= s)) continue;
+            if (!(over[k] >= s)) continue;
             some.push_back(pixels[k]);
             g.push_back(g0[k]);
             q.push_back(root(k, s));
@@ -49,12 +54,12 @@ void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<d
         double a = 0, b = 0;
         for (std::size_t k = 0; k < q.size(); ++k) a += q[k] * g[k], b += q[k] * w[k];
         const double e = -0.5 * a * a / b;
-        if (e < least) least = e, scale = a / b, best = s;
+        if (e < lowest) lowest = e, scale = a / b, best = s;
         return e;
     };
     double step = top / 8;
     for (int i = 7; i >= 0; --i) {
-        if (energy(i * step) > 0.98 * least) break;  // past the minimum
+        if (energy(i * step) > 0.98 * lowest) break;  // past the minimum
     }
     for (int i = 0; i < 2; ++i) {
         step *= 0.5;
@@ -62,7 +67,26 @@ void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<d
         energy(middle - step);
         energy(middle + step);
     }
-    for (std::size_t k = 0; k < pixels.size(); ++k) p[k] = g0[k] >= best ? std::min(scale * root(k, best), highest_) : 0.0;
+    if (!(lowest < least)) return 0;
+    least = lowest;
+    std::size_t chosen = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        p[k] = over[k] >= best ? std::min(scale * root(k, best), highest_) : 0.0;
+        chosen += p[k] > 0;
+    }
+    return chosen;
+}
+
+void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p) {
+    double least = std::numeric_limits<double>::infinity();
+    const std::size_t chosen = guess(pixels, g0, g0, least, p);
+    if (!(static_cast<double>(chosen) > kDeep * static_cast<double>(pixels.size()))) return;
+    // The peaks of the roughness carry: they stand out in what is left of the overlap once the surface is deflected.
+    std::vector<double> over(p.size());
+    products_.set_pixels(pixels);
+    products_.apply(p.data(), over.data(), Accuracy::inner);
+    for (std::size_t k = 0; k < p.size(); ++k) over[k] = g0[k] - over[k];
+    guess(pixels, g0, over, least, p);
 }
 
 // The working set: members, and pixels within kReach of one that is a member or under pressure.

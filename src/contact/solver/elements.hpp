@@ -44,6 +44,8 @@ public:
 
 private:
     void start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p);
+    std::size_t guess(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& over, double& least,
+                      std::vector<double>& p);
     void draw(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& p);
     void evaluate(PixelProducts::Accuracy accuracy);
     void find_free();
