@@ -15,8 +15,8 @@ constexpr int kThreads = 400000;  // pixels from which threads pay
 // The preconditioner's reach, and numbers of a row of its table: those beyond the reach are 0.
 constexpr int kReach = 4, kTaps = 12;
 // A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
-constexpr int kSteps = 5;
-constexpr double kReduction = 0.1;
+constexpr int kSteps = 8;
+constexpr double kReduction = 0.05;
 // Rounds from which the energy is watched: sets that settle do so in some ten rounds.
 constexpr int kQuick = 30;
 // Errors below which a round is judged in double.
