@@ -1,53 +1,9 @@
 #!/bin/sh
 # Everything the paper computed: runs the cases of input/paper, draws the pictures and writes the report.
-# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]
-#   RSC      the program (default ./rsc)
-#   FOLDER   where results, pictures and report.txt go (default output/paper)
-#   --short  few realizations and small grids: shows that all of it works, the numbers are another surface's; into
-#            output/paper_short unless FOLDER says otherwise. Options may stand anywhere.
-# Results of a full run are never replaced by a shortened one, nor the other way round, nor files that run.sh did not make.
-# Interrupted, it goes on from there when the same command is given again, with the same program and cases: finished cases are kept, and
-# of the one that was interrupted all finished realizations. Once it is through, the next run starts anew.
-# PYTHON names a Python with numpy, scipy, matplotlib and netCDF4; found by itself when python3 or /usr/bin/python3 has them.
+# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]], the words' meaning at the head of input/run_cases.sh; FOLDER is output/paper by default.
 set -eu
-short=no
-rsc=
-folder=
-for word; do
-    case $word in
-        --short) short=yes ;;
-        -*)
-            echo "run.sh: unknown option $word; usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]" >&2
-            exit 2
-            ;;
-        *)
-            if [ -z "$rsc" ]; then rsc=$word
-            elif [ -z "$folder" ]; then folder=$word
-            else
-                echo "run.sh: too many words at '$word'; usage: sh input/paper/run.sh [--short] [RSC [FOLDER]]" >&2
-                exit 2
-            fi
-            ;;
-    esac
-done
 here=$(cd "$(dirname "$0")" && pwd)
-rsc=${rsc:-./rsc}
-if [ $short = yes ]; then kind=shortened; default=output/paper_short; else kind=full; default=output/paper; fi
-folder=${folder:-$default}
-case $rsc in */*) ;; *) rsc=./$rsc ;; esac
-if [ ! -x "$rsc" ]; then
-    echo "run.sh: no program $rsc; build it first (sh input/setup.sh, or make -f Makefile.legacy)" >&2
-    exit 1
-fi
-if [ -z "${PYTHON:-}" ]; then
-    for PYTHON in python3 /usr/bin/python3 ''; do
-        [ -z "$PYTHON" ] || "$PYTHON" -c 'import numpy, scipy, matplotlib, netCDF4' 2> /dev/null && break
-    done
-fi
-if [ -z "$PYTHON" ]; then
-    echo 'run.sh: Python modules are missing; on Debian: apt install python3-scipy python3-matplotlib python3-netcdf4' >&2
-    exit 77
-fi
+study=paper
 
 # The shortened version: an eighth of the grid and of the waves it carries, and a few realizations.
 shorten() {
@@ -65,57 +21,4 @@ shorten() {
 }
 
 cases='asperities curvatures density density_grid area area_R5 area_l48 maps maps_plateau contacts trials trials_R5 laws elements dgesv'
-of=$(echo $cases | wc -w)
-
-# What an interrupted run of the same program on the same cases has left is kept, everything else goes.
-mkdir -p "$folder"
-there=$(cat "$folder/kind.txt" 2> /dev/null || true)
-if [ "$there" != $kind ] && ls "$folder"/*.nc > /dev/null 2>&1; then
-    echo "run.sh: $folder holds $(if [ -n "$there" ]; then echo "results of a $there run"; else echo "files that run.sh did not make"; fi): give this $kind run another FOLDER, or remove that one" >&2
-    exit 2
-fi
-echo $kind > "$folder/kind.txt"
-this="$short $(cat "$rsc" "$here"/*.nml "$here/run.sh" | cksum)"
-if [ "$(cat "$folder/unfinished.txt" 2> /dev/null)" = "$this" ]; then
-    echo 'going on with the run that was interrupted'
-else
-    rm -f "$folder"/*.nc "$folder"/*.checkpoint* "$folder"/*.part-* "$folder"/*_manifest.txt "$folder"/times.txt "$folder"/begun.txt "$folder"/report.txt "$folder"/paper_*.png
-    echo "$this" > "$folder/unfinished.txt"
-fi
-touch "$folder/times.txt" "$folder/begun.txt"
-stopped() {
-    echo "run.sh: stopped; the same command goes on from here ($(wc -l < "$folder/times.txt") of $of cases are finished)" >&2
-    exit "$1"
-}
-trap 'stopped 130' INT
-trap 'stopped 143' TERM
-
-begin=$(date +%s)
-number=0
-for name in $cases; do
-    number=$((number + 1))
-    if grep -q "^$name " "$folder/times.txt"; then
-        echo "$number of $of, $name: is there"
-        continue
-    fi
-    case=$here/$name.nml
-    if [ $short = yes ]; then
-        shorten $name < "$case" > "$folder/$name.nml"
-        case=$folder/$name.nml
-    fi
-    again=$(grep -x "$name" "$folder/begun.txt" | sed 's/.*/ resumed/;q')
-    echo "$name" >> "$folder/begun.txt"
-    echo "$number of $of, $name: $(sed -n "s/^&run *title = '\([^']*\)'.*/\1/p" "$case")"
-    from=$(date +%s)
-    status=0
-    "$rsc" "$case" --quiet --resume --progress always --output "$folder/$name.nc" || status=$?
-    [ $status -eq 0 ] || stopped $status
-    echo "$name $(($(date +%s) - from))$again" >> "$folder/times.txt"
-    echo "    $(sed -n "s/^$name \([0-9]*\).*/\1/p" "$folder/times.txt") s"
-done
-from=$(date +%s)
-echo 'pictures and report'
-"$PYTHON" "$here/../../output/plot/paper.py" "$folder"
-rm -f "$folder/unfinished.txt" "$folder/begun.txt"
-echo "everything: $(($(date +%s) - begin)) s, of which pictures and report $(($(date +%s) - from)) s"
-echo "the report: $folder/report.txt"
+. "$here/../run_cases.sh"

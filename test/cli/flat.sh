@@ -1,0 +1,34 @@
+#!/bin/sh
+# flat.sh RSC PROJECT FOLDER: input/flat/run.sh --short from beginning to end; 77 where Python lacks its modules.
+set -u
+rsc=$1
+project=$2
+folder=$3
+failed=0
+fail() {
+    echo "FAILED: $*"
+    failed=1
+}
+rm -rf "$folder"
+mkdir -p "$folder"
+for case in "$project"/input/flat/*.nml; do
+    "$rsc" --check "$case" > "$folder/check.txt" 2>&1 || fail "--check refuses $(basename "$case"): $(cat "$folder/check.txt")"
+done
+sh "$project/input/flat/run.sh" --short "$rsc" "$folder/flat" > "$folder/log.txt" 2>&1
+status=$?
+[ $status -ne 77 ] || { cat "$folder/log.txt"; exit 77; }
+[ $status -eq 0 ] || { fail "run.sh --short ends with status $status: $(tail -n 20 "$folder/log.txt")"; exit 1; }
+for picture in kappa stiffness; do
+    head -c 8 "$folder/flat/flat_$picture.png" 2> /dev/null | grep -q PNG || fail "flat_$picture.png is no picture"
+done
+report=$folder/flat/report.txt
+[ -s "$report" ] || { fail "no report"; exit 1; }
+grep -q 'SHORTENED' "$report" || fail "the report does not say that it is the shortened one"
+if grep -n -w -i nan "$report"; then fail "not a number in the report"; fi
+# Nine small surfaces: area over load lies between Persson's and a little above that of Bush, Gibson and Thomas, both models within 5 %, and a
+# small surface at light pressures is stiffer than in proportion.
+awk '$3 ~ /^[0-9.]+$/ && /\+-/ && NF == 11 { n++; if (!($4 > 1.6 && $4 < 2.7)) bad = 1; d = $10; sub("%", "", d); if (d > 5 || d < -5) bad = 1 }
+     END { exit bad || n != 3 }' "$report" || fail "area over load: $(grep -e '+-' "$report")"
+awk '$1 == "0.0001" { light = $2 } $1 == "0.1" { heavy = $2 } END { exit !(light > 2 * heavy && heavy > 1.8 && heavy < 2.7) }' "$report" ||
+    fail "stiffness over pressure: $(sed -n '/^ *p\/(E/,$p' "$report")"
+exit $failed
