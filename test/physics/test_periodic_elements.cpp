@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -224,6 +225,44 @@ void conservation() {
     CHECK(make_element_contact(map, flat(map), few)->at_force(level.force).status == LevelStatus::not_converged);
 }
 
+// Random heights on small grids of any shape, from a first touch to where hardly anything is left of the gap: under a pressure, and at
+// the separation it has.
+void any_grid() {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const int sides[] = {2, 3, 5, 7, 16, 31, 64};
+    long levels = 0, rounds = 0, most = 0;
+    for (int trial = 0; trial < 25; ++trial) {
+        const int nx = sides[random() % 7], ny = sides[random() % 7];
+        HeightMap map = empty(nx, ny, 1, std::pow(4.0, uniform(random)));
+        const bool waves = random() % 2 == 0;
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
+                map.row(j)[i] =
+                    (waves ? 0.3 : 1.0) * uniform(random) + (waves ? std::cos(4 * kPi * i / nx) + std::cos(2 * kPi * j / ny) : 0.0);
+        SolverOptions thorough = options(1e-9);
+        thorough.max_iterations = 300;
+        const auto contact = make_element_contact(map, flat(map), thorough);
+        double closing = 0;  // as the message says it
+        try {
+            contact->at_force(1e3 * kE * map.Lx() * map.Ly());
+        } catch (const Error& e) {
+            const std::string said = e.what();
+            closing = std::strtod(said.c_str() + said.find(" from ") + 6, nullptr);
+        }
+        CHECK(closing > 0);
+        for (const double share : {1e-4, 0.03, 0.4, 0.9, 0.999}) {
+            const double N = share * closing * map.Lx() * map.Ly();
+            const Level level = contact->at_force(N), again = contact->at_separation(level.separation);
+            CHECK(level.status == LevelStatus::converged && again.status == LevelStatus::converged);
+            CHECK_RELATIVE(again.force, N, 1e-4);
+            CHECK(level.area_fraction > 0 && level.pixels.index.size() < static_cast<std::size_t>(nx * ny));
+            ++levels, rounds += level.iterations, most = std::max<long>(most, level.iterations);
+        }
+    }
+    std::printf("random heights: %.1f rounds a level, %ld at most\n", static_cast<double>(rounds) / static_cast<double>(levels), most);
+}
+
 // A bump on the seam and the same in the middle: one contact, its centroid in the map.
 void across_the_seam() {
     constexpr int n = 63;  // odd: transforms of any length
@@ -327,6 +366,7 @@ int main(int argc, char**) {
     westergaard();
     moved_and_turned();
     conservation();
+    any_grid();
     across_the_seam();
     threads_change_no_bit();
     yielding();

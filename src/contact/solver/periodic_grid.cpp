@@ -17,8 +17,8 @@ constexpr int kReach = 4, kTaps = 12;
 // A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
 constexpr int kSteps = 8;
 constexpr double kReduction = 0.05;
-// Rounds from which the energy is watched: sets that settle do so in some ten rounds.
-constexpr int kQuick = 30;
+// Rounds from which the energy is watched, and their steps: sets that settle do so in some ten rounds.
+constexpr int kQuick = 30, kCareful = 2;
 // Errors below which a round is judged in double.
 constexpr double kSingle = 1e-4;
 // The shortest side worth a coarser grid.
@@ -293,24 +293,7 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
             return part;
         });
     };
-    std::vector<double> ones(n, 1.0);
-    one_.resize(n);
-    precondition(ones, one_);
-    const double whole = total(one_);
-    double first = 0, last = 0;
-    for (int step = 0;; ++step) {
-        precondition(r_, y_);
-        if (keep_sum) {
-            const double c = total(y_) / whole;
-            for (std::size_t k = 0; k < n; ++k) y_[k] -= c * one_[k];
-        }
-        const double ry = sum_of(r_, y_);
-        if (step == 0) first = ry;
-        if (!(ry > 0)) return 0;
-        if (step == most_steps || !(ry > reduction * reduction * first)) return std::sqrt(ry / first);
-        const double beta = step > 0 ? ry / last : 0.0;
-        last = ry;
-        for (std::size_t k = 0; k < n; ++k) d_[k] = y_[k] + beta * d_[k];
+    const auto product = [&] {  // image_ = K d_ over the free pixels
         ++products_;
         inner_.apply(
             [&](int j, float* row) {
@@ -321,6 +304,33 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
                 for (std::size_t k = set_.begin[at(j)]; k < set_.begin[at(j) + 1]; ++k)
                     image_[k] = free_[k] ? unit_ * static_cast<double>(row[set_.column[k]]) : 0.0;
             });
+    };
+    std::vector<double> ones(n, 1.0);
+    one_.resize(n);
+    precondition(ones, one_);
+    const double whole = total(one_);
+    // Where the sum may change, pressures like those of a punch are cheap, the more so the fuller the contact: they are a step of their own.
+    double punch = 0;
+    if (!keep_sum) {
+        d_ = one_;
+        product();
+        const double energy = sum_of(d_, image_);
+        punch = energy > 0 ? 1 / energy : 0;
+        std::fill(d_.begin(), d_.end(), 0.0);
+    }
+    double first = 0, last = 0;
+    for (int step = 0;; ++step) {
+        precondition(r_, y_);
+        const double c = keep_sum ? -total(y_) / whole : punch * sum_of(one_, r_);
+        for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
+        const double ry = sum_of(r_, y_);
+        if (step == 0) first = ry;
+        if (!(ry > 0)) return 0;
+        if (step == most_steps || !(ry > reduction * reduction * first)) return std::sqrt(ry / first);
+        const double beta = step > 0 ? ry / last : 0.0;
+        last = ry;
+        for (std::size_t k = 0; k < n; ++k) d_[k] = y_[k] + beta * d_[k];
+        product();
         const double curvature = sum_of(d_, image_);
         if (!(curvature > 0)) return std::sqrt(ry / first);
         const double alpha = ry / curvature;
@@ -401,7 +411,7 @@ ElementsOutcome PeriodicGrid::solve(Given given, double tolerance, int most_iter
         for (std::size_t k = 0; k < n; ++k) r_[k] = free_[k] ? 0 - w_[k] : 0.0;
         before_p_ = p_;
         before_w_ = w_;
-        descend(p_, given.is_pressure, outcome.iterations > kQuick ? 2 : kSteps, kReduction);
+        descend(p_, given.is_pressure, outcome.iterations > kQuick ? kCareful : kSteps, kReduction);
         bound(given);
         exact = finest && (exact || outcome.residual < kSingle);
     }
