@@ -56,13 +56,15 @@ def distributions(results, options):
     figure, axes = panels(3, options.width, aspect=0.8, entries=few(len(shown)))
     for axis, (name, bins, label, law, fit) in zip(axes, PANELS):
         end, smallest = 0.0, np.inf
+        ends = [r[bins][r[name][k] > 0].max() for r, k, _ in shown if (r[name][k] > 0).any()]
+        decades = len(ends) > 1 and max(ends) > 20 * min(ends)  # such as elastic and yielding
         for i, (result, k, title) in enumerate(shown):
             marker, line, colour = style(i, len(shown))
             centre, density = result[bins], result[name][k]
             good = density > 0
             if not good.any():
                 continue
-            x = np.linspace(centre[0] / 10, centre[good].max(), 300)
+            x = (np.geomspace if decades else np.linspace)(centre[0] / 10, centre[good].max(), 300)
             curve, parameters = fit(result, k, x)
             axis.plot(centre[good], density[good], marker, ms=2.5, mfc="none", mew=0.7, color=colour, label=parameters or title)
             if np.isfinite(curve).all():
@@ -70,15 +72,14 @@ def distributions(results, options):
             end, smallest = max(end, centre[good].max()), min(smallest, density[good].min())
         axis.set_xlabel(label + shown[0][0].unit(bins), labelpad=9)  # room for the power of ten
         axis.set(ylabel="probability density" + shown[0][0].unit(name), title=f"points: rsc; lines: {law}")
-        axis.ticklabel_format(axis="both", scilimits=(-2, 4), useMathText=True)
-        if end > 0:
-            axis.set_xlim(0, end * 1.05)
-        if name == "spot_area_pdf":
-            axis.set_yscale("log")
-            if np.isfinite(smallest):
-                axis.set_ylim(smallest / 2, None)
+        if decades:
+            axis.set(xscale="log", yscale="log", xlim=(min(ends) / 30, end * 1.3), ylim=(smallest / 3, None))
         else:
-            axis.set_ylim(bottom=0)
+            axis.ticklabel_format(axis="both", scilimits=(-2, 4), useMathText=True)
+            axis.set_xlim(0, end * 1.05 if end > 0 else None)
+            if name == "spot_area_pdf":
+                axis.set_yscale("log")
+            axis.set_ylim(bottom=smallest / 2 if name == "spot_area_pdf" and np.isfinite(smallest) else None if name == "spot_area_pdf" else 0)
         if name == "pressure_mean_pdf":
             legend(axis, below=axes[3] if len(axes) > 3 else None)
         elif name == "pressure_pdf" and len(shown) <= 3:

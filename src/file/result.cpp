@@ -30,7 +30,9 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     if (c.output.pdf_levels.empty() || !(sigma > 0) || !(sqrt_m4 > 0))
         return options;  // nothing to measure the ranges by: no distributions
     for (double level : c.output.pdf_levels) options.pdf_levels.push_back(level * sigma);
-    options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4);
+    constexpr double sharpest = 4;  // radii down to a quarter of 1/sqrt(m4): nearly all (Nayak's density of curvatures)
+    const double hardest = c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
+    options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4, 1.1 * hardest);
     return options;
 }
 

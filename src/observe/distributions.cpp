@@ -40,21 +40,26 @@ void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
     }
 }
 
+// Adds an area that carries the pressure p everywhere.
+void add_uniform(AreaHistogram& h, double p, double area, double width) {
+    const double position = p / width;
+    if (position < static_cast<double>(h.area.size()))
+        h.area[static_cast<std::size_t>(position)] += area;
+    else
+        h.overflow += area;
+    h.total += area;
+    double power = area;
+    for (double& sum : h.power) sum += power *= p;
+}
+
 // The pressures of pixels, each with its area; contacts are what is independent of each other.
 void add_pixels(AreaHistogram& h, const Level& level, double width) {
     const LevelPixels& pixels = level.pixels;
     const double area = pixels.dx * pixels.dy;
     std::vector<double> of_contact(level.a.size(), 0.0);
     for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-        const double p = pixels.pressure[k], position = p / width;
-        if (position < static_cast<double>(h.area.size()))
-            h.area[static_cast<std::size_t>(position)] += area;
-        else
-            h.overflow += area;
-        h.total += area;
+        add_uniform(h, pixels.pressure[k], area, width);
         of_contact[static_cast<std::size_t>(pixels.contact[k])] += area;
-        double power = area;
-        for (double& sum : h.power) sum += power *= p;
     }
     if (!pixels.index.empty())
         for (double a : of_contact) h.squares += a * a;
@@ -85,12 +90,12 @@ std::vector<double> density(const Binned& binned) {
 
 }  // namespace
 
-PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4) {
+PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest) {
     if (bins < 1) throw Error(Failure::bad_input, "distributions: at least one bin is needed, not " + std::to_string(bins));
     const double pressure = E_star * std::sqrt(sigma * sqrt_m4), area = sigma / sqrt_m4;
     if (!(pressure > 0) || !std::isfinite(pressure) || !(area > 0) || !std::isfinite(area))
         throw Error(Failure::bad_input, "distributions: E*, the rms height and the curvature scale must be positive and finite");
-    return {bins, 1.2 * pressure, 10 * area};
+    return {bins, std::min(1.2 * pressure, hardest), 10 * area};
 }
 
 std::int64_t CountHistogram::total() const {
@@ -110,7 +115,13 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         const double p = level.f[k] / area;
         count_value(d.mean_pressure, p, bins.mean_pressure_width());
         count_value(d.spot_area, area, bins.area_width());
-        if (level.pixels.index.empty()) spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
+        if (!level.pixels.index.empty()) continue;
+        if (k < level.yields.size() && level.yields[k]) {
+            add_uniform(d.pressure, p, area, bins.pressure_width());
+            d.pressure.squares += area * area;
+        } else {
+            spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
+        }
     }
     add_pixels(d.pressure, level, bins.pressure_width());
     return d;

@@ -27,8 +27,8 @@ struct PdfBins {
 // Ranges that hold nearly everything down to a separation of one sigma or so. Lengths are measured by sigma and curvatures by
 // sqrt(m4): a summit of curvature k pressed in by g has the mean pressure 4/(3 pi) E* sqrt(k g) and the area pi g / k. Without
 // interaction about one contact in a thousand lies beyond them at separations of 2 sigma, and interaction only lowers g. Throws
-// Error(bad_input) unless everything is positive and finite.
-PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4);
+// Error(bad_input) unless everything is positive and finite, but for `hardest`: no summit bears a higher mean pressure (Infinity: any).
+PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest);
 
 // Equal contributions: one count a contact, and sums of the powers 1 to 4 of the values.
 struct CountHistogram {
@@ -58,7 +58,8 @@ struct Distributions {
 };
 
 // One level. Mean pressure p = f/(pi a^2); each contact gives the point pressure its own density 2 p/p0^2 on [0, p0], p0 = 1.5
-// f/(pi a^2), integrated exactly over each bin. Contacts of no area are left out. A level with pixels gives the point pressures of those.
+// f/(pi a^2), integrated exactly over each bin; one that yields carries p everywhere. Contacts of no area are left out. A level with
+// pixels gives the point pressures of those.
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step);
 
 // Every number of `d` that adds up over realizations, in a fixed order, with the size it typically has: visit(number, scale). Scale 0:

@@ -260,6 +260,7 @@ const Part kParts[] = {
     {"elements_growth", bench::elements_growth},
     {"elements_finest", bench::elements_finest, true},
     {"friction", bench::friction},
+    {"hardness", bench::hardness},
 };
 
 int main(int argc, char** argv) {

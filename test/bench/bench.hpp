@@ -57,5 +57,7 @@ void elements_finest();
 void elements_growth();
 // bench_friction.cpp
 void friction();
+// bench_hardness.cpp
+void hardness();
 
 }  // namespace bench

@@ -259,6 +259,16 @@ void test_histograms() {
     CHECK_RELATIVE(d.pressure.area[6], pi * 0.01 * (1 - 0.9 * 0.9 / (1.05 * 1.05)), 1e-12);
     CHECK(d.pressure.area[7] == 0 && d.pressure.overflow == 0);
     CHECK_RELATIVE(d.pressure.power[1], pi * 0.01 * 1.05 * 1.05 / 2, 1e-13);  // <p^2> = p0^2/2
+    // It yields: the same pressure everywhere.
+    one.yields = {1};
+    const Distributions y = distributions_of({10, 1.0, 1.0}, one, 0);
+    CHECK_RELATIVE(y.pressure.area[4], pi * 0.01, 1e-13);
+    CHECK_RELATIVE(y.pressure.total, pi * 0.01, 1e-13);
+    CHECK_RELATIVE(y.pressure.squares, d.pressure.squares, 1e-13);
+    CHECK_RELATIVE(y.pressure.power[1], pi * 0.01 * 0.49, 1e-13);
+    // Where pressures are bounded, bins end there.
+    CHECK(make_pdf_bins(60, 1e5, 0.01, 100, 500).pressure_max == 500);
+    CHECK(make_pdf_bins(60, 1e5, 0.01, 100, 1e9).pressure_max == make_pdf_bins(60, 1e5, 0.01, 100, kInf).pressure_max);
 }
 
 // n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
