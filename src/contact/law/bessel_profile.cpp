@@ -108,6 +108,12 @@ double BesselProfile::load(double t) const {
     return evaluate(cell->load, s);
 }
 
+double BesselProfile::radius(double t) const {
+    if (!(t >= kFirst)) return defined<double>(t).radius;
+    const auto [cell, s] = place(t);
+    return evaluate(cell->radius, s);
+}
+
 const BesselProfile& BesselProfile::table() {
     static const BesselProfile one;
     return one;

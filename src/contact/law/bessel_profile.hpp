@@ -20,6 +20,7 @@ public:
     // The functions for t <= 1, relative errors below 3e-14. Tabulated where contacts are: they are the solver's innermost loop.
     Shape at(double t) const;
     double load(double t) const;
+    double radius(double t) const;
 
     static const BesselProfile& table();
 

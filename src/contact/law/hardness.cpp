@@ -36,16 +36,21 @@ public:
             s.start = {s.yield, area, std::sqrt(area / pi), elastic_->spread(i, s.yield)};
             s.modulus = 3 * force / (4 * s.start.radius * s.yield);
             s.sink = sinks_ ? 4 * s.H / (pi * s.modulus) : 0.0;
+            double f, D;
+            elastic_->respond(1, &i, &s.yield, &f, &D, &s.work);
             summits_.push_back(s);
         }
     }
 
     void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
-        elastic_->respond(n, asperity, u, force, slope, work);
         for (int k = 0; k < n; ++k) {
             const Summit& s = summit(asperity[k]);
-            if (u[k] <= (s.deepest > 0 ? s.rest : s.yield)) {
-                if (s.deepest > 0) force[k] = slope[k] = work[k] = 0;
+            if (!(u[k] > s.rest)) {  // rest: 0 of one that has never yielded
+                force[k] = slope[k] = work[k] = 0;
+                continue;
+            }
+            if (s.deepest == 0 && u[k] <= s.yield) {
+                elastic_->respond(1, &asperity[k], &u[k], &force[k], &slope[k], &work[k]);
                 continue;
             }
             if (u[k] <= s.deepest) {
@@ -58,7 +63,7 @@ public:
             const Flat now = flat(asperity[k], u[k]);
             force[k] = s.H * now.area;
             slope[k] = s.H * growth(s, now.spread.slope, now.radius);
-            work[k] = s.deepest > 0 ? recoverable(s) + flow(s, s.end, now) : elastic_work(asperity[k]) + flow(s, s.start, now);
+            work[k] = s.deepest > 0 ? recoverable(s) + flow(s, s.end, now) : s.work + flow(s, s.start, now);
         }
     }
 
@@ -110,7 +115,7 @@ public:
             Summit& s = summits_[at(place_[at(asperity[k])])];
             if (!(u[k] > s.yield && u[k] > s.deepest)) continue;
             const Flat now = flat(asperity[k], u[k]);
-            const double f = s.H * now.area, spent = elastic_work(asperity[k]) + flow(s, s.start, now);
+            const double f = s.H * now.area, spent = s.work + flow(s, s.start, now);
             const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
             s.deepest = u[k];
             s.end = now;
@@ -130,6 +135,7 @@ private:
         double H = 0;
         double yield = 0;    // u_c
         Flat start;          // at u_c
+        double work = 0;     // up to there
         double modulus = 0;  // E'
         double sink = 0;     // 4 H/(pi E'), or 0
         // History; deepest = 0: has never yielded.
@@ -148,20 +154,26 @@ private:
         const double area = s.start.area + 2 * (spread.area - s.start.spread.area);
         return {depth, area, std::sqrt(area / pi), spread};
     }
-    // Beyond u_c. Where summits sink, depth + sink [a(depth) - a(u_c)] = u by Newton's method, from the answer for a paraboloid.
+    // Beyond u_c. Where summits sink, depth + sink [a(depth) - a(u_c)] = u, the area taken for a straight line from the last guess on.
     Flat flat(int asperity, double u) const {
         const Summit& s = summit(asperity);
         if (s.sink == 0) return flat_at(asperity, u);
-        const double b = s.sink * s.start.spread.slope / pi, c = s.start.radius;
-        const double guess = std::sqrt((b + c) * (b + c) + 2 * s.start.spread.slope / pi * (u - s.yield)) - b;
-        double depth = u - s.sink * (guess - c);
-        Flat now = flat_at(asperity, depth);
+        Flat now = u > s.deepest && s.deepest > 0 ? s.end : s.start;
         constexpr int most = 30;
+        constexpr double near = 1e-8;  // its square is below rounding: one more step by slopes alone is exact
         for (int i = 0; i < most; ++i) {
-            const double miss = depth + s.sink * (now.radius - c) - u;
-            if (std::abs(miss) <= 4 * std::numeric_limits<double>::epsilon() * u) break;
-            depth -= miss / (1 + s.sink * now.spread.slope / (pi * now.radius));
-            now = flat_at(asperity, depth);
+            const double rise = now.spread.slope / pi, b = s.sink * rise, left = u + s.sink * s.start.radius - now.depth;
+            const double radius = std::sqrt(b * b + now.radius * now.radius + 2 * rise * left) - b;
+            now = flat_at(asperity, u - s.sink * (radius - s.start.radius));
+            const double miss = s.sink * (now.radius - radius);  // of u
+            if (!(std::abs(now.radius - radius) <= near * radius)) continue;
+            const double shift = -miss / (1 + s.sink * now.spread.slope / (pi * now.radius));
+            now.depth += shift;
+            now.radius += now.spread.slope * shift / (pi * now.radius);
+            now.area += 2 * now.spread.slope * shift;
+            now.spread.integral += now.spread.area * shift;
+            now.spread.area += now.spread.slope * shift;
+            break;
         }
         return now;
     }
@@ -181,11 +193,6 @@ private:
         return s.H * s.end.area * (s.power == 1.5 ? share * std::sqrt(share) : std::pow(share, s.power));
     }
     static double recoverable(const Summit& s) { return s.H * s.end.area * (s.deepest - s.rest) / (1 + s.power); }
-    double elastic_work(int asperity) const {
-        double f, D, W;
-        elastic_->respond(1, &asperity, &summit(asperity).yield, &f, &D, &W);
-        return W;
-    }
 
     std::unique_ptr<Law> elastic_;
     const std::vector<double>& radius_;

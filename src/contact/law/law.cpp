@@ -105,7 +105,7 @@ public:
     double area(int asperity, double u) const override {
         if (!(u > 0)) return 0;
         const Summit& s = summit(asperity);
-        const double smooth = std::min(u, s.last), radius = profile_.at(s.t * smooth).radius;
+        const double smooth = std::min(u, s.last), radius = profile_.radius(s.t * smooth);
         return s.spot * s.r * smooth * radius * radius;
     }
 
@@ -116,7 +116,7 @@ public:
     Spread spread(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         const double end = s.t > 0 ? std::min(u, kFlattest / s.t) : u, t = s.t * end, past = u - end;
-        const double R = profile_.at(t).radius, root = std::sqrt(1 - t), scale = s.spot * s.r;
+        const double R = profile_.radius(t), root = std::sqrt(1 - t), scale = s.spot * s.r;
         Spread result;
         result.area = scale * end * R * R;
         result.slope = scale * R / root;
@@ -133,16 +133,20 @@ public:
         double low = 0, high = s.t > 0 ? kFlattest / s.t : s.r * std::pow(pressure / s.e, 2);
         if (s.t > 0 && !reached(high)) low = high, high = s.last;
         while (!reached(high)) low = high, high *= 2;
+        // Newton's method on logarithms, d ln p/d ln u = u f'/f - u A'/A, between bounds; 1/2 for a paraboloid.
+        double u = high;
         for (int i = 0; i < 200; ++i) {
-            // Near a paraboloid the pressure goes with the root of u; where it does not, bisection.
-            const double mean = force(asperity, high) / area(asperity, high), guess = high * (pressure / mean) * (pressure / mean);
-            double middle = i % 2 == 0 ? guess : 0.5 * (low + high);
-            if (high - guess <= 1e-15 * high) break;
-            if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
-            if (!(middle > low && middle < high)) break;
-            (reached(middle) ? high : low) = middle;
+            double f, D, W;
+            respond(1, &asperity, &u, &f, &D, &W);
+            const double A = area(asperity, u), mean = f / A, rise = u * (D / f - (u < s.last ? spread(asperity, u).slope / A : 0.0));
+            (mean >= pressure ? high : low) = u;
+            double next = u * std::exp(std::log(pressure / mean) / rise);
+            if (std::abs(next - u) <= 4 * std::numeric_limits<double>::epsilon() * u) break;
+            if (!(next > low && next < high)) next = 0.5 * (low + high);
+            if (!(next > low && next < high)) break;
+            u = next;
         }
-        return high;
+        return u;
     }
 
 private:
