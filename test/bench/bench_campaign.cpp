@@ -1,8 +1,6 @@
 // What campaigns cost, on the paper's map campaign (2048 x 2048 points, L/lambda_s = 512, 100 levels): threads, ranks, memory,
 // checkpoints. Ratios of one run of this program; a machine busy with other things spoils them.
 //     bench_campaign [realizations, 100 by default] [rsc_mpi]
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "bench.hpp"
 #include "run/campaign_archive.hpp"
 #include "run/checkpoint.hpp"
 #include "run/job.hpp"
@@ -25,12 +24,6 @@ double processor_seconds() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double peak_megabytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 double timed(const Case& c) {
@@ -82,9 +75,9 @@ int main(int argc, char** argv) {
     c.output.file = (folder / "campaign.nc").string();
 
     c.run.threads = 1;
-    const double one = timed(c), memory_one = peak_megabytes();
+    const double one = timed(c), memory_one = bench::peak_memory_mb();
     c.run.threads = 2;
-    const double two = timed(c), memory_two = peak_megabytes();
+    const double two = timed(c), memory_two = bench::peak_memory_mb();
     std::printf("%d realizations: 1 thread %.2f s, 2 threads %.2f s: %.2f times, 1.9 wanted\n", c.run.realizations, one, two, one / two);
     std::printf("memory: %.0f MB with one thread, %.0f MB with two, at most 150 MB a thread wanted\n", memory_one, memory_two);
     if (argc > 2) {
