@@ -20,5 +20,5 @@ shorten() {
     esac
 }
 
-cases='asperities curvatures density density_grid area area_R5 area_l48 maps maps_plateau contacts trials trials_R5 laws elements dgesv'
+cases='asperities curvatures density density_grid area area_R5 area_l48 maps maps_plateau contacts yielding trials trials_R5 laws elements dgesv'
 . "$here/../run_cases.sh"

@@ -107,9 +107,30 @@ def hardness(folder, report):
         report.raw(f"      {total} contacts; errors are at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2")
     report.finding("Mean pressures are some 100 times the hardness: elastic contact of a surface with an rms slope of 4.6 is not what gold would do. All but a vanishing share is beyond it, with "
                 "any of the readings of r.")
+    yielding(folder, report)
     value, error = mean_and_error(run["rms_slope"])
     report.row("rms slope of the gold surface", 4.7, value, error, f"Formula {np.sqrt(2 * float(run['m2_theory'])):.3f} without, {np.sqrt(2 * float(plateau['m2_theory'])):.3f} with the plateau: "
                "the paper's 4.7 is the formula without a plateau; whole wavevectors in a square give a little less.")
+
+
+def yielding(folder, report):
+    """What yields, and the force that is left."""
+    elastic, yielding = members(folder, "yielding")
+    report.note('The paper: "almost all contacting asperities would be deformed plastically". The same surfaces with pressures bounded by 250 N/mm2 sqrt(1 + 0.69 um/r), loaded level by level:')
+    for z in (3.0, 2.5, 2.0, 10 / 7, 1.0):
+        e, y = (r["force"][:, r.level(z)] for r in (elastic, yielding))
+        k = yielding.level(z)
+        contacts, plastic = (yielding[name][:, k].sum() for name in ("contacts", "plastic_contacts")) if "plastic_contacts" in yielding else (0, 0)
+        if contacts == 0:
+            continue
+        share = plastic / contacts
+        report.row(f"contacts that yield at Z0/sigma = {z:.3g} [%]", None, f"{100 * share:.2f}", 100 * np.sqrt(max(share * (1 - share), 1 / contacts) / contacts))
+        for name, force in (("elastic", e), ("yielding", y)):
+            value, error = mean_and_error(force)
+            report.row(f"N at Z0/sigma = {z:.3g} [N], {name}", None, value, error)
+        areas = [r["contact_area"][:, r.level(z)].sum() for r in (elastic, yielding)]
+        report.raw(f"      yielding over elastic: N {y.sum() / e.sum():.4f}, A {areas[1] / areas[0]:.2f}")
+    report.finding("All of them: the elastic force is 50 times (1 sigma) to 150 times (3 sigma) what such a surface would bear. Asperities flattened so far cover each other, too; elements that yield say what is left of the model (test/README).")
 
 
 def result_scale(run, k, z):

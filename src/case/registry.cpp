@@ -76,11 +76,13 @@ std::vector<Key> make_registry() {
               "Young's modulus of body 1 (rough, deforms) and of body 2 (the sphere); Infinity is rigid", RSC_FIRST(solids.E)),
         array("solids", "nu", 2, "1", above(-1, 0.5), "Poisson's ratio of the two bodies", RSC_FIRST(solids.nu)),
         array("solids", "R", 2, "length", kPositiveOrInfinite, "radius of the two bodies; Infinity is flat", RSC_FIRST(solids.R)),
-        scalar("solids", "hardness", real, "force/length^2", kPositiveOrInfinite,
-               "hardness H0: no mean pressure of an asperity above H0 sqrt(1 + size_effect/r); levels then depend on those before them",
-               RSC_SLOT(solids.hardness)),
-        scalar("solids", "size_effect", real, "length", kNotNegative, "length l of the indentation size effect of the hardness",
-               RSC_SLOT(solids.size_effect)),
+        scalar(
+            "solids", "hardness", real, "force/length^2", kPositiveOrInfinite,
+            "hardness H0: no mean pressure of an asperity above H0 sqrt(1 + size_effect/r), none on an element above H0; levels then depend on "
+            "those before them",
+            RSC_SLOT(solids.hardness)),
+        scalar("solids", "size_effect", real, "length", kNotNegative,
+               "length l of the indentation size effect of the hardness (asperities)", RSC_SLOT(solids.size_effect)),
         array("solids", "resistivity", 2, "resistance*length", kNotNegative,
               "electrical or thermal resistivity of the two bodies, for the constriction resistance of the contact",
               RSC_FIRST(solids.resistivity)),

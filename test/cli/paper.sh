@@ -47,13 +47,13 @@ sh "$project/input/paper/run.sh" --short "$folder/rsc" "$folder/paper" > "$folde
 status=$?
 [ $status -ne 77 ] || { cat "$folder/log.txt"; exit 77; }
 [ $status -eq 1 ] || fail "run.sh ends with status $status where rsc fails with 1: $(tail -n 20 "$folder/log.txt")"
-grep -q 'the same command goes on from here (7 of 15' "$folder/log.txt" || fail "run.sh does not say how to go on: $(tail -n 20 "$folder/log.txt")"
+grep -q 'the same command goes on from here (7 of 16' "$folder/log.txt" || fail "run.sh does not say how to go on: $(tail -n 20 "$folder/log.txt")"
 [ ! -e "$folder/paper/report.txt" ] || fail "a report of a run that broke off"
 rm "$folder/broken"
 sh "$project/input/paper/run.sh" --short "$folder/rsc" "$folder/paper" > "$folder/log.txt" 2>&1
 status=$?
 [ "$(sort "$folder/calls.txt" | uniq -d)" = "$folder/paper/maps.nml" ] || fail "not maps alone was run twice: $(cat "$folder/calls.txt")"
-[ "$(wc -l < "$folder/calls.txt")" -eq 16 ] || fail "not 15 cases and one again: $(cat "$folder/calls.txt")"
+[ "$(wc -l < "$folder/calls.txt")" -eq 17 ] || fail "not 16 cases and one again: $(cat "$folder/calls.txt")"
 grep -q "^the report: $folder/paper/report.txt" "$folder/log.txt" || fail "run.sh does not end with where the report is"
 [ ! -e "$folder/paper/unfinished.txt" ] || fail "a finished run is taken for an interrupted one"
 [ $status -eq 0 ] || fail "run.sh --short ends with status $status: $(tail -n 20 "$folder/log.txt")"
@@ -76,7 +76,7 @@ if grep -n -w -i nan "$report"; then fail "not a number in the report"; fi
 for words in 'kappa1/kappa2 at the mode  *2\.214 ' '<kappa_g>/sqrt(m4), geometric mean curvature  *1\.356 ' 'beta, mean of the six members  *0\.2 ' \
              'N\*/(m2^(3/2) E\*/m4).*212\.7 ' 'N at Z0/sigma = 1\.43 \[N\], no plateau  *116\.6 ' 'N at Z0/sigma = 1\.43 \[N\], plateau  *116\.6 ' \
              'contacts at Z0/sigma = 2, ' 'contacts at Z0/sigma = 2\.5, ' 'contacts at Z0/sigma = 3, ' 'Rayleigh scale at' 'hardness at r = 0\.18 um \[N/mm2\]  *1200  *550 ' \
-             'r_g = 1/<kappa_g> \[um\], no plateau, of the grid  *0\.18 ' 'rms slope of the gold surface  *4\.7 ' 'exponent alpha at .*0\.6667 ' 'exponent beta at .*1\.5 ' \
+             'r_g = 1/<kappa_g> \[um\], no plateau, of the grid  *0\.18 ' 'contacts that yield at Z0/sigma = 2 ' 'N at Z0/sigma = 2 \[N\], elastic ' 'N at Z0/sigma = 2 \[N\], yielding ' 'rms slope of the gold surface  *4\.7 ' 'exponent alpha at .*0\.6667 ' 'exponent beta at .*1\.5 ' \
              'mean spot area at' 'grid error, .*H = 0\.9 ' 'grid error, .*H = 0\.1 ' 'solves a level' \
              'beta at 1 sigma, .*, hertz  *0\.2 ' 'beta at 1 sigma, .*, fourth_order  *0\.2 ' 'beta at 1 sigma, .*, elements  *0\.2 ' \
              'N at Z0/sigma = 1\.43 \[N\], plateau, elements  *116\.6 ' 'no plateau, elements .*, ' \
@@ -93,6 +93,9 @@ for waves in 64 128; do
     awk -v h="$(load hertz)" -v f="$(load fourth_order)" 'BEGIN { exit !(h != "" && f != "" && h < -4 && h > -9 && f > -3 && f < 1) }' ||
         fail "load beside elements, L/lambda_s = $waves: hertz $(load hertz) %, fourth_order $(load fourth_order) %"
 done
+# Gold yields, and carries far less then.
+load() { sed -n "s/^ *N at Z0\/sigma = 2 \[N\], $1  *-  *\([0-9.e+-]*\) .*/\1/p" "$report"; }
+awk -v e="$(load elastic)" -v y="$(load yielding)" 'BEGIN { exit !(e > 0 && y > 0 && y < 0.3 * e) }' || fail "N elastic $(load elastic), yielding $(load yielding)"
 # Rough elastic contact, solved without asperities: beta near 0.9 on these surfaces.
 beta=$(sed -n 's/^ *beta at 1 sigma, .*, elements *0\.2 *\([0-9.]*\) .*/\1/p' "$report")
 awk -v b="$beta" 'BEGIN { exit !(b > 0.8 && b < 1.05) }' || fail "beta of elements = '$beta'"
