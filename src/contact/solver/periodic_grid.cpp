@@ -443,8 +443,7 @@ double PeriodicGrid::energy() const {
     double sum = 0;
     for (int j = 0; j < ny_; ++j)
         for (std::size_t k = set_.begin[at(j)]; k < set_.begin[at(j) + 1]; ++k) {
-            const double g0 = heights_(j, set_.column[k]) - Z0_;
-            sum += p_[k] * (p_[k] >= highest_ ? g0 + w_[k] : g0 - w_[k]);
+            sum += p_[k] * (heights_(j, set_.column[k]) - Z0_ - w_[k]);
         }
     return 0.5 * sum;
 }

@@ -57,7 +57,7 @@ public:
     double Z0() const { return Z0_; }
     bool full() const;            // every pixel under pressure
     double stiffness(bool back);  // -d(sum of p)/dZ0: of all pixels under pressure, or of those below the highest one
-    // p'Kp/2 = sum p (g0 - w)/2 with g0 = z - Z0, to second order; pixels at the highest pressure with p (g0 + w)/2.
+    // p'Kp/2 = sum p (g0 - w)/2 with g0 = z - Z0, to second order; pressed out.
     double energy() const;
     // Heights were lowered by the penetrations at the highest pressure.
     void press_out();
