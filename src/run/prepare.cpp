@@ -144,13 +144,17 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
         throw Error(Failure::bad_input, text);
     }
     const int n = element_points(settings, spectrum);
-    const double bytes = 8.0 * n * n, memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    // Two flats: heights, transforms in single and double precision, coarser grids.
+    const bool periodic = settings.indentation.boundary == Boundary::periodic;
+    const double bytes = (periodic ? 24.0 : 8.0) * n * n,
+                 memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // the modes of the surface while it is made, the pixels in contact later
     if (!(memory > 0) || beside * bytes <= memory) return;
     std::snprintf(text, sizeof text,
-                  "&elements points_per_wave = %g: the heights, %d x %d points, take %.3g GB, and the machine has %.3g GB of memory; take "
+                  "&elements points_per_wave = %g: %s, %d x %d points, take %.3g GB, and the machine has %.3g GB of memory; take "
                   "fewer points a wave or a smaller surface%%L_lambda_s",
-                  settings.elements.points_per_wave, n, n, 1e-9 * bytes, 1e-9 * memory);
+                  settings.elements.points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes,
+                  1e-9 * memory);
     throw Error(Failure::bad_input, text);
 }
 
