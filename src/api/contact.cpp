@@ -42,7 +42,7 @@ static_assert(static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
               static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
               static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
-// Asperities that were given one by one learn from the case how large the surface is.
+// For asperities given one by one the case says how large the surface is (surface%L).
 Site site_of(const Case& settings, const Ground& on) {
     return on.list && settings.surface.L ? list_site(on.asperities, settings.surface.L, "the asperities") : on.site;
 }
@@ -52,7 +52,7 @@ void require_contact_keys(const Case& settings) {
                              "surface%sigma", "surface%L"});
 }
 
-// What a contact stands on was made by one model: another one asked for is refused rather than ignored.
+// Asperities, and points for elements, are made for one solver%model: a case that asks for the other is refused.
 void require_model(const Ground& on, const Case& settings, int argument) {
     const bool elements = settings.solver.model == Model::elements;
     if (elements && !on.points) refuse(argument, "a_case", "asks for solver%model = 'elements', and the asperities were made without it");
@@ -66,7 +66,7 @@ const Level& level_of(const rsc_contact* contact) {
     return *contact->level;
 }
 
-// Computes a level; whatever goes wrong on the way leaves no result behind, a level that did not converge is kept and told.
+// Computes a level. After an exception the contact holds no result; a level that did not converge is kept, and the status says so.
 template <class Compute>
 void compute(rsc_contact& contact, Compute&& level) {
     contact.level.reset();
@@ -125,7 +125,8 @@ constexpr Derived kDerived[] = {
     {"moment_y", [](rsc_contact& c) { return c.moment.y; }},
 };
 
-// What the library does not give by this name: of maps, which it does not make, and vectors, which go by component.
+// Quantities of the result file that cannot be asked for by name: those of maps, which the library does not make, and vectors (their
+// components have names).
 bool of_map(std::string_view name) {
     return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" || name == "moment";
 }
@@ -244,7 +245,7 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
     return guarded(2, [&] {
         require(contact, 1, "contact");
         require_finite(separation, 2, "separation");
-        // Asked again for what it just answered, it says the same.
+        // Asked again for the level it holds, it does not compute it again.
         const bool same = contact->level && !contact->moved && contact->level->separation == separation;
         if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
         put(force, contact->level->force);

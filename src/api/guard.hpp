@@ -25,12 +25,11 @@ struct Outcome {
     const char* message;
 };
 
-// Keeps the message for rsc_message; cut where it does not fit. Never fails: it also speaks of memory that was refused.
+// Keeps the message for rsc_message; cut where it does not fit. Never fails, because it also reports that memory was refused.
 void remember(std::string_view message) noexcept;
 std::int32_t status_of(const Error& error, int input) noexcept;
 
-// Runs the body of an entry. `input` is the argument whose content the body hands to the core: bad input found there is its
-// fault; 0 when there is none.
+// Runs the body of an entry. `input`: the number of the argument that is wrong when the core finds bad input; 0: there is none.
 template <class Body>
 std::int32_t guarded(int input, Body&& body) noexcept {
     try {

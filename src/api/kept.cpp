@@ -146,7 +146,8 @@ struct Making {
     }
 };
 
-// The answers of elements are pixels by the thousand, and their surface is not told from another by its summits.
+// Contacts by elements are not saved: a level of theirs is many pixels, and a file could not tell later whether it belongs to a surface
+// (for asperities a checksum of the summits does).
 void require_keepable(const rsc_contact& contact) {
     if (contact.on->points) refuse(1, "contact", "must be one of asperities: a contact of elements cannot be kept");
 }

@@ -18,7 +18,7 @@ struct Entry {
     void* handle;
     Kind kind;
     Place place;
-    bool settled;  // the place has used it
+    bool settled;  // the ticket belongs to the place, which has used it
 };
 
 void destroy(const Entry& entry) noexcept {
@@ -67,7 +67,8 @@ public:
         if (before.handle) destroy(before);
     }
 
-    // The entry as it is now, null handle if there is none. What was just copied settles at the first place that uses it.
+    // The entry of the ticket at a place, or one with a null handle. A ticket that was only just copied from now on belongs to this place, the
+    // first that uses it.
     Entry find(Place place) {
         Entry before{}, found{};
         {
@@ -85,14 +86,14 @@ public:
         return found;
     }
 
-    // The same, unsettled: what is only copied may be a compiler's stand-in, too.
+    // The same, but the ticket does not come to belong to the place, which may be a temporary that the compiler made.
     Entry look(Place place) {
         const std::lock_guard lock(mutex_);
         const auto at = entries_.find(*place);
         return at == entries_.end() ? Entry{} : at->second;
     }
 
-    // Where it is owned elsewhere or only just copied, it stays.
+    // Destroys what the ticket stands for if it belongs to this place; not if it belongs to another, or to none yet.
     void release(std::int64_t* ticket) {
         Entry found{};
         {
@@ -109,7 +110,8 @@ public:
     }
 
 private:
-    // The place owns this ticket. What it owned before, and was overwritten unseen, is handed out to be destroyed.
+    // Makes the ticket belong to the place. A ticket that belonged to it before was overwritten by an assignment that we were not told of:
+    // its entry is returned, to be destroyed.
     Entry settle(std::int64_t number, Place place) {
         Entry before{};
         std::int64_t& owned = at_place_[place];
@@ -127,7 +129,7 @@ private:
     std::int64_t last_ = 0x5253435f00000000;            // far from what uninitialised memory often holds
 };
 
-// Never destroyed: objects may be released after it would be.
+// Never destroyed, because objects may be released while the program ends.
 Tickets& tickets() {
     static Tickets* const all = new Tickets;
     return *all;

@@ -1,4 +1,4 @@
-// The manual page, made from what --help and --describe say: nothing stands in it that could grow old.
+// The manual page, made from what --help and --describe say: so that it never differs from them.
 #pragma once
 
 #include <string>

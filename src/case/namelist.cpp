@@ -108,7 +108,7 @@ private:
         return word;
     }
 
-    // A key behind the last '/' would be lost without a word.
+    // A key behind the last '/' would be ignored without a message.
     void nothing_after(std::size_t offset) {
         for (std::size_t i = offset; i < text_.size(); ++i) {
             if (text_[i] == '!') i = text_.find('\n', i);
@@ -120,7 +120,7 @@ private:
             }
             if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$')
                 return;  // a comment to the end, or a group that was complained about
-            fault(i, "'" + excerpt(i) + "' after the last group is read by nobody: keys stand between &name and '/', remarks behind '!'");
+            fault(i, "'" + excerpt(i) + "' after the last group would be ignored: write keys between &name and '/', remarks behind '!'");
             return;
         }
     }

@@ -26,7 +26,7 @@ Position place(const Ledger& ledger, const Problem& problem) {
     return {};
 }
 
-// Complaints about a key that could not be read would be about its default.
+// A key whose value could not be read still has its default: problems with that are not reported.
 bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) {
         const Ledger::Entry* entry = ledger.find(*key);
@@ -34,8 +34,8 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     });
 }
 
-// Does the study give another value to a key that a problem is about? Then the members, each checked as a whole, have a word on
-// it; the base is only what they start from.
+// Whether the study varies a key that the problem names. Then the members, each of which is checked as a whole, show whether there is one;
+// the case itself is not run.
 bool varied(const Study& study, const Problem& problem) {
     return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
         const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
@@ -62,8 +62,8 @@ std::string limited_text(std::istream& in, const std::string& name) {
     return text;
 }
 
-// Keys of a made surface, given where the text names a file to read one from: somebody believes that they do something. At their
-// defaults they are the effective namelist's.
+// Keys that only a synthetic surface has, in a case that reads its surface from a file: they have no effect, and are refused. At their
+// defaults they are accepted, because the effective namelist holds every key.
 void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     static const Case defaults;
     const auto given = [&](const char* name) -> const Ledger::Entry* {
@@ -75,7 +75,7 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     for (const std::string name : {"n", "hurst", "L_lambda_l", "L_lambda_s", "plateau", "normalise"}) {
         const std::string value = get_key(reading.settings, "surface%" + name);
         if (const Ledger::Entry* entry = given(name.c_str()); entry && value != get_key(defaults, "surface%" + name))
-            faults.push_back({entry->given.front().second, "&surface: " + name + " = " + value + ": means nothing with source = " +
+            faults.push_back({entry->given.front().second, "&surface: " + name + " = " + value + ": has no effect with source = " +
                                                                get_key(reading.settings, "surface%source") +
                                                                ", whose surface is read from the file"});
     }
@@ -183,7 +183,7 @@ ReadCase read_case(const Options& options) {
     if (options.case_path.empty()) return read_case(std::cin, "<stdin>", options);
     std::ifstream in(options.case_path, std::ios::binary);
     if (!in) throw Error(Failure::bad_input, options.case_path + ": cannot be opened");
-    // A directory opens and then cannot be read.
+    // A directory can be opened and then cannot be read.
     if (in.peek() == std::ifstream::traits_type::eof() && in.bad()) throw Error(Failure::bad_input, options.case_path + ": cannot be read");
     in.clear();
     return read_case(in, options.case_path, options);

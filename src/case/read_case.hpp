@@ -22,8 +22,8 @@ struct ReadCase {
 
 // Reads a case from the file options.case_path or from standard input, applies --set and --output, and checks it all. Throws one
 // Error(bad_input) whose text has a line for everything that is wrong: "case.nml:12:5: &surface: unknown key 'simga'; did you
-// mean 'sigma'?". With a &study, `settings` is what the members start from: what it has wrong in a key that the study varies is
-// the members' matter.
+// mean 'sigma'?". With a &study, `settings` is what the members start from: errors in a key that the study
+// varies are not reported here but by the checks of the members.
 ReadCase read_case(const Options& options);
 // The same from any stream; `name` is what messages call it.
 ReadCase read_case(std::istream& in, const std::string& name, const Options& options = {});

@@ -16,7 +16,7 @@
 
 namespace rsc {
 
-// A nominal pressure in E* sqrt(2 m2) from which on there is no gap to speak of between two flats: less than 5 % of the area by Persson's
+// The nominal pressure, over E* sqrt(2 m2), from which on two flats touch nearly everywhere: less than 5 % of the area is gap, by Persson's
 // erf(sqrt(2) p/(E* h')).
 inline constexpr double kClosingPressure = 1;
 

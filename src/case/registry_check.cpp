@@ -41,7 +41,7 @@ private:
     }
 
     void check_key(const Key& key) {
-        // A slot is a way to write, too; here it only reads.
+        // A slot could also write; here it is only read.
         const Slot slot = key.slot(const_cast<Case&>(c_));
         const auto number = [&](double value, long element) {
             const bool overflows = std::isfinite(value) && !usable(value);
@@ -76,7 +76,7 @@ private:
         if (auto* s = std::get_if<std::string*>(&slot)) check_text(key, **s);
     }
 
-    // What the effective namelist could not give back is refused.
+    // Text that the effective namelist could not give back unchanged is refused.
     void check_text(const Key& key, const std::string& text) {
         const auto control = [](char c) { return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127; };
         std::string wrong;
@@ -110,7 +110,7 @@ private:
                          "hardness: body 1 carries the asperities that yield, E(1) = Infinity makes it rigid");
             if (c_.solids.friction > 0)
                 complain({"solids%hardness", "solids%friction"},
-                         "hardness: friction is that of elastic asperities, one of the two at a time");
+                         "hardness: friction is computed for elastic asperities only; give one of the two");
             const char* elements = c_.solver.model == Model::elements ? "solver%model" : "compare%levels";
             if (c_.solver.model == Model::elements || !c_.compare.levels.empty()) {
                 if (c_.solids.size_effect > 0)
@@ -163,12 +163,13 @@ private:
         if (c_.surface.source == Source::asperities)
             complain({key, "surface%source"}, what + ": elements need a surface, and source = 'asperities' has only summits");
         if (elements && compare)
-            complain({"compare%levels", "solver%model"}, "levels: they are of the asperity model, and model = 'elements' has none");
+            complain({"compare%levels", "solver%model"},
+                     "levels: &compare sets elements beside the asperity model; with model = 'elements' there is nothing to compare");
         if (elements && c_.solver.method != Method::automatic)
-            complain({"solver%method", "solver%model"},
-                     "method = " + get_key(c_, "solver%method") + ": is one of model = 'asperities'; elements have one way, 'auto'");
+            complain({"solver%method", "solver%model"}, "method = " + get_key(c_, "solver%method") +
+                                                            ": is a method of model = 'asperities'; with elements only 'auto' is possible");
         if (c_.solver.interaction != Interaction::point)
-            complain({key, "solver%interaction"}, what + ": elements act on each other, interaction = 'none' is for asperities");
+            complain({key, "solver%interaction"}, what + ": interaction = 'none' is for asperities; elements always act on each other");
         if (c_.surface.source == Source::synthetic && c_.elements.points_per_wave * c_.surface.L_lambda_s > 32768)
             complain({"elements%points_per_wave", "surface%L_lambda_s"},
                      "points_per_wave = " + namelist::from_real(c_.elements.points_per_wave) + ": makes a grid of " +
@@ -207,9 +208,9 @@ private:
                      "boundary = 'periodic': is for two flats, and R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
         if (periodic && i.selection == Selection::paper)
             complain({"indentation%selection", "indentation%boundary"},
-                     "selection = 'paper': is a circle under a sphere, and two flats have none");
+                     "selection = 'paper': takes the asperities in a circle under the sphere, and two flats have no sphere");
         if (periodic && c_.surface.source == Source::asperities && !c_.surface.L)
-            complain({"surface%L", "indentation%boundary"}, "L: a list of asperities has no period of its own; give its side");
+            complain({"surface%L", "indentation%boundary"}, "L: a list of asperities does not say with which period it repeats; give L");
         if (i.control == Control::pressure && !periodic)
             complain({"indentation%control", "indentation%boundary"},
                      "control = 'pressure': a nominal pressure needs a nominal area, that of boundary = 'periodic'");

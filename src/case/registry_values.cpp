@@ -38,7 +38,7 @@ std::string unit_written(const Item& item) {
     return "; a number is written without its unit, which is run%length_unit for lengths";
 }
 
-// What a value too many most often is.
+// The most frequent reasons for a value too many.
 std::string likely_cause(const Assignment& a, const Item& item) {
     const std::string& text = item.text;
     if (item.quoted || text.empty()) return {};
@@ -364,7 +364,7 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
 
 std::string get_key(const Case& settings, std::string_view name) {
     const auto [key, assignment] = named(name, "");
-    // A slot is a way to write, too; here it only reads.
+    // A slot could also write; here it is only read.
     const Slot slot = key->slot(const_cast<Case&>(settings));
     long size = key->size;
     if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = static_cast<long>((*list)->size());

@@ -112,15 +112,15 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
 std::vector<Fault> check_study(const Case& base, const Study& study) {
     std::vector<Fault> faults;
     if (study.axes.empty()) return {{study.at, "&study: no lists of values"}};
-    // Every member holds a copy of the list of levels: little text could ask for much memory.
+    // Every member holds a copy of the list of levels: a short text could otherwise ask for much memory.
     const std::size_t held = member_count(study) * base.indentation.levels.size();
     if (held > kMostLevels)
         return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
                                std::to_string(base.indentation.levels.size()) + " explicit levels each: more than " +
-                               std::to_string(kMostLevels) + " levels in all; indentation%start, stop and steps need no room"}};
+                               std::to_string(kMostLevels) + " levels in all; give indentation%start, stop and steps instead"}};
     for (const Study::Axis& axis : study.axes)
         for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults; ++i) {
-            if (i > 0 && axis.values[i] == axis.values[i - 1]) continue;  // 10000*0.1 is tried once, and told once
+            if (i > 0 && axis.values[i] == axis.values[i - 1]) continue;  // a repeated value, 10000*0.1, is checked and reported once
             Case trial = base;
             try {
                 set_key(trial, axis.key, axis.values[i]);
@@ -133,7 +133,8 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
         for (const Study::Axis& axis : study.axes)
             if (axis.values.size() != length)
                 faults.push_back({axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) + " values, " +
-                                               study.axes.front().key + " has " + std::to_string(length) + ": mode = 'zip' wants as many"});
+                                               study.axes.front().key + " has " + std::to_string(length) +
+                                               ": mode = 'zip' needs the same number of values for every key"});
     if (member_count(study) > kMostMembers) faults.push_back({study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
     return faults;
 }
@@ -156,7 +157,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
             const std::size_t i = study.mode == StudyMode::product ? m / slower % axis.values.size() : m;
             member.values.emplace_back(axis.key, axis.values[i]);
         }
-        // A key's bounds were tried above; only in concert with the others can the values still be wrong.
+        // The bounds of each key were checked before; what can still be wrong are relations between keys.
         for (const auto& [key, value] : member.values) set_key(member.settings, key, value);
         set_file(member, count);
         for (const Problem& problem : check_case(member.settings))

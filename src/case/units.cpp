@@ -17,8 +17,8 @@ namespace {
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 
-// UDUNITS keeps its status in a global variable, prints to stderr unless told otherwise, and reads numbers by the locale: while this
-// lives one thread asks, nothing is printed, and a point is a point.
+// UDUNITS keeps its status in a global variable, prints to stderr unless told otherwise, and reads numbers by the locale: while an
+// object of this class lives, one thread uses it, nothing is printed, and the decimal mark is a point.
 class Session {
 public:
     Session() : lock_(mutex()), old_handler_(ut_set_error_message_handler(ut_ignore)) {

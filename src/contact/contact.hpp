@@ -14,7 +14,7 @@ class Contact {
 public:
     virtual ~Contact() = default;
 
-    // The answer at the separation Z0 [length]; afterwards the contact has been there (of consequence where path_dependent()). Never
+    // The answer at the separation Z0 [length], which is accepted: where path_dependent(), later levels depend on it. Never
     // throws for a level that did not converge: see Level::status. Throws Error(bad_input) if Z0 is not finite.
     Level at_separation(double Z0);
 
@@ -47,7 +47,7 @@ public:
     virtual bool path_dependent() const { return false; }
     // How far each asperity stays pressed down without force [length]; empty where nothing does.
     virtual std::vector<double> residual_depths() const { return {}; }
-    // Of elements: by how much which points of the surface are lower for good.
+    // Elements: the points that yielded, and how far each stays lowered.
     virtual ResidualProfile residual_profile() const { return {}; }
 
 protected:
@@ -56,7 +56,7 @@ protected:
 
     // A trial: the answer at Z0, which stiffness() and energy() then speak of.
     virtual Level solve(double Z0) = 0;
-    // The answer under the force N, of a model that has one at hand: force control is then nothing else.
+    // The answer under the force N, of a model that can solve for a force directly; force control then uses nothing else.
     virtual std::optional<Level> solve_under(double N) {
         (void)N;
         return std::nullopt;
@@ -71,7 +71,7 @@ protected:
     }
     // dN/dZ0 of the last trial as solve() counts separations, good enough for Newton's method on Z0.
     virtual double slope();
-    // The last level solved is accepted: what remembers its path goes on from here, and completes the level by what that cost.
+    // The last level solved is accepted: a model with a path stores it, and adds to the level the work that does not come back.
     virtual void accept(Level& level) { (void)level; }
 
     // Between flats that repeat, solve() counts separations from where no force raises the surface (Kernel::shift()): the level at

@@ -4,7 +4,7 @@
 
 namespace rsc {
 
-// The contact whose last level lies nearer; a fresh one for the first levels.
+// The contact whose last level lies nearer; one that has no level yet is taken first.
 int ContactCurve::lane(double delta) const {
     if (!last_[0]) return 0;
     const double there = std::abs(-last_[0]->separation - delta);
@@ -16,7 +16,7 @@ int ContactCurve::lane(double delta) const {
 const Level& ContactCurve::level(double delta) {
     const int k = lane(delta);
     if (!last_[k] || last_[k]->separation != -delta) {
-        last_[k].reset();  // nothing is left of it if the next one throws
+        last_[k].reset();  // so that an exception below leaves no level rather than the old one
         last_[k] = std::make_unique<Level>(contact_[k]->at_separation(-delta));
         ++levels_;
         failed_ += last_[k]->status == LevelStatus::not_converged;

@@ -20,7 +20,7 @@ public:
     double stiffness(double delta) override;
     double approach(double force) override;
 
-    // The levels at hand are asked for anew, as by a curve newly made. The contacts have to forget theirs, too.
+    // Forgets the last levels, as if newly made. The caller makes the contacts forget theirs, too.
     void forget() { last_[0].reset(), last_[1].reset(); }
 
     // Levels computed so far, and those of them that did not converge.

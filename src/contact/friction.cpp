@@ -113,7 +113,8 @@ void FrictionHistory::go_to(LoadCurve& curve, double delta, Slide xi) {
             next.xi = begin < touch ? slide_at(touch) : from;
             next.nodes = {{touch, 0, 0, {}}};
         }
-        // Where memory lets go one piece after the other: the direction in which a piece is lost is one for each.
+        // Unloading: the pieces of memory above delta vanish one after the other; each step ends where one does, because the direction of slip
+        // changes there.
         while (next.nodes.size() > 2 && delta < next.nodes[next.nodes.size() - 2].approach) {
             const double d = next.nodes[next.nodes.size() - 2].approach;
             part(d, slide_at(d));

@@ -24,7 +24,7 @@ enum class Fallback : std::int32_t {
     not_unique = 4,           // it converged, but the solution could not be proved to be the only one, and the rule for such levels holds
 };
 inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique"};
-// Mean pressures above this share of E* are beyond what any metal bears.
+// No metal bears mean pressures above this share of E* elastically.
 inline constexpr double kExtreme = 0.1, kExtremeShare = 0.01;  // told from this share of the contact area on
 
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();

@@ -34,7 +34,7 @@ struct Interval {
 };
 
 constexpr double kStart = 0.3,
-                 kEnd = kStart + 2 * pi;  // of the parameter t along a border: no axis, where spots touch if anywhere
+                 kEnd = kStart + 2 * pi;  // of the parameter t along a border; not 0, where spots often touch exactly
 
 // Along a border: finer than its extrema against another, four at most, usually are apart.
 struct Samples {

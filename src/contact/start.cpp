@@ -32,7 +32,7 @@ void EarlierLevels::remember_passed(double Z0, const Candidates& candidates, con
 }
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities) {
-    if (past_.empty()) return;  // moved twice in a row: what was carried stays
+    if (past_.empty()) return;  // moved twice without a level between: what was carried before is kept
     for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
     carried_.known.clear();
     if (unique_ && v.size() == at(candidates.size())) {

@@ -25,7 +25,7 @@ public:
     void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities);
 
     bool unique() const { return unique_; }  // the last is proved to be the only solution
-    // Penetrations to start from at Z0; candidates without a past are taken not to touch (they are checked at the end). False: none.
+    // Penetrations to start from at Z0; candidates that no earlier level knew are taken not to touch (which is checked at the end). False: none.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
     // Where force control may begin, if below `first_touch`.

@@ -52,7 +52,7 @@ void check(int status, const std::string& path) {
         fail(path, "a variable is too large for &output format='classic'", "use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
         throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
-    // The file is put together in memory, where NetCDF and HDF5 have little else to fail for, whatever error they name.
+    // The file is put together in memory: when NetCDF or HDF5 fail there, memory is the likely reason, whatever error they report.
     throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
                 "'" + path + "' cannot be put together (" + nc_strerror(status) +
                     "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
@@ -110,8 +110,8 @@ private:
 };
 
 // A file put together in memory. HDF5 cannot be trusted with a disk that fills up: closing a file that could not be written
-// crashes it (1.10), and the reason of the failure is lost. The bytes go to the disk by plain system calls instead, which can
-// fail in peace.
+// crashes it (1.10), and the reason of the failure is lost. The bytes go to the disk by plain system calls instead, whose
+// errors are reported.
 class MemoryFile {
 public:
     MemoryFile(const std::string& path, Part& part, int mode) : path_(path) {

@@ -30,7 +30,7 @@ fs::path existing_ancestor(fs::path folder) {
     return folder;
 }
 
-// By the first bytes: nothing else is asked of NetCDF and HDF5, which take their time to wake up.
+// By the first bytes, because NetCDF and HDF5 take long to open their first file.
 bool begins_as_netcdf(const std::string& path) {
     char start[4] = {};
     std::ifstream file(path, std::ios::binary);

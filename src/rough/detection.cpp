@@ -131,7 +131,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     int fine = n;
-    // An n that is refused is refused by RowSource, in its words.
+    // RowSource refuses an n that is not allowed.
     if (refined && n >= 2 && n % 2 == 0 && 2 * spectrum.L_lambda_s <= n)
         while (fine < 4 * spectrum.L_lambda_s * (1 - 1e-12)) fine += n;
     const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);

@@ -39,7 +39,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
                            Detail detail = Detail::grid, double points_per_wave = 0);
 inline constexpr int kMeasuredReach = 6;
 
-// The asperities of a synthetic surface, found while it is being made: the very same as find_asperities(synthesize(...)), bit
+// The asperities of a synthetic surface, found while it is being made: the same as find_asperities(synthesize(...)), bit
 // for bit, in less time, and in half the memory of the surface, which is never stored. Errors as synthesize().
 // Detail::subgrid on fewer than 4 points in lambda_s works on the next multiple of n that has them: the surface is the same on
 // both. `differences` (optional) receives the moments that finite differences on the n x n grid give, exact sums over the modes:

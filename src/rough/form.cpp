@@ -84,7 +84,7 @@ std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, cons
     return all.solve(form);
 }
 
-// Subtracts `level` and a polynomial of first (3) or second (6 unknowns) degree. What rounding leaves of a large one goes with the second round.
+// Subtracts `level` and a polynomial of first (3) or second (6 unknowns) degree. The second round removes what rounding left of a large one.
 template <int kUnknowns>
 std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form, double level) {
     const auto basis = [](double u, double v) {
@@ -183,7 +183,7 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
             next = s.stepped(by, share);
             next_left = left_by(next, map, frame, level);
         }
-        if (!(next_left < left)) return s;  // nothing gets better: rounding is all that is left
+        if (!(next_left < left)) return s;  // no further improvement: what remains is rounding
         s = next;
         left = next_left;
     }

@@ -66,7 +66,7 @@ Step first_step(const Patch& patch) {
 }  // namespace
 
 std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel) {
-    constexpr int kMostSteps = 40;  // three or four do; long ways go along ridges
+    constexpr int kMostSteps = 40;  // three or four are usual; more where the way goes along a ridge
     // The last step is applied to the position and the height alone; the derivatives stay where they were taken.
     constexpr double kNear = 1e-4;     // a step so short that the next evaluation is the last: it ends within kNear^2
     constexpr double kArrived = 1e-7;  // after the last evaluation a step must be no longer than this
@@ -87,7 +87,7 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         const Step s = step_to_summit({d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]});
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
-            // Half of gradient times step is what is left to the top.
+            // The height that is still missing to the top is half of gradient times step.
             return RefinedSummit{x + s.x, y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2], d[3][0],
                                  d[2][2], d[0][3]};
         }

@@ -8,7 +8,7 @@
 namespace rsc {
 namespace {
 
-// Grid steps a summit may lie from a start that is no maximum and has seen its top within one.
+// How many grid steps a summit may lie from a start that is no maximum; its paraboloid has its top within one step.
 constexpr int kShortTravel = 1;
 
 template <class T>

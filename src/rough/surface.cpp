@@ -48,7 +48,7 @@ double* allocate_doubles(std::size_t n, const char* purpose) {
         const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : 64;
         p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
 #if defined(__linux__)
-        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // advice only: failure costs time, nothing else
+        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // a hint to the system; if it fails, only time is lost
 #endif
     }
     if (!p) {

@@ -96,7 +96,7 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
         }
         for (int r = 0; r < block; ++r) {
             double* const row = coefficients + r * row_stride_;
-            std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes there, and the last transform left its traces
+            std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes there; the last transform has overwritten it
             fftw_execute_dft_c2r(&plan, fftw(row), out + r * stride);
         }
         j += block;

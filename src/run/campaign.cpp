@@ -53,7 +53,7 @@ public:
         next_ = next_to_add();
     }
 
-    // The next realization to begin. None may be far ahead of one that takes long: what waits is held in memory.
+    // The next realization to begin. None is begun far ahead of one that takes long, since finished ones that wait for it are held in memory.
     std::optional<std::int64_t> next() {
         while (waiting_.contains(next_)) ++next_;
         if (next_ >= first_ + count_ || next_ >= next_to_add() + window_) return {};

@@ -100,7 +100,7 @@ void transfer_each(Archive& a, T& vector) {
         std::uint64_t size = 0;
         a(size);
         vector.clear();
-        // Grown one by one: a wrong size ends at the end of the bytes, not of the memory.
+        // One by one: with a wrong size this fails at the end of the bytes, and does not ask for much memory before.
         for (std::uint64_t k = 0; k < size; ++k) transfer<Archive>(a, vector.emplace_back());
         return;
     }

@@ -1,5 +1,5 @@
-// Records and sums of a campaign as bytes, for checkpoints and for other ranks. The bytes are those of this machine: they come
-// back to the same program on the same kind of machine, bit for bit, and are nothing to keep.
+// Records and sums of a campaign as bytes, for checkpoints and for other ranks. The bytes are in this machine's own
+// format: the same program on the same kind of machine reads them back bit for bit. They are not meant to be kept.
 #pragma once
 
 #include <string>

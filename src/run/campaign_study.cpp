@@ -27,7 +27,7 @@ Error named(const Error& error, const Member& member) {
     return {error.kind(), name.empty() ? error.what() : name + ": " + error.what()};
 }
 
-// What can be known to go wrong does so here; only making ready (prepare) is left. Returns whether a result is there already.
+// Checks everything that can be checked without preparing the case (prepare). Returns whether a result is there already.
 bool look_at(const Member& member, const RunOptions& options) {
     const Case& settings = member.settings;
     const bool there = check_result_path(settings, options);
@@ -200,7 +200,7 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
     std::set<const Member*> there;  // those with a result already
     look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);
-        // The only one is made ready next, anyway.
+        // A single case is made ready next in any case.
         if (!member.values.empty()) prepare_once(member.settings);
     });
     if (read.study) write_manifest(read, all, options.command);

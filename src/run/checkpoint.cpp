@@ -28,8 +28,8 @@ struct FrameHead {
     std::uint64_t length = 0;
 };
 
-constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // not worth a rewrite below that
-constexpr double kSyncShare = 0.01;                           // of the time may go into waiting for the disk
+constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // smaller files are not rewritten
+constexpr double kSyncShare = 0.01;                           // at most this share of the time is spent on waiting for the disk
 constexpr double kSyncSeconds = 5;
 
 // CRC-32 of kind, length and bytes.
@@ -97,7 +97,7 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
     for (int attempt = 0; fd_ < 0; ++attempt) {
         fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (fd_ < 0) fail(errno);
-        // File systems without locks (ENOLCK, ENOTSUP) are taken as they are.
+        // File systems without locks (ENOLCK, ENOTSUP) are used without one.
         const bool busy = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (!busy && still_named(fd_, name_)) break;  // otherwise it was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
@@ -141,7 +141,7 @@ void Checkpoint::write_frame(int fd, std::uint32_t kind, const std::string& byte
     int error = put(fd, reinterpret_cast<const char*>(&head), sizeof head, size);
     if (error == 0) error = put(fd, bytes.data(), bytes.size(), size + sizeof head);
     if (error != 0) {
-        // What is torn would be ignored; it only must not be followed by anything.
+        // A torn frame at the end is ignored, but nothing may follow it.
         if (::ftruncate(fd, static_cast<off_t>(size)) != 0) error = errno;
         fail(error);
     }
@@ -156,7 +156,7 @@ void Checkpoint::load(const Case& settings) {
     std::string bytes;
     const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
     if (!get_frame(fd_, end, offset, kind, bytes)) {
-        // Killed before the first frame was whole, it is the beginning of one; anything else is somebody's.
+        // If a process was killed before its first frame was whole, this is the beginning of one; anything else is not ours.
         std::uint32_t start = kHeader;
         const bool read = get(fd_, reinterpret_cast<char*>(&start), std::min<std::size_t>(end, sizeof start), 0);
         if (!read || start != kHeader || end > sizeof(FrameHead) + header_.size())
@@ -187,7 +187,7 @@ void Checkpoint::load(const Case& settings) {
         }
         size_ = offset;
     }
-    // Sums are written before the file gets its name: torn ones are the disk's doing.
+    // Sums are written before the file gets its name: torn ones are an error of the disk.
     FrameHead head;
     if (size_ == base_size_ && !contents_.sums && end - size_ >= sizeof head &&
         get(fd_, reinterpret_cast<char*>(&head), sizeof head, size_) && head.kind == kSums)
@@ -232,8 +232,8 @@ void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::s
     last_sync_ = std::chrono::steady_clock::now();
 }
 
-// kill -9 takes nothing from the file: what was written is the system's. Only a machine that dies loses what the disk has not
-// yet.
+// After kill -9 the file is complete, because the system holds what was written. Only a crash of the machine loses what is not yet on
+// the disk.
 void Checkpoint::sync_now_and_then() {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -256,7 +256,7 @@ std::vector<std::string> Checkpoint::differences(const Case& there, const Case& 
     const auto shown = [](const std::string& value) { return value.empty() ? std::string("unset") : value; };
     for (const Key& key : registry()) {
         const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name), b = get_key(now, name);
-        // A campaign may grow: what is there belongs to the larger one, too.
+        // A campaign may grow: realizations of the smaller one are part of the larger one.
         if (name == "run%realizations" && there.run.realizations < now.run.realizations) continue;
         if (a != b && key.changes == Changes::numbers)
             lines.push_back(name + ": " + shown(a) + " " + of_there + ", " + shown(b) + " " + of_now);

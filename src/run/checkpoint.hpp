@@ -29,11 +29,9 @@ public:
     };
 
     // Opens the state of the campaign `settings` and keeps others away from it while it is open.
-    //   resume = false   starts a new one. Throws Error(bad_input) when there is one already, saying what to do: it is not lost
-    //   by
-    //                    accident.
-    //   resume = true    goes on with the one that is there, if any: contents() has what is in it. Throws Error(bad_input) when
-    //   it
+    //   resume = false   starts a new one. Throws Error(bad_input), saying what to do, when there is one already, so that none is lost
+    //                    by accident.
+    //   resume = true    goes on with the one that is there, if any: contents() has what is in it. Throws Error(bad_input) when it
     //                    belongs to another case, naming the keys that differ, to another version, or is damaged.
     // Throws Error(bad_input) when another process is at work on it, Error(file_system) when it cannot be written.
     Checkpoint(const std::string& result_file, const Case& settings, bool resume);

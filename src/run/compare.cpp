@@ -70,7 +70,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
     Contact& contact = *elements;
     if (table) *table << "\ncompared with elements on " << map.nx << " x " << map.ny << " points (asperities over elements - 1):\n";
     std::size_t next = 0;
-    bool on_path = true;  // elements have been where they had to
+    bool on_path = true;  // elements have gone through all levels that matter
     for (const std::size_t step : steps_to_compare(job, levels, contact.path_dependent())) {
         for (; contact.path_dependent() && next < step; ++next)
             if (turns(levels, next))

@@ -70,7 +70,7 @@ double surface_seconds(const Case& settings) {
     const auto start = Clock::now();
     try {
         make_ground(sample, 1, 1);
-    } catch (const Error&) {  // so small a piece of this surface has no summit
+    } catch (const Error&) {  // a piece of the surface so small that it has no summit
     }
     return std::chrono::duration<double>(Clock::now() - start).count() * scale * scale;
 }

@@ -54,7 +54,7 @@ public:
             letters_.pop_front();
         }
     }
-    // The receivers look at their mail until all have left.
+    // The receivers look for messages until all have left.
     ~Outbox() {
         for (Letter& letter : letters_) MPI_Wait(&letter.request, MPI_STATUS_IGNORE);
     }
@@ -108,7 +108,7 @@ public:
         leave_if_interrupted();
         WorkerThreads local(work_, threads_);
         std::vector<std::size_t> at_work(ranks_, 0);
-        const auto wait = ahead > 0 ? 2ms : 10ms;  // with a task in hand nobody waits for the mail
+        const auto wait = ahead > 0 ? 2ms : 10ms;  // between looking for messages: a realization takes less time than a member
         for (;;) {
             const std::size_t unfinished = hand_out(next, local, at_work, ahead);
             if (unfinished == 0) return;
@@ -182,7 +182,7 @@ std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::st
 void MpiJob::dismiss(int status) {
     const auto value = static_cast<std::int32_t>(status);
     for (int rank = 1; rank < size_; ++rank) MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
-    // Answers that nobody waits for any more are taken off the hands of those who send them, until all have left.
+    // Answers that are no longer wanted are received all the same, until all ranks have left: their senders wait for that.
     MPI_Request left = MPI_REQUEST_NULL;
     MPI_Ibarrier(MPI_COMM_WORLD, &left);
     for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))

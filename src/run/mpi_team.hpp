@@ -2,7 +2,7 @@
 //
 // Rank 0 is the program: it reads the case, hands out tasks, adds up the answers, writes files, talks. Its own threads work, too.
 // The other ranks know nothing but the case; they do tasks until they are dismissed. Only the main thread of a rank calls MPI,
-// and it sleeps between looks at the mail, so that the processors are left to those who compute.
+// and it sleeps between looking for messages, so that the processors are left to the threads that compute.
 #pragma once
 
 #include <functional>

@@ -19,8 +19,8 @@ long seconds_now() {
     return static_cast<long>(now.tv_sec);
 }
 
-// One request to stop often comes twice: to the process and to its group (timeout, mpirun, batch systems). Impatience comes
-// later.
+// One request to stop often comes twice: to the process and to its group (timeout, mpirun, batch systems). A second one some seconds
+// later is meant.
 extern "C" void remember(int signal) {
     if (caught_signal() == 0) {
         caught_at = seconds_now();

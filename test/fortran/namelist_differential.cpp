@@ -100,7 +100,7 @@ struct Stricter {
 constexpr Stricter kStricter[] = {
     {"unknown group", "a misspelt group would be ignored without a word"},
     {"this group is already", "gfortran reads the first of two groups of a name and ignores the second"},
-    {"after the last group is read by nobody", "gfortran looks no farther: a key there would be lost without a word"},
+    {"after the last group would be ignored", "gfortran reads no farther: a key there would be ignored without a message"},
     {"given twice", "gfortran lets the last one win: one of the two is a mistake"},
     {"is none of", "the choices are words of their own, not just texts"},
     {"has no value", "a hole in a list has no default to keep"},

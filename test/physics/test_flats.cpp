@@ -52,7 +52,7 @@ void refused_by_name() {
     SAYS(kFlat + "&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', start = -1, stop = 1.2 /",
          "must be positive");
     SAYS(kFlat + "&indentation boundary = 'periodic', selection = 'paper' /", "two flats have none");
-    SAYS(kFlat + "&surface source = 'asperities', file = 'a.txt' / &indentation boundary = 'periodic' /", "has no period of its own");
+    SAYS(kFlat + "&surface source = 'asperities', file = 'a.txt' / &indentation boundary = 'periodic' /", "does not say with which period");
 }
 
 const std::string kSurface = "&surface L = 2, n = 128, L_lambda_l = 2, L_lambda_s = 16, sigma = 0.01 /\n";

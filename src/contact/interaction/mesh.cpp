@@ -159,7 +159,7 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         p.repeat(n, x, y, relative_error, kept);
         return;
     }
-    // The kernel does not know x from y.
+    // The kernel is symmetric in x and y.
     if (y_max - y_min > x_max - x_min) std::swap(x, y), std::swap(x_min, y_min), std::swap(x_max, y_max);
     const double length_x = x_max - x_min, length_y = y_max - y_min;
     if (!std::isfinite(length_x)) throw Error(Failure::bad_input, "mesh product: the extent of the points overflows");
@@ -223,7 +223,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
             x[k] = (px[i] + right) * scale, y[k] = (py[i] + up) * scale;
             u[k] = (px[i] - x0) / dx + offset, v[k] = (py[i] - y0) / dy + offset;
         }
-        // Pads: out of everyone's reach, the box being at most 1 wide.
+        // Padding points: farther from all others than the cutoff, since the box is at most 1 wide.
         for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k) x[k] = x0 * scale + 4, y[k] = y0 * scale;
     }
     spread_band = static_cast<std::size_t>((design->width + 1) * choice.spacing / height) + 1;

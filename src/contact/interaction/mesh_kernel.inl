@@ -1,5 +1,5 @@
 // Spreading onto a mesh and interpolation off it, included by the same files as the pair loops and in the same way. Plain loops
-// of a fixed length: the compiler turns them into packs.
+// of a fixed length: the compiler makes vector instructions of them.
 
 template <int kWidth>  // window.width rounded up to a multiple of 4: the weights beyond it are zero
 struct Weights {

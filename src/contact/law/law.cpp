@@ -165,7 +165,7 @@ private:
         return sum;
     }
 
-    static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond all sense, and cosh(2 |q| a) does not overflow
+    static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond any contact, and cosh(2 |q| a) does not overflow
 
     // In terms of u, with delta = u/F2: a^2 = r u and t of BesselProfile = t u; forces are as with the modulus e.
     struct alignas(64) Summit {
