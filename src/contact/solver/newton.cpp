@@ -20,6 +20,31 @@ double dot(const Vector& a, const Vector& b) {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
+// Inner products may judge a residual that is so many times their error; products less accurate than kRoughest (mesh designs for starts)
+// never do.
+constexpr double kAboveError = 100, kRoughest = 1e-5;
+
+// Conjugate gradients: steps at most, and the relative curvature below which a direction counts as one of no or negative curvature:
+// above the rounding of a product in single precision, below any eigenvalue that matters (those of spots that do not overlap are near 1).
+constexpr std::size_t kMostGradients = 500;
+constexpr double kFlat = 1e-9;
+
+// How accurately a Newton step is solved for (Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996): the root of the residual, which keeps
+// the order 3/2, at most kLoosest; not finer than this share of what the last step needs, nor than single precision can tell.
+constexpr double kLoosest = 0.1, kLastShare = 0.2, kFinestForcing = 1e-5, kMostForcing = 0.3;
+
+// Trust region, with the usual values (Nocedal and Wright, Numerical Optimization, chapter 4): a step is accepted that brings kSufficient
+// of the decrease predicted; one that brings less than kPoor shrinks the radius to kShrink of the step, one that is stopped by the border
+// and brings more than kGood lets it grow. No step is longer than kLongest times |S v|, the natural size of the unknowns.
+constexpr double kSufficient = 1e-4, kPoor = 0.1, kGood = 0.5, kShrink = 0.25, kGrow = 3, kLongest = 2;
+constexpr int kMostAttempts = 40;  // shorter steps than 4^-40 of the first change nothing
+
+// Rounding of the energy, relative to the sum of its terms' magnitudes: some 1e5 units of the last place for as many terms.
+constexpr double kEnergyRounding = 1e-11;
+
+// Leaving a saddle: by half of the penetrations first, then by half of that, and so on.
+constexpr double kFirstLeap = 0.5, kLastLeap = 1e-6;
+
 }  // namespace
 
 double relative_residual(const Vector& error, const Vector& force) {
@@ -37,7 +62,9 @@ double relative_residual(const Vector& error, const Vector& force) {
     return std::isfinite(residual) ? residual : 1;
 }
 
-bool Newton::rough_will_do(double residual) const { return products_->inner_error() < 1e-5 && residual > 100 * products_->inner_error(); }
+bool Newton::rough_will_do(double residual) const {
+    return products_->inner_error() < kRoughest && residual > kAboveError * products_->inner_error();
+}
 
 // Fills everything of the state from its v; in full accuracy if asked, or if the residual turns out too small for less.
 void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
@@ -99,11 +126,11 @@ void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w,
         out.border = true;
         return t;
     };
-    const int most = static_cast<int>(std::min<std::size_t>(2 * n + 10, 500));
+    const int most = static_cast<int>(std::min<std::size_t>(2 * n + 10, kMostGradients));
     for (int i = 0; i < most && rr > goal && rr > 0; ++i) {
         multiply(p_, mp_);
         const double curvature = dot(p_, mp_);
-        if (!(curvature > 1e-9 * pp)) {
+        if (!(curvature > kFlat * pp)) {
             out.negative_curvature = true;
             const double t = to_border();
             out.predicted += t * rr - 0.5 * t * t * curvature;
@@ -182,15 +209,16 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             }
             break;
         }
-        const double forcing = std::clamp(std::max(std::min(0.1, std::sqrt(now_.residual)), 0.2 * tolerance / now_.residual), 1e-5, 0.3);
-        double size2 = 0;  // |S v|, v from where the force begins: the natural size of a step
+        const double forcing = std::clamp(std::max(std::min(kLoosest, std::sqrt(now_.residual)), kLastShare * tolerance / now_.residual),
+                                          kFinestForcing, kMostForcing);
+        double size2 = 0;  // |S v|^2, v from where the force begins
         for (int k : now_.active) {
             const double v = now_.v[at(k)] - law_.residual_depth(set.asperity[at(k)]);
             size2 += now_.slope[at(k)] * v * v;
         }
-        radius = std::min(radius, 2 * std::sqrt(size2));
+        radius = std::min(radius, kLongest * std::sqrt(size2));
         bool accepted = false;
-        for (int attempt = 0; attempt < 40 && !accepted; ++attempt) {
+        for (int attempt = 0; attempt < kMostAttempts && !accepted; ++attempt) {
             products_->set_active(now_.active);
             step(set, now_, forcing, radius, entering, step_now);
             trial_.v.resize(now_.v.size());
@@ -201,16 +229,16 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             const double decrease = now_.energy - trial_.energy;
             const bool accurate = now_.accurate && trial_.accurate;
             const double noise =
-                std::max(1e-11, accurate ? products_->full_error() : products_->inner_error()) * (now_.scale + trial_.scale);
-            accepted = decrease >= 1e-4 * step_now.predicted ||
+                std::max(kEnergyRounding, accurate ? products_->full_error() : products_->inner_error()) * (now_.scale + trial_.scale);
+            accepted = decrease >= kSufficient * step_now.predicted ||
                        (decrease >= -noise && trial_.residual < now_.residual && !step_now.negative_curvature);
-            if (!accepted || decrease < 0.1 * step_now.predicted) {
-                radius = 0.25 * step_now.norm;
-                if (!accepted) entering *= 0.25;
+            if (!accepted || decrease < kPoor * step_now.predicted) {
+                radius = kShrink * step_now.norm;
+                if (!accepted) entering *= kShrink;
             } else {
-                if (step_now.border && decrease > 0.5 * step_now.predicted) radius *= 3;
+                if (step_now.border && decrease > kGood * step_now.predicted) radius *= kGrow;
                 if (!step_now.border) radius = std::numeric_limits<double>::infinity();
-                entering = std::min(1.0, 4 * entering);
+                entering = std::min(1.0, entering / kShrink);
             }
             if (!std::isfinite(trial_.energy)) accepted = false;
         }
@@ -255,7 +283,7 @@ void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
     double gradient = 0;
     for (std::size_t k = 0; k < w.size(); ++k) gradient += w[k] * root_[k] * now_.res[at(now_.active[k])];
     const double downhill = gradient > 0 ? -1.0 : 1.0;
-    for (double length = 0.5; length > 1e-6; length *= 0.5) {
+    for (double length = kFirstLeap; length > kLastLeap; length *= 0.5) {
         for (double side : {downhill, -downhill}) {
             trial_.v = now_.v;
             for (std::size_t k = 0; k < w.size(); ++k) {
