@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"

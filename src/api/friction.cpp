@@ -1,8 +1,5 @@
 // Friction: a contact along a path of separations and slides.
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <vector>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"

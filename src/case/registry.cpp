@@ -1,6 +1,5 @@
 #include "case/registry.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,4 @@
 // The registry as text: the effective namelist and --describe.
-#include <algorithm>
 #include <sstream>
 
 #include "case/registry.hpp"

@@ -1,6 +1,5 @@
 #include "contact/equivalent.hpp"
 
-#include <cmath>
 #include <limits>
 #include <string>
 

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "contact/period.hpp"
 #include "rough/asperities.hpp"

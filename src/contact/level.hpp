@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "contact/indentation.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "read/netcdf_library.hpp"
 
 namespace rsc {
 

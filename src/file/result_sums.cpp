@@ -1,7 +1,6 @@
 #include "file/result_sums.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "error.hpp"
 #include "observe/quantities.hpp"

@@ -1,7 +1,6 @@
 // Coarse maps of area fraction and pressure (paper, section 5): contacts are sorted into square cells by their (x, y).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <functional>
-#include <numeric>
-#include <tuple>
 
-#include "error.hpp"
-#include "rough/magnitude.hpp"
 #include "rough/subgrid.hpp"
 #include "rough/summits.hpp"
 #include "rough/synthesis.hpp"

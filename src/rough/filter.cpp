@@ -8,7 +8,6 @@
 
 #include "error.hpp"
 #include "rough/fftw_planner.hpp"
-#include "rough/synthesis.hpp"
 
 namespace rsc {
 namespace {

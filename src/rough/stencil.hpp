@@ -1,8 +1,6 @@
 // Stencils that give a height map and its derivatives between its points.
 #pragma once
 
-#include <vector>
-
 namespace rsc {
 
 // Weights over the points -reach ... reach of a line, in grid steps. One stencil W_q is made for every derivative q at the middle

@@ -1,6 +1,5 @@
 #include "rough/summits.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>

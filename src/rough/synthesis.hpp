@@ -3,11 +3,9 @@
 // and a row can be used while it is in the cache.
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "rough/fftw_planner.hpp"
 #include "rough/surface.hpp"

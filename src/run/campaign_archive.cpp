@@ -1,6 +1,5 @@
 #include "run/campaign_archive.hpp"
 
-#include <array>
 #include <cstring>
 #include <type_traits>
 #include <vector>

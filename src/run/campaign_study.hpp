@@ -1,8 +1,6 @@
 // The program's run: one case, or the members of a study, by whatever team there is.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 

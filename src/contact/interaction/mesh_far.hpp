@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "contact/interaction/lattice.hpp"
 #include "contact/interaction/mesh_split.hpp"

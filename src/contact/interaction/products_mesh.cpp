@@ -1,4 +1,3 @@
-#include <cmath>
 #include <optional>
 
 #include "contact/interaction/mesh.hpp"

@@ -1,7 +1,6 @@
 #include "contact/solver/dgesv.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <new>
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <vector>
 
 #include "contact/interaction/pixel_products.hpp"
