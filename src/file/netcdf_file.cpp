@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "error.hpp"
+#include "read/netcdf_library.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;

@@ -13,6 +13,7 @@
 
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
+#include "read/netcdf_library.hpp"
 #include "version.h"
 
 namespace rsc {
