@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "error.hpp"
 #include "rough/dispatch.hpp"
