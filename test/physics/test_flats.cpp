@@ -51,7 +51,7 @@ void refused_by_name() {
          "closes the gap altogether");
     SAYS(kFlat + "&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', start = -1, stop = 1.2 /",
          "must be positive");
-    SAYS(kFlat + "&indentation boundary = 'periodic', selection = 'paper' /", "two flats have none");
+    SAYS(kFlat + "&indentation boundary = 'periodic', selection = 'paper' /", "two flats have no sphere");
     SAYS(kFlat + "&surface source = 'asperities', file = 'a.txt' / &indentation boundary = 'periodic' /", "does not say with which period");
 }
 
