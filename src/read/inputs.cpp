@@ -247,12 +247,26 @@ std::string first_bytes(const std::string& path) {
     return start;
 }
 
-// What no reader here knows and is no text is refused with the way to read it all the same.
+// The formats of instruments, told by a file's first bytes. Sizes and units are the file's.
+struct InstrumentFormat {
+    const char* name;
+    bool (*is)(const std::string& first_bytes);
+    HeightMap (*read)(const std::string& path, const std::string& channel, const std::string& length_unit);
+    bool channels;  // a file holds several maps, each perhaps with a mask
+};
+constexpr InstrumentFormat kInstrumentFormats[] = {
+    {".gwy", is_gwy, read_gwy, true},
+    {".sdf", is_sdf, [](const std::string& path, const std::string&, const std::string& unit) { return read_sdf(path, unit); }, false},
+};
+
+// What no reader here knows and is no text is refused, with the way to read it nevertheless.
 void refuse_unknown(const std::string& path, const std::string& start) {
     if (start.find('\0') == std::string::npos || start.substr(0, 2) == "\xff\xfe" || start.substr(0, 2) == "\xfe\xff") return;
-    refuse(path +
-           ": neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" +
-           path + "' makes one that rsc reads");
+    std::string names = ": neither NetCDF, ";
+    for (const InstrumentFormat& format : kInstrumentFormats)
+        names += std::string(format.name) + (&format == std::end(kInstrumentFormats) - 1 ? " " : ", ");
+    refuse(path + names + "nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" + path +
+           "' makes one that rsc reads");
 }
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
@@ -309,15 +323,17 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
-    const bool gwy = !netcdf && is_gwy(start), sdf = !netcdf && is_sdf(start);
-    if (!channel.empty() && !netcdf && !gwy)
+    const auto* const found = std::find_if(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
+                                           [&](const InstrumentFormat& format) { return !netcdf && format.is(start); });
+    const InstrumentFormat* const instrument = found == std::end(kInstrumentFormats) ? nullptr : found;
+    const bool channels = instrument && instrument->channels;
+    if (!channel.empty() && !netcdf && !channels)
         refuse(path + ": has no channels to choose '" + channel + "' from; only .gwy and NetCDF files have");
-    if (!netcdf && !gwy && !sdf) refuse_unknown(path, start);
-    HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill)
-                    : gwy  ? read_gwy(path, channel, length_unit)
-                    : sdf  ? read_sdf(path, length_unit)
-                           : read_text_heights(path, L, fill);
-    if (gwy || sdf) check_given_L(path, "x", map.nx, map.dx, L);
+    if (!netcdf && !instrument) refuse_unknown(path, start);
+    HeightMap map = netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill)
+                    : instrument ? instrument->read(path, channel, length_unit)
+                                 : read_text_heights(path, L, fill);
+    if (instrument) check_given_L(path, "x", map.nx, map.dx, L);
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));
     for (const double origin : {map.x0, map.y0})
@@ -327,10 +343,11 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
             const double z = map(i, j);
             if (usable(z) || (fill && std::isnan(z))) continue;
             const std::string place = " in column " + std::to_string(i) + " of row " + std::to_string(j) + ", counted from 0" +
-                                      (gwy || sdf ? " with y upwards" : "");
+                                      (instrument ? " with y upwards" : "");
             if (std::isnan(z))
                 refuse(path + ": " + std::to_string(count_missing(map)) + " of " + std::to_string(static_cast<long>(map.nx) * map.ny) +
-                       " points are missing" + (gwy ? " or masked" : "") + ", the first" + place + "; surface%missing = 'fill' fills them");
+                       " points are missing" + (channels ? " or masked" : "") + ", the first" + place +
+                       "; surface%missing = 'fill' fills them");
             refuse(path + ": a height " + kNumberBounds + ", not " + text_of(z) + " as" + place);
         }
     return map;

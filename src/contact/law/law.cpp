@@ -185,17 +185,26 @@ private:
     std::vector<Summit> summits_;  // few of many asperities, next to each other
 };
 
+// The laws in the order of LawKind.
+struct Row {
+    LawTraits traits;
+    std::unique_ptr<Law> (*make)(const Asperities& asperities, double E_star);
+};
+template <class T, auto... more>
+std::unique_ptr<Law> made(const Asperities& asperities, double E_star) {
+    return std::make_unique<T>(asperities, E_star, more...);
+}
+constexpr Row kLaws[] = {
+    // curvatures, biharmonic, between points, sinks, elliptic spots
+    {{kLawNames[0], false, false, false, false, false}, made<Hertz>},
+    {{kLawNames[1], true, false, true, false, true}, made<FourthOrder, false>},
+    {{kLawNames[2], true, true, true, true, true}, made<FourthOrder, true>},
+};
+static_assert(std::size(kLaws) == kLawNames.size());
+
 }  // namespace
 
-const LawTraits& traits(LawKind kind) {
-    //             curvatures, biharmonic, between points, sinks, elliptic spots
-    static constexpr LawTraits table[] = {
-        {kLawNames[0], false, false, false, false, false},
-        {kLawNames[1], true, false, true, false, true},
-        {kLawNames[2], true, true, true, true, true},
-    };
-    return table[static_cast<int>(kind)];
-}
+const LawTraits& traits(LawKind kind) { return kLaws[static_cast<int>(kind)].traits; }
 
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star) {
     const LawTraits& law = traits(kind);
@@ -209,12 +218,7 @@ std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double
                     "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
                     "were given without: 'hertz' and 'elliptic' are possible");
     }
-    switch (kind) {
-        case LawKind::hertz: return std::make_unique<Hertz>(asperities, E_star);
-        case LawKind::elliptic: return std::make_unique<FourthOrder>(asperities, E_star, false);
-        case LawKind::fourth_order: return std::make_unique<FourthOrder>(asperities, E_star, true);
-    }
-    throw Error(Failure::internal, "unknown law");
+    return kLaws[static_cast<int>(kind)].make(asperities, E_star);
 }
 
 }  // namespace rsc
