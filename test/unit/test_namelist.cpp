@@ -129,7 +129,7 @@ void test_messages() {
     CHECK_CONTAINS(complaint("&solver interaction = 'hertz' /"), "'hertz' is none of 'point', 'none'");
     CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &solver model = 'elements' /"), "no radius to scale the hardness");
     CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &compare levels = 2 /"), "no radius to scale the hardness");
-    CHECK_CONTAINS(complaint("&solids hardness = 250  friction = 0.3 /"), "friction is that of elastic asperities");
+    CHECK_CONTAINS(complaint("&solids hardness = 250  friction = 0.3 /"), "friction is computed for elastic asperities only");
     CHECK_CONTAINS(complaint("&solids hardness = 250  E = Infinity, 1 /"), "E(1) = Infinity makes it rigid");
     CHECK_CONTAINS(complaint("&solids friction = 0.3 / &solver model = 'elements' /"), "with model = 'elements' it is not available yet");
     // All at once, in the order of the text.
