@@ -170,7 +170,7 @@ void refusals() {
     c.compare.levels = {1.0};
     CHECK(check_case(c).empty());
     c.solver.model = Model::elements;
-    CHECK(refused(c, "model = 'elements' has none"));
+    CHECK(refused(c, "there is nothing to compare"));
     c = small();
     c.solver.model = Model::elements;
     c.solids.hardness = 250;
