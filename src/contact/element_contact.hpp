@@ -1,5 +1,5 @@
 // The points of the surface themselves pressed by a sphere: no asperities, every pixel carries a uniform pressure p >= 0 (Johnson 1985,
-// section 3.4; Polonsky and Keer, Wear 231, 1999). What the asperity model approximates.
+// section 3.4; Polonsky and Keer, Wear 231, 1999). The asperity model approximates this.
 //
 // With a hardness H, p <= H: where p = H the gap w may be negative, and -w is pressed out for good: the heights are lowered by it when
 // the level is accepted. Then H times the volume pressed out is the work lost, and what is left is elastic: W = p'Kp/2 comes back.

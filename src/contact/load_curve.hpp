@@ -1,4 +1,4 @@
-// The normal answer of a contact as a function of the approach alone: all that friction knows of a contact.
+// The normal answer of a contact as a function of the approach alone: friction needs nothing else of a contact.
 #pragma once
 
 namespace rsc {

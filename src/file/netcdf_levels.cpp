@@ -40,12 +40,11 @@ void ResultTable::global_attributes(const std::string& history) {
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
                     "makes this file again, "
                     "equal but for the attribute `history`.");
-    if (r_.path_dependent)
-        file_.attribute("path", "levels depend on those before them: what yielded (solids hardness) stays pressed down");
+    if (r_.path_dependent) file_.attribute("path", "levels depend on those before them: what yielded (solids hardness) stays pressed down");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
-    else  // the classic data model has no longer integers
+    else  // the classic data model has no integers longer than 32 bits
         file_.attribute("seed", std::to_string(r_.seed));
 }
 

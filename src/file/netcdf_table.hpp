@@ -18,7 +18,7 @@ namespace rsc {
 // In the comment of every variable that may lack values.
 inline constexpr const char* kAbsentMeans = "_FillValue: absent";
 
-// The classic data model has no longer integers; counts stop at its largest.
+// The classic data model has no integers longer than 32 bits; larger counts are written as the largest.
 inline std::int32_t clamped(std::int64_t n) {
     return static_cast<std::int32_t>(std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
 }

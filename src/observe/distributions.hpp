@@ -100,7 +100,7 @@ struct DistributionMoments {
 };
 DistributionMoments moments_of(double count, const std::array<double, 4>& power);
 
-// The end of the story: densities per unit of their argument (integral 1 including the overflow), moments and fits.
+// What is written: densities per unit of their argument (integral 1 including the overflow), moments and fits.
 struct FittedDistributions {
     Distributions sum;
     std::vector<double> mean_pressure_pdf, pressure_pdf, spot_area_pdf;

@@ -21,7 +21,7 @@ double ks_distance(const Binned& binned, Cdf cdf) {
     return distance;
 }
 
-// std::tgamma rather than lgamma: the latter writes a global variable.
+// The largest shape (alpha + 1)/beta tried: std::tgamma of it must not overflow (lgamma would not, but writes a global variable).
 constexpr double kLargestShape = 150;
 
 // The parameters the scoring works in: log(alpha + 1), log(beta), log(delta / unit); all are unbounded.
@@ -95,7 +95,7 @@ double gamma_normalisation(const Parameters& theta) {
     return beta / (std::pow(delta, alpha1) * std::tgamma(alpha1 / beta));
 }
 
-// One step of Fisher scoring, halved until the likelihood does not fall; false at the end of the road.
+// One step of Fisher scoring, halved until the likelihood does not fall; false when no step does that.
 bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width, double& size) {
     const Score s = score(theta, weight, p, width);
     Matrix inverse;

@@ -28,7 +28,7 @@ struct MapGrid {
 MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells);
 
 // The cells of one level that hold contacts, by increasing cell number. Most cells of most levels are empty, and a campaign
-// keeps many of these in flight.
+// holds many of these at a time.
 struct MapLevel {
     std::vector<std::int32_t> cell;
     std::vector<double> area;   // sum of pi a^2 in the cell [length^2]

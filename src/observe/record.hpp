@@ -1,9 +1,9 @@
 // What is kept of one realization, and how realizations add up (paper, section 5).
 //
-// observe() boils one realization down to a RealizationRecord: plain numbers and vectors, no reference to anything, fit to be
-// written to a checkpoint as they are. Accumulators::add() takes records in the order of their realizations, so that every sum is
-// made in one order whatever thread, rank or interrupted run made the records; finish() turns the sums into means, radial means
-// and fits.
+// observe() reduces one realization to a RealizationRecord: plain numbers and vectors without references, which a checkpoint holds as they
+// are. Accumulators::add() takes records in the order of their realizations, whatever thread, rank or interrupted run made them; sums over
+// realizations are exact (exact_sum.hpp), so that those of two campaigns can be added, too. finish() turns the sums into means, radial
+// means and fits.
 #pragma once
 
 #include <cstdint>

@@ -185,7 +185,7 @@ std::optional<double> unit_factor(const NetcdfInput& file, const NetcdfInput::Va
 }
 
 // Factors of heights, x and y. Heights in nanometres over micrometres are common, and a thousand times too steep when taken as they
-// are: where some have units and others none, nobody knows what those are in.
+// are: where some have units and others none, the unit of those is not known.
 struct Factors {
     double height = 1, x = 1, y = 1;
 };

@@ -5,7 +5,7 @@
 
 namespace rsc {
 
-// NetCDF and HDF5 are not safe to call from several threads: whoever calls them holds this.
+// NetCDF and HDF5 are not safe to call from several threads: this mutex is held during every call.
 std::mutex& netcdf_mutex();
 
 }  // namespace rsc

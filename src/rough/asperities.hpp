@@ -22,7 +22,7 @@ struct Asperities {
     std::size_t size() const { return x.size(); }
 };
 
-// The columns of Asperities, for whoever goes through all of them.
+// The columns of Asperities, for code that treats all of them alike.
 struct AsperityColumn {
     const char* name;
     std::vector<double> Asperities::*values;

@@ -93,7 +93,7 @@ private:
     Checkpoint& checkpoint_;
 };
 
-// What an interrupted writer of the result left: the checkpoint's lock says that nobody is at it now.
+// Removes what an interrupted writer of the result left. The checkpoint's lock makes sure that no process is writing it now.
 void remove_parts(const std::string& file) {
     std::error_code error;
     const fs::path folder = fs::path(file).parent_path(), name = fs::path(file).filename();

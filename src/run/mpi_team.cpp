@@ -132,7 +132,7 @@ public:
     }
 
 private:
-    // First a task for everyone, then a second one: nobody holds two while another has none. Returns how many are out.
+    // First a task for every worker, then a second one: none holds two while another has none. Returns how many are handed out.
     std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work, int ahead) {
         bool more = true;
         for (std::size_t deep = 1; more && deep <= static_cast<std::size_t>(1 + ahead); ++deep)

@@ -274,7 +274,7 @@ Ground make_ground(const Case& settings, std::int64_t number, int threads) {
         case Source::heights: return make_ground(make_surface(settings, number, threads), settings, threads);
         case Source::asperities: return read_list(settings);
     }
-    throw Error(Failure::internal, "a source of asperities that nobody knows");
+    throw Error(Failure::internal, "an unknown source of asperities");
 }
 
 void require_tip_above(const Site& site, double R, double x, double y) {

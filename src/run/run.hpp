@@ -1,4 +1,4 @@
-// Running a case, whatever it is.
+// Running a case: one realization or a campaign.
 #pragma once
 
 #include "run/run_options.hpp"

@@ -1,4 +1,4 @@
-// What is common to every way of running a case: what the caller wants to see, and what a run comes to.
+// What is common to every way of running a case: what the caller wants to see, and the outcome of a run.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ struct RunOptions {
     const std::atomic<bool>* abandoned = nullptr;  // once true the run ends at the next level, with Interrupted
 };
 
-// What a run comes to.
+// The outcome of a run.
 struct RunSummary {
     long levels = 0, failed = 0;  // of all realizations; failed: did not converge
     double separation = 0;        // of the last level; its means over the realizations:

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM, remembered until the work at hand can be left in order.
+// SIGINT and SIGTERM, remembered until the work can be stopped in an orderly state.
 #pragma once
 
 #include <stdexcept>

@@ -10,7 +10,7 @@
 // From u_m barely above u_c (a sphere: below 1.42 u_c) that unloading would give more work back than was done. There the force falls with
 // (u - u_r)^m, m > 3/2 such that it gives back all of it and no more: a closed cycle never yields work.
 //
-// Nearer the truth, where `sinks` (law 'fourth_order'): the summit pressed flat sinks in as a whole, by 4 H a/(pi E') at its border (the
+// More accurate, where `sinks` (law 'fourth_order'): the summit pressed flat sinks in as a whole, by 4 H a/(pi E') at its border (the
 // disc of constant pressure, Johnson 1985, eq. 3.29b), so that its area grows with
 //     u - (4 H/(pi E')) [a - a(u_c)] in place of u.
 // Against elements that bear no pressure above H, a sphere carries within 6 % at u_c (where the middle has yielded since 0.44 u_c), 3 % at

@@ -202,8 +202,8 @@ long ElementsSolver::bound() {
     return cut;
 }
 
-// Cutting pressures off may raise the energy. Then the answer is looked for between the round's start and its end, and where that way
-// does not lead down, by a gradient step. The energy along p + t d is a parabola with the slope w'd and the curvature d'Kd.
+// Cutting pressures off may raise the energy. Then the answer is looked for between the round's start and its end, and where the energy
+// does not fall that way, by a gradient step. The energy along p + t d is a parabola with the slope w'd and the curvature d'Kd.
 void ElementsSolver::keep_falling(Accuracy accuracy) {
     const std::size_t n = p_.size();
     const auto back = [&](double least_fall) {
