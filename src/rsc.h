@@ -100,8 +100,7 @@ RSC_API int32_t rsc_message(char* buffer, int64_t size, int64_t* length);
  * buffer, size, length: text output. Errors: -2 buffer null with size > 0; -3 size < 0. */
 RSC_API int32_t rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* length);
 
-/* ---- cases: options by name -------------------------------------------------------------------------------------------------
- */
+/* ---- cases: options by name --------------------------------------------------------------------- */
 
 /* A case with every key at its default.
  * new_case (out): the handle. Errors: -1 null; RSC_NO_MEMORY. */
@@ -137,7 +136,7 @@ RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* val
  * Errors: -1 null; -2 null or unknown name; -3 buffer null with size > 0; -4 size < 0; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length);
 
-/* All keys with their values, as namelist text that rsc_case_read reads back to the same values, unless it finds fault with them.
+/* All keys with their values, as namelist text that rsc_case_read reads back to the same values if it accepts them.
  * a_case: the case; buffer, size, length: text output. Errors: -1 null; -2 buffer null with size > 0; -3 size < 0; RSC_NO_MEMORY.
  */
 RSC_API int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length);
@@ -156,12 +155,11 @@ RSC_API int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* l
  * result file behind; of several realizations, what is done stays beside it for the program's --resume. */
 RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
 
-/* ---- surfaces
- * ------------------------------------------------------------------------------------------------------------------ */
+/* ---- surfaces ----------------------------------------------------------------------------------- */
 
 /* The surface that &surface names, as the program has it. source = 'synthetic' or 'spectrum': a random one by the keys of &surface and
  * run%seed, on run%threads threads, the same as realization number `realization` of the program, whatever the threads; its heights are
- * periodic, on x = i L/n, y = j L/n (a contact on a free surface sees one period: what is pressed beyond its border finds nothing).
+ * periodic, on x = i L/n, y = j L/n (a contact on a free surface sees one period only: beyond its border there is nothing to press on).
  * source = 'heights': the map in surface%file, in run%length_unit, its missing points, form and noise treated as the keys say. surface
  * (out): the handle; a_case: the case, null for the defaults; realization: any number. Errors: -1 null; -2 keys of &surface or &run that
  * are refused, a file that cannot be used, or a source that has no heights ('asperities': rsc_asperities_make); RSC_NO_MEMORY. */
@@ -205,8 +203,7 @@ RSC_API int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, doubl
  * may be null. surface: the surface; m0, m2, m4 (out). Errors: -1 null. */
 RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4);
 
-/* ---- asperities
- * ---------------------------------------------------------------------------------------------------------------- */
+/* ---- asperities --------------------------------------------------------------------------------- */
 
 /* The summits of a surface: points above their 8 neighbours, with curvatures from second differences.
  * asperities (out): the handle, never empty; surface: the surface; a_case: asperities%curvature decides on the radius; null for
@@ -254,8 +251,7 @@ RSC_API int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, 
  * Errors: -1 null, or asperities that were given without curvatures; -2 n is not their number. */
 RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle);
 
-/* ---- contact
- * -------------------------------------------------------------------------------------------------------------------- */
+/* ---- contact ------------------------------------------------------------------------------------ */
 
 /* A rigid smooth sphere over an elastic half-space that carries the asperities: the equivalent problem of two bodies,
  * 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, 1/R = 1/R1 + 1/R2. No result yet.
@@ -370,8 +366,7 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
-/* ---- many contacts, and contacts kept in files
- * ------------------------------------------------------------------------------------------------------------------ */
+/* ---- many contacts, and contacts kept in files -------------------------------------------------- */
 
 /* rsc_contact_press for many contacts, shared out among threads. The answers do not depend on the threads.
  * n: number of contacts, >= 0; contacts: different handles, which no other thread uses meanwhile; force: N >= 0 of each [force];
@@ -397,16 +392,7 @@ RSC_API int32_t rsc_contact_save(rsc_contact* contact, const char* path);
  * file. Errors: -1, -2 null; -2 other asperities; -3 null, empty, or no such file of this version; RSC_FILE; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path);
 
-/* ---- friction
- * ------------------------------------------------------------------------------------------------------------------
- * A contact led along any path of separation Z0 and slide (x, y): the displacement of the sphere's body sideways against that of the
- * surface's, without what a turning of the sphere takes away at the place of contact (rolling is no slide). Partial slip is the normal
- * problem twice (Ciavarella 1998; Jaeger 1998): everything follows from N(Z0), and the memory of the contact is a list of separations,
- * which a larger reversal shortens. The friction is that of Coulomb at every point, mu times the pressure. Left out: the coupling of
- * normal and tangential forces by unlike bodies, the direction of slip within a spot, and that a tip which moves over the surface finds
- * other asperities: the contact keeps its place. In two directions all that slips at a time pulls in one direction (circular disc rule for
- * the sum); slides along one line are exact. Elastic contacts only.
- * Energy: int Q dx over any path is the change of tangential_energy plus what is lost. */
+/* ---- friction ----------------------------------------------------------------------------------- */
 
 /* m = 4 G star / E star, 1/G star = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the tangential over the normal stiffness of any
  * contact of two bodies; 2 (1 - nu)/(2 - nu) for like ones. E, nu: two values each; ratio (out). Errors: -1 null, a modulus not positive
