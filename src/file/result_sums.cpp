@@ -88,6 +88,7 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
     read("m4_grid", &SurfaceStatistics::m4_grid);
     read("mean_kappa_g", &SurfaceStatistics::mean_kappa_g);
     read("mean_kappa_a", &SurfaceStatistics::mean_kappa_a);
+    if (!file.find("summits")) return;  // elements do not look for summits
     read("summits", &SurfaceStatistics::summits);
     read("saddles", &SurfaceStatistics::saddles);
 }

@@ -266,6 +266,20 @@ test_merge() {
     says "out.nc (replaces"
     same ../whole/out.nc out.nc
     cd ..
+    # Elements, which have no summits, and two flats under pressures.
+    local flats="-s solver%model='elements' -s surface%n=64 -s surface%L_lambda_s=16 -s indentation%levels=2,1.5"
+    part elements 3 5 $flats
+    part elements1 3 2 $flats
+    part elements2 5 3 $flats
+    expect 0 in_folder elements12 "$rsc" -q --merge ../elements2/out.nc ../elements1/out.nc -o out.nc
+    same elements/out.nc elements12/out.nc
+    flats="-s indentation%boundary='periodic' -s solids%R=Infinity,Infinity -s indentation%control='pressure' -s indentation%unit='relative'
+           -s indentation%levels=0.01,0.05"
+    part flats 3 5 $flats
+    part flats1 3 2 $flats
+    part flats2 5 3 $flats
+    expect 0 in_folder flats12 "$rsc" -q --merge ../flats2/out.nc ../flats1/out.nc -o out.nc
+    same flats/out.nc flats12/out.nc
     part law 14 4 -s "asperities%law='elliptic'" -s solver%tolerance=1e-7
     part cells 14 4 -s output%map_cells=10
     part grid 14 4 -s surface%n=512
