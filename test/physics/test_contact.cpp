@@ -1,6 +1,7 @@
 // The contact of a few asperities against closed forms, and the symmetries every answer must have.
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
@@ -358,9 +359,53 @@ void stated_residuals_are_true() {
     }
 }
 
+// N = 1 - Z0 with a step from 0.7 to 5.7 at Z0 = 0.3.
+class Step final : public Contact {
+public:
+    double stiffness() override { return touching_ ? -1.0 : 0.0; }
+    double energy() const override { return 0; }
+    void move_tip(double, double) override {}
+    double first_touch() const override { return 1; }
+    const Indenter& indenter() const override { return indenter_; }
+
+protected:
+    void forget_levels() override {}
+    Level solve(double Z0) override {
+        Level level;
+        level.separation = Z0;
+        level.force = Z0 >= 1 ? 0 : Z0 > 0.3 ? 1 - Z0 : 6 - Z0;
+        touching_ = level.force > 0;
+        return level;
+    }
+    double tolerance() const override { return 1e-10; }
+    double first_place_force(double depth) override { return depth; }
+    std::optional<double> likely_separation() const override { return {}; }
+    std::size_t levels_since_move() const override { return 2; }
+
+private:
+    Indenter indenter_{1, 1, 0, 0};
+    bool touching_ = false;
+};
+
+// A force that no separation carries is told; those on both sides of the step are found.
+void a_force_over_which_N_jumps() {
+    Step contact;
+    for (const double N : {0.5, 0.699, 5.701, 8.0}) {
+        const Level level = contact.at_force(N);
+        CHECK(level.status == LevelStatus::converged);
+        CHECK_RELATIVE(level.force, N, 1e-10);
+    }
+    for (const double N : {0.71, 3.0, 5.69}) {
+        const Level level = contact.at_force(N);
+        CHECK(level.status == LevelStatus::not_converged);
+        CHECK_CLOSE(level.separation, 0.3, 1e-12);
+    }
+}
+
 }  // namespace
 
 int main() {
+    a_force_over_which_N_jumps();
     one_asperity_is_hertz();
     two_equal_asperities();
     symmetries();

@@ -111,6 +111,25 @@ void conservation() {
     CHECK_RELATIVE(p, level.force, 1e-12);
     CHECK_RELATIVE(area, level.area, 1e-12);
     CHECK_RELATIVE(level.area_pixels, static_cast<double>(level.pixels.index.size()) * h * h, 1e-12);
+    // Contact by contact: the middle of its pressure, and how far it alone presses in the place of its highest pressure.
+    std::vector<double> force(level.f.size(), 0.0), x(force), y(force), alone(force);
+    double extreme = 0;
+    for (std::size_t k = 0; k < level.pixels.index.size(); ++k) {
+        const auto c = static_cast<std::size_t>(level.pixels.contact[k]);
+        const double own = level.pixels.pressure[k] * h * h, px = level.pixels.x(k), py = level.pixels.y(k);
+        const int peak = level.asperity[c];
+        force[c] += own, x[c] += own * px, y[c] += own * py;
+        alone[c] += level.pixels.pressure[k] * love(px - peak % 256 * h, py - peak / 256 * h, 0.5 * h, 0.5 * h) / (kPi * kE);
+        extreme += level.pixels.pressure[k] > 0.1 * kE;
+    }
+    for (std::size_t c = 0; c < force.size(); ++c) {
+        CHECK_RELATIVE(level.f[c], force[c], 1e-12);
+        CHECK_RELATIVE(level.x[c], x[c] / force[c], 1e-12);
+        CHECK_RELATIVE(level.y[c], y[c] / force[c], 1e-12);
+        CHECK_RELATIVE(level.u[c], alone[c], 1e-10);
+    }
+    CHECK(extreme > 0);
+    CHECK_RELATIVE(level.extreme_area_fraction, extreme / static_cast<double>(level.pixels.index.size()), 1e-14);
 
     // Alone, cold; by force; both within the tolerance.
     ElementContact cold(map, tip, options(1e-8));
@@ -133,6 +152,36 @@ void conservation() {
     CHECK(mirror.stiffness() == 0 && mirror.energy() == 0);
     CHECK_THROWS(contact.at_separation(__builtin_nan("")), Error);
     CHECK_THROWS(ElementContact(map, {0, R, 0, 0}, options(1e-8)), Error);
+}
+
+// What is touched first and what may touch at all are found as by a search through all pixels: for a sphere that is small against the
+// blocks of pixels which are looked at together, anywhere, and moved from one place to the other.
+void selection() {
+    const HeightMap map = rough(96, 32, 5);
+    const double R = 0.1;
+    ElementContact moved(map, {kE, R, 0.5, 0.5}, options(1e-4));
+    for (const auto& [x0, y0] : {std::pair{0.335, 0.49}, {0.49, 0.335}, {0.66, 0.7}, {0.51, 0.01}}) {
+        const Indenter tip{kE, R, x0, y0};
+        const auto count = [&](double Z0, double& top) {
+            int places = 0;
+            top = -1;
+            for (int j = 0; j < map.ny; ++j)
+                for (int i = 0; i < map.nx; ++i) {
+                    const double z = height_under_sphere(tip, i * map.dx, j * map.dy, map(i, j));
+                    if (z > top) top = z;
+                    places += z > Z0;
+                }
+            return places;
+        };
+        double top = 0;
+        count(0, top);
+        const double Z0 = top - 0.02;
+        const int places = count(Z0, top);
+        ElementContact fresh(map, tip, options(1e-4));
+        moved.move_tip(x0, y0);
+        CHECK(fresh.first_touch() == top && moved.first_touch() == top);
+        CHECK(places > 10 && fresh.at_separation(Z0).candidates == places && moved.at_separation(Z0).candidates == places);
+    }
 }
 
 // The same pixels by constrained conjugate gradients (Polonsky and Keer) with products by Fourier transforms of twice the size: nothing
@@ -279,6 +328,7 @@ void independent() {
 int main() {
     hertz();
     conservation();
+    selection();
     independent();
     return check::summary();
 }

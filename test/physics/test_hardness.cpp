@@ -79,13 +79,14 @@ void test_one() {
     }
 }
 
-// Of every law: force and area continuous where yielding begins, slope and work the derivative and the integral of the force.
+// Of every law: force, area and work continuous where yielding begins, slope and work the derivative and the integral of the force. The
+// flattest profile passes its highest mean pressure (law.cpp) within the penetrations asked for, the others do not.
 void test_laws() {
     Asperities a = one(0.004);
     a.kappa1 = {1.6 / 0.004}, a.kappa2 = {1 / (1.6 * 0.004)}, a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
-        for (const double flattening : {8.0, -5.0, 0.01}) {
+        for (const double flattening : {8.0, -5.0, 0.01, 300.0}) {
             a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
             const auto elastic = make_law(kind, a, kE);
             const auto law = make_yielding(make_law(kind, a, kE), a, {4000, 0}, traits(kind).sinks);
@@ -94,14 +95,14 @@ void test_laws() {
             CHECK_RELATIVE(elastic->force(0, uc), 4000 * elastic->area(0, uc), 1e-12);
             CHECK_RELATIVE(law->force(0, uc * (1 + 1e-12)), elastic->force(0, uc), 1e-10);
             CHECK_RELATIVE(law->area(0, uc * (1 + 1e-12)), elastic->area(0, uc), 1e-10);
+            const auto ask = [&](double at) {
+                std::array<double, 3> answer;
+                law->respond(1, &i, &at, &answer[0], &answer[1], &answer[2]);
+                return answer;
+            };
             for (int pass = 0; pass < 2; ++pass) {  // virgin, then after having been pressed to 8 u_c
                 for (const double times : {0.5, 0.9, 1.5, 4.0, 7.5, 7.9, 9.0, 20.0}) {
                     const double u = times * uc, h = 1e-5 * u;
-                    const auto ask = [&](double at) {
-                        std::array<double, 3> answer;
-                        law->respond(1, &i, &at, &answer[0], &answer[1], &answer[2]);
-                        return answer;
-                    };
                     const auto low = ask(u - h), now = ask(u), high = ask(u + h);
                     CHECK_CLOSE(now[0], law->force(0, u), 1e-14 * now[0]);
                     // Central differences of smooth functions: the error is some h^2/u^2 of the value; zero before the unloaded summit touches.
@@ -111,6 +112,9 @@ void test_laws() {
                     if (now[0] > 0) CHECK(now[0] <= 4000 * law->area(0, u) * (1 + 1e-12) || pass == 1);
                     CHECK(now[1] <= law->steepest(0, u) * (1 + 1e-12));
                 }
+                // No work is spent where one way of answering gives way to the next.
+                const double change = pass == 0 ? uc : 8 * uc;
+                CHECK_RELATIVE(ask(change * (1 + 1e-9))[2], ask(change * (1 - 1e-9))[2], 1e-7);
                 const double deep = 8 * uc;
                 law->commit(1, &i, &deep);
                 CHECK(law->force(0, deep) > 0 && std::abs(law->force(0, deep) / (4000 * law->area(0, deep)) - 1) < 1e-12);

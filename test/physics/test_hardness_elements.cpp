@@ -124,6 +124,15 @@ void test_sphere() {
         CHECK_RELATIVE(model.force, truth.force, off);
         CHECK_RELATIVE(model.area, truth.area, 0.06);
     }
+    // Oblong pixels: the work is H times the volume pressed out.
+    HeightMap oblong = flat(60, a / 10);
+    oblong.dy = 0.5 * oblong.dx;
+    ElementContact yielding(oblong, {kE, R, 30.3 * oblong.dx, 29.8 * oblong.dy}, options(H, 1e-8));
+    const Level level = yielding.at_separation(-4 * depth);
+    double volume = 0;
+    for (double d : yielding.residual_profile().depth) volume += d * oblong.dx * oblong.dy;
+    CHECK(volume > 0);
+    CHECK_RELATIVE(level.plastic_work, H * volume, 1e-12);
 }
 
 // Load, unload, reload: elastic up to the deepest point, from there on as if nothing had been.
@@ -218,6 +227,11 @@ void test_work() {
             // Simpson, with kinks where pixels touch and yield, and levels 1/200 of the way apart.
             CHECK_RELATIVE(work, contact.energy() + lost, 2e-4);
             CHECK(contact.energy() < 0.9 * work && contact.energy() > 0.1 * work);
+            // From the deepest point back: what yielded is elastic at once, and stiffer than while it yields.
+            ElementContact back(map, kTip, options(H, 1e-9));
+            const double N = back.at_separation(bottom).force, S = back.stiffness(), d = 1e-4 * kSigma;
+            const double N1 = back.at_separation(bottom + d).force, N2 = back.at_separation(bottom + 2 * d).force;
+            CHECK_RELATIVE((-1.5 * N + 2 * N1 - 0.5 * N2) / d, S, 1e-3);
         }
     }
     std::printf("cycle: work %.8g, lost %.8g: %.1e of the work put in apart\n", work, lost, (work - lost) / spent);

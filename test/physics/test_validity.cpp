@@ -3,13 +3,16 @@
 #include "contact/validity.hpp"
 
 #include <cmath>
+#include <sstream>
 #include <utility>
+#include <vector>
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "error.hpp"
 #include "run/job.hpp"
+#include "run/screen.hpp"
 
 using namespace rsc;
 
@@ -141,9 +144,24 @@ void elements() {
     CHECK_CLOSE(level.extreme_area_fraction, 1 - std::pow(kExtreme / p0, 2), 0.03);  // a tenth of a is a pixel
 }
 
+// The screen speaks of levels with three tenths of their contacts beyond the law, however many places were candidates.
+void remarks() {
+    Job job;
+    job.sigma = 0.01;
+    for (const auto& [beyond, told] : {std::pair{29, false}, {30, false}, {31, true}, {100, true}}) {
+        LevelValues level;
+        level.separation = 0.01;
+        level.contacts = 100, level.candidates = 500, level.beyond_law = beyond;
+        std::ostringstream out;
+        print_remarks(out, std::vector<LevelValues>{level}, job);
+        CHECK((out.str().find("1 of 1 levels: spots cover much of each other") != std::string::npos) == told);
+    }
+}
+
 }  // namespace
 
 int main() {
+    remarks();
     borders();
     depth();
     nominal();

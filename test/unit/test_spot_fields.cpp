@@ -6,8 +6,10 @@
 
 #include "../physics/random_asperities.hpp"
 #include "check.hpp"
+#include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/deflection.hpp"
+#include "contact/interaction/love.hpp"
 #include "contact/lateral.hpp"
 
 using namespace rsc;
@@ -75,9 +77,47 @@ void test_lateral() {
     }
 }
 
+// Pixels, oblong ones too: the sum of Love's fields. Spots between two flats: the field repeats with the surface.
+void test_fields() {
+    const double E_star = 7e4;
+    for (const double dy : {0.01, 0.03}) {
+        Level level;
+        level.pixels = {10, 0.1, 0.2, 0.02, dy, {3, 4, 13, 44}, {0, 0, 0, 1}, {100, 300, 200, 50}};
+        for (const auto& [x, y] : {std::pair{0.16, 0.2}, {0.17, 0.2 + dy}, {0.3, 0.5}, {-1.0, 0.1}}) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 4; ++k)
+                sum += level.pixels.pressure[k] / (pi * E_star) * love(x - level.pixels.x(k), y - level.pixels.y(k), 0.01, 0.5 * dy);
+            CHECK_RELATIVE(deflection(level, *make_kernel(Interaction::point, E_star, {}), x, y), sum, 1e-10);
+        }
+    }
+    Level level;
+    level.add_contact(0, 0.3, 0.9, 2.0, 0.02, 1e-3), level.add_contact(1, 1.9, 0.05, 1.0, 0.01, 1e-3);
+    const auto kernel = make_kernel(Interaction::point, E_star, Period{2, 1});
+    for (const auto& [x, y] : {std::pair{0.3, 0.9}, {0.31, 0.02}, {1.2, 0.5}, {0.1, 0.04}}) {
+        const double here = deflection(level, *kernel, x, y);
+        for (const auto& [m, n] : {std::pair{1, 0}, {0, 1}, {0, -1}, {-2, 3}})
+            CHECK_RELATIVE(deflection(level, *kernel, x + 2 * m, y + n), here, 1e-11);
+    }
+}
+
+// The moment about the tip: a force beside it turns the flat about the other axis; a flat is a sphere without end.
+void test_moment() {
+    Level level;
+    level.add_contact(0, 0.6, 0.2, 3.0, 0.01, 1e-3);
+    const Indenter flat{7e4, std::numeric_limits<double>::infinity(), 0.5, 0.5}, beside{7e4, flat.R, 0.6, 0.5}, large{7e4, 1e7, 0.5, 0.5};
+    const Vec2 both = tip_moment(flat, level), one = tip_moment(beside, level), sphere = tip_moment(large, level);
+    CHECK_RELATIVE(both.x, 3.0 * (0.2 - 0.5), 1e-14);
+    CHECK_RELATIVE(both.y, -3.0 * (0.6 - 0.5), 1e-14);
+    CHECK(one.y == 0 && one.x == both.x);
+    CHECK_RELATIVE(sphere.x, both.x, 1e-12);
+    CHECK_RELATIVE(sphere.y, both.y, 1e-12);
+}
+
 }  // namespace
 
 int main() {
+    test_fields();
+    test_moment();
     test_one_spot();
     test_lateral();
     return check::summary();
