@@ -1,10 +1,12 @@
 // Contacts of measured maps: what a map's pixels, orientation and spectrum have to do with it, and what not.
+#include <netcdf.h>
 #include <unistd.h>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
 
+#include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
@@ -16,6 +18,7 @@
 #include "rough/synthesis.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
+#include "run/twins.hpp"
 #include "unit/map_files.hpp"
 
 using namespace rsc;
@@ -225,6 +228,43 @@ void table_of_a_closed_form() {
     CHECK_RELATIVE((*read_spectrum(path, "mm"))(2), 2.0, 1e-14);
     std::ofstream(path) << "1 2\n3 2\n2 2\n";
     CHECK_THROWS(read_spectrum(path, "mm"), Error);
+    // Units are converted: wavenumbers and densities each in their own.
+    const std::string file = in_folder("psd.nc");
+    int id = -1, dimension = -1, k = -1, psd = -1;
+    CHECK(nc_create(file.c_str(), NC_CLOBBER, &id) == NC_NOERR);
+    nc_def_dim(id, "wavenumber", 2, &dimension);
+    nc_def_var(id, "wavenumber", NC_DOUBLE, 1, &dimension, &k), nc_def_var(id, "psd", NC_DOUBLE, 1, &dimension, &psd);
+    nc_put_att_text(id, k, "units", 4, "um-1"), nc_put_att_text(id, psd, "units", 3, "nm4");
+    nc_enddef(id);
+    const double ends[] = {1, 3}, two[] = {2, 2};
+    nc_put_var_double(id, k, ends), nc_put_var_double(id, psd, two);
+    CHECK(nc_close(id) == NC_NOERR);
+    CHECK_RELATIVE((*read_spectrum(file, "mm"))(2e3), 2e-24, 1e-12);
+    CHECK((*read_spectrum(file, "mm"))(2) == 0);
+}
+
+// The namelist of a map's twins: their square is as long as the map's longer side, the tip lies as it did from the middle.
+void twins_of_an_oblong_map() {
+    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
+    const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, 1);
+    map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
+    for (int j = 63; j >= 0; --j)
+        for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
+    const std::string file = in_folder("oblong.gwy");
+    std::ofstream(file, std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "T", map));
+    Case settings;
+    set_key(settings, "surface%source", "'heights'");
+    set_key(settings, "surface%file", "'" + file + "'");
+    set_key(settings, "indentation%centre", "0.3, 0.1");
+    const Job job = prepare(settings);
+    const Case twins = read_case_text(twins_text(job, "oblong.nc"), "twins.nml").settings;
+    CHECK(twins.surface.source == Source::spectrum && twins.surface.file == "oblong.nc" && twins.output.file == "oblong_twins.nc");
+    CHECK_RELATIVE(*twins.surface.L, 1.0, 1e-12);
+    CHECK_RELATIVE(*twins.surface.sigma, job.measured->parameters.sq, 1e-12);
+    CHECK_RELATIVE(*twins.indentation.centre[0], 0.3, 1e-12);
+    CHECK_RELATIVE(*twins.indentation.centre[1], 0.1 + 0.25, 1e-12);
+    // Rings end at the Nyquist wavenumber, pi/dx: as many points as the longer side has.
+    CHECK(twins.surface.n == 128 && twins.run.realizations == 100);
 }
 
 // Maps by a pattern: realization k is the k-th file.
@@ -260,6 +300,19 @@ void several_maps() {
     CHECK_THROWS(prepare(settings), Error);
     settings.surface.file = in_folder("many_1.gwy");
     CHECK(!check_case(settings).empty());  // one file is one realization
+    // The sphere comes down on the same place of each, wherever its file says that it lies.
+    const HeightMap same = synthesize(s, 128, Normalise::sample, 4, 1);
+    const double x0[] = {0, 0.5, -3}, y0[] = {0, 2, 7.25};
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::ofstream out(in_folder("moved_" + std::to_string(k) + ".txt"));
+        out.precision(17);
+        for (int j = 0; j < 128; ++j)
+            for (int i = 0; i < 128; ++i) out << x0[k] + i / 128.0 << ' ' << y0[k] + j / 128.0 << ' ' << same(i, j) << '\n';
+    }
+    settings.surface.file = in_folder("moved_*.txt");
+    const std::vector<double> moved = forces(settings, 3, 1);
+    CHECK(moved[0] > 0);
+    for (const double force : moved) CHECK_RELATIVE(force, moved[0], 1e-9);
 }
 
 // Filled points make no contact near them.
@@ -294,6 +347,7 @@ int main() {
     turned_maps();
     table_of_a_closed_form();
     several_maps();
+    twins_of_an_oblong_map();
     filled_points();
     twins();
     std::filesystem::remove_all(folder);

@@ -65,8 +65,12 @@ HeightMap in_micrometres(const std::string& path, const std::string& channel = "
 
 void gwy() {
     const Map map = sample();
+    Map in_own_units = map;
+    in_own_units.dx *= 1e3, in_own_units.dy *= 1e3;
+    for (double& z : in_own_units.z) z *= 1e9;
     check_sample(in_micrometres(write("one.gwy", gwy_file(gwy_channel(0, "Topography", map)))), -1);
     CHECK_RELATIVE(read_heights(write("one.gwy", gwy_file(gwy_channel(0, "T", map))), std::nullopt, "mm")(1, 3), 1e-6, 1e-12);
+    check_sample(in_micrometres(write("own.gwy", gwy_file(gwy_channel(0, "T", in_own_units, "nm", "mm")))), -1);
     CHECK_RELATIVE(read_heights((folder / "one.gwy").string(), 12e-3).Lx(), 12e-3, 1e-12);  // L may be given, if it is the same
     REFUSED(read_heights((folder / "one.gwy").string(), 11e-3), "but L = 0.011 was given");
     // The first channel of heights, or the one that is named; other things lie between.

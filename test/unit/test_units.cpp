@@ -21,6 +21,7 @@ void factors() {
     CHECK(length_factor("micrometers", "um") == 1);
     CHECK(length_factor(" m ", "mm") == 1e3);
     CHECK(length_factor("inch", "mm") == 25.4);
+    CHECK(length_factor("mile", "m") == 1609.344);
     CHECK(length_factor("mm-1", "um", -1) == 1e-3);
     CHECK(length_factor("1/um", "mm", -1) == 1e3);
     CHECK(length_factor("mm-3", "um", -3) == 1e-9);
