@@ -80,6 +80,21 @@ test_replaced() {
     done
 }
 
+# --resume leaves a result alone that is there, unless the file it was read from is newer.
+test_newer_input() {
+    printf '0.4 0.5 0.010 0.01\n0.6 0.5 0.011 0.01\n' > list.txt
+    resumed=(-s "surface%source='asperities'" -s "surface%file='list.txt'" -s surface%L=1 --resume -o list.nc)
+    sed 's/n = 128.*32//' before.nml > list.nml
+    expect 0 "$rsc" list.nml "${resumed[@]}"; says "result: list.nc"
+    cp list.nc first.nc
+    expect 0 "$rsc" list.nml "${resumed[@]}"; says "'list.nc' is there and whole: nothing to do"
+    same list.nc first.nc
+    printf '0.4 0.5 0.010 0.01\n0.6 0.5 0.012 0.01\n' > list.txt
+    expect 0 "$rsc" list.nml "${resumed[@]}"; says "replaces the result"
+    cmp -s list.nc first.nc && fail "the newer list was not read"
+    return 0
+}
+
 # A study: its manifest, and every member.
 test_study() {
     printf "&study surface%%sigma=0.01, 0.02 /\n" >> case.nml

@@ -12,6 +12,7 @@
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "result_reader.hpp"
+#include "rough/detection.hpp"
 #include "run/run.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -206,8 +207,10 @@ void distributions(const Reader& file) {
         counted("pressure_mean", pressure);
         counted("spot_area", [](const Spot& p) { return pi * p.a * p.a; });
 
-        double squares = 0, area = 0;
-        for (const Spot& p : spots) squares += pressure(p) * pressure(p), area += pi * p.a * p.a;
+        double squares = 0, area = 0, area_squares = 0;
+        for (const Spot& p : spots)
+            squares += pressure(p) * pressure(p), area += pi * p.a * p.a, area_squares += std::pow(pi * p.a * p.a, 2);
+        CHECK_RELATIVE(file.numbers("pressure_pdf", "independent_contacts").at(d), area * area / area_squares, kRounding);
         CHECK_RELATIVE(file.numbers("pressure_mean_pdf", "rayleigh_scale").at(d), std::sqrt(squares / n / 2), kRounding);
         CHECK_RELATIVE(file.numbers("spot_area_pdf", "exponential_scale").at(d), area / n, kRounding);
 
@@ -303,6 +306,26 @@ void synthetic(const Folder& folder) {
     regimes(file, t2, t4);
     distributions(file);
     radial(file, 0.9);
+}
+
+// Summits between the points: those found from the heights of the file, and the maxima of the grid that lead to none of their own.
+void between_points(const Folder& folder) {
+    const std::string path = folder / "between.nc";
+    CHECK(run("&surface n = 256, L_lambda_l = 2, L_lambda_s = 60 /\n&asperities law = 'fourth_order' /\n&indentation levels = 3.0 /\n"
+              "&output heights = .true. /",
+              path) == 0);
+    const Reader file(path);
+    const Vector z = file.values("height");
+    HeightMap map;
+    map.allocate(256, 256, 256);
+    map.dx = map.dy = 1.0 / 256;
+    map.periodic = true;
+    std::copy(z.begin(), z.end(), map.data.get());
+    SummitCount count;
+    const Asperities found = find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 256.0 / 60);
+    CHECK(found.x == file.values("asperity_x") && file.values("summits")[0] == static_cast<double>(found.size()));
+    CHECK(count.repeated > 0 && count.saddles > 0);
+    CHECK(file.values("saddles")[0] == static_cast<double>(count.saddles + count.repeated));
 }
 
 // Linear spacing, and a list.
@@ -431,6 +454,16 @@ void measured(const Folder& folder) {
         CHECK_CLOSE(hx[0], x_first, dx / 2 + 1e-9);
         CHECK_CLOSE(hy[0], y_first, dy / 2 + 1e-9);
         regimes(file, m2, m4);
+        // <d> is that of the summits found on the map.
+        const double spacing = std::sqrt(nx * dx * ny * dy / file.values("summits")[0]), border = spacing;
+        for (std::size_t s = 0; s < 2; ++s) {
+            double large = 0, edge = 0;
+            for (const Spot& p : spots_of(file, s)) {
+                large += p.a > spacing / 4;
+                edge += std::min({p.x - x_first, x_first + nx * dx - p.x, p.y - y_first, y_first + ny * dy - p.y}) < border;
+            }
+            CHECK(file.values("large_contacts")[s] == large && file.values("edge_contacts")[s] == edge);
+        }
         const double N = file.values("force")[1];
         double carried = 0;
         for (const Spot& p : spots_of(file, 1)) carried += p.f;
@@ -444,6 +477,7 @@ void measured(const Folder& folder) {
 int main() {
     const Folder folder;
     synthetic(folder);
+    between_points(folder);
     levels(folder);
     ensemble(folder);
     force_control(folder);

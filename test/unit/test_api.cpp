@@ -324,6 +324,27 @@ void test_many() {
 }
 
 // The paper's method through the interface: same answer, its own stiffness and energy.
+// Between two flats the surface is lowered alike in every period.
+void test_periodic() {
+    rsc_case* a_case = nullptr;
+    rsc_asperities* a = nullptr;
+    rsc_contact* c = nullptr;
+    OK(rsc_case_create(&a_case));
+    OK(rsc_case_read(a_case,
+                     "&surface n=128, L_lambda_l=4, L_lambda_s=32, sigma=1e-3 / &solids R=Infinity, Infinity / "
+                     "&indentation boundary='periodic' control='pressure' unit='relative' start=0.001 stop=0.01 /"));
+    OK(rsc_asperities_make(&a, a_case, 1));
+    OK(rsc_contact_create_from_case(&c, a, a_case));
+    OK(rsc_contact_press(c, 5.0, nullptr));
+    const double x[] = {0.2, 1.2, 0.2, -0.8}, y[] = {0.9, 0.9, -0.1, 2.9};
+    double w[4];
+    OK(rsc_contact_deflection(c, 4, x, y, w));
+    for (int k = 1; k < 4; ++k) CHECK_RELATIVE(w[k], w[0], 1e-9);
+    OK(rsc_contact_destroy(&c));
+    OK(rsc_asperities_destroy(&a));
+    OK(rsc_case_destroy(&a_case));
+}
+
 void test_methods() {
     rsc_asperities* a = take(random_asperities(300, 0.02, 0.01, 3e-3, 0.3, 6));
     rsc_case* options = tight();
@@ -477,6 +498,7 @@ int main() {
     test_options();
     test_single();
     test_many();
+    test_periodic();
     test_methods();
     test_surfaces();
     return check::summary();

@@ -80,6 +80,13 @@ void same_as_core() {
     CHECK(Q[0] == 0 && Q[1] > 0 && Q[1] < most);
     CHECK_RELATIVE(Q[2], most, 1e-14);
     CHECK_RELATIVE(Q[3], most, 1e-14);
+    // Spots that touch at a separation stick up to a slide of mu/m times how much deeper the sphere is.
+    double now = 0;
+    OK(rsc_friction_state(friction, &now, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr));
+    CHECK(stick[0] == now);
+    CHECK_RELATIVE(stick[1] - now, slides[1] * 0.8 / 0.3, 1e-12);
+    CHECK_RELATIVE(stick[2] - now, slide * 0.8 / 0.3, 1e-12);
+    CHECK(stick[3] == stick[2]);
     OK(rsc_friction_slide(friction, Q[1], &back));
     CHECK_RELATIVE(back, slides[1], 1e-7);
     std::int64_t n = 0;
@@ -176,10 +183,27 @@ void misuse() {
     CHECK(rsc_friction_copy(&f, nullptr) == -2 && !f);
 }
 
+// A level on the way that does not converge is told by update, stiffness, first loading and slide, and the numbers are there.
+void not_converged() {
+    Handles h;
+    OK(rsc_case_set(h.options, "solver%max_iterations", "1"));
+    rsc_contact* contact = nullptr;
+    OK(rsc_contact_create(&contact, h.asperities, 94e3, 2.5, 0.5, 0.5, h.options));
+    rsc_friction* friction = nullptr;
+    OK(rsc_friction_create(&friction, contact, 0.3, 0.8));
+    double N = 0, slide = 1e-5, Q = 0;
+    CHECK(rsc_friction_update(friction, 0.001, 0, 0, &N, nullptr, nullptr, nullptr) == RSC_NOT_CONVERGED && says("tolerance"));
+    CHECK(N > 0);
+    CHECK(rsc_friction_first_loading(friction, 1, &slide, &Q, nullptr) == RSC_NOT_CONVERGED && Q > 0);
+    rsc_friction_destroy(&friction);
+    rsc_contact_destroy(&contact);
+}
+
 }  // namespace
 
 int main() {
     same_as_core();
+    not_converged();
     ratio_and_case();
     misuse();
     return check::summary();

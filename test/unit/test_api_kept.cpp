@@ -76,6 +76,18 @@ void contacts_in_files(const Folder& folder) {
     CHECK(here == there && here != N);
     CHECK(go_on(contact) == go_on(again));
     OK(rsc_contact_destroy(&again));
+    // Asperities that differ in one column only are others.
+    const double place[] = {0.5}, curvature[] = {1e3}, angle[] = {0.2}, bent[] = {1e9}, more[] = {2e9}, radius[] = {1e-3};
+    rsc_asperities* single[2] = {nullptr, nullptr};
+    rsc_contact* held = nullptr;
+    for (int k = 0; k < 2; ++k)
+        OK(rsc_asperities_take(&single[k], 1, place, place, place, radius, curvature, curvature, angle, k == 0 ? bent : more));
+    OK(rsc_contact_create(&held, single[0], 94e3, 2.5, 0.5, 0.5, nullptr));
+    OK(rsc_contact_save(held, (folder / "single").c_str()));
+    CHECK(rsc_contact_restore(&again, single[1], (folder / "single").c_str()) == -2 && says("asperities") && !again);
+    OK(rsc_contact_restore(&again, single[0], (folder / "single").c_str()));
+    for (rsc_contact** c : {&held, &again}) OK(rsc_contact_destroy(c));
+    for (rsc_asperities*& one : single) OK(rsc_asperities_destroy(&one));
     // What is not that.
     CHECK(rsc_contact_restore(&again, others, file.c_str()) == -2 && says("asperities") && !again);
     CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 && says("cannot read"));
@@ -208,6 +220,18 @@ void many_contacts() {
     CHECK(rsc_contacts_press(n, made.data(), force.data(), nullptr, nullptr, 1) == -2 && says("different"));
     made[3] = kept;
     for (auto& c : made) OK(rsc_contact_destroy(&c));
+    // One that does not converge is no wrong argument: its numbers are there.
+    rsc_case* few = nullptr;
+    OK(rsc_case_create(&few));
+    OK(rsc_case_set(few, "solver%max_iterations", "1"));
+    rsc_contact* two[2] = {nullptr, nullptr};
+    OK(rsc_contact_create(&two[0], asperities, 94e3, 2.5, 0.5, 0.5, nullptr));
+    OK(rsc_contact_create(&two[1], asperities, 94e3, 2.5, 0.5, 0.5, few));
+    const double deep[2] = {0.002, 0.002};
+    CHECK(rsc_contacts_indent(2, two, deep, forces.data(), status.data(), 1) == RSC_NOT_CONVERGED && says("contact 1:"));
+    CHECK(status[0] == RSC_SUCCESS && status[1] == RSC_NOT_CONVERGED && forces[0] > 0 && forces[1] > 0);
+    for (auto& c : two) OK(rsc_contact_destroy(&c));
+    OK(rsc_case_destroy(&few));
     OK(rsc_asperities_destroy(&asperities));
 }
 

@@ -113,6 +113,30 @@ void comparison() {
     CHECK(compare_levels(prepare(small()), 1, 1, record.levels, nullptr, [] { return false; }).step.empty());
 }
 
+// Under force control the levels to compare are forces. Where levels depend on those before them, the way begins with the first one.
+void which_levels() {
+    Case c = small();
+    c.indentation.control = Control::force;
+    c.indentation.levels = {1.0, 3.0, 10.0};
+    c.compare.levels = {8.0};
+    const Job job = prepare(c);
+    CHECK(compare_levels(job, 1, 1, observe(job, 1, realize(job, 1, 1)).levels, nullptr, [] { return false; }).step ==
+          std::vector<std::int32_t>{2});
+    c = small();
+    c.solids.hardness = 6000;
+    c.indentation.levels = {0.0, 0.5};
+    c.compare.levels = {0.5};
+    const Job back = prepare(c);
+    const ComparedLevels compared = compare_levels(back, 1, 1, observe(back, 1, realize(back, 1, 1)).levels, nullptr, [] { return false; });
+    c.compare.levels.clear();
+    c.solver.model = Model::elements;
+    const Realization elements = realize(prepare(c), 1, 1);
+    CHECK(compared.step == std::vector<std::int32_t>{1});
+    CHECK_RELATIVE(compared.force[0], elements.levels[1].force, 1e-5);
+    c.indentation.levels = {0.5};
+    CHECK(compared.force[0] < 0.95 * realize(prepare(c), 1, 1).levels[0].force);
+}
+
 // With hardness: both models along their own paths, a way back and a second way down included, the comparison as a run of its own would have it.
 void yielding() {
     Case c = small();
@@ -199,6 +223,7 @@ int main() {
     surface();
     observations();
     comparison();
+    which_levels();
     yielding();
     refusals();
     return check::summary();

@@ -127,7 +127,8 @@ void test_messages() {
     CHECK_CONTAINS(complaint(""), "case.nml: no namelist group found; expected at least one of &run, &solids");
     CHECK_CONTAINS(complaint("nothing to see here\n"), "no namelist group found");
     CHECK_CONTAINS(complaint("&solver interaction = 'hertz' /"), "'hertz' is none of 'point', 'none'");
-    CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &solver model = 'elements' /"), "no radius to scale the hardness");
+    CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &solver model = 'elements' /"),
+                   "no radius to scale the hardness");
     CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &compare levels = 2 /"), "no radius to scale the hardness");
     CHECK_CONTAINS(complaint("&solids hardness = 250  friction = 0.3 /"), "friction is computed for elastic asperities only");
     CHECK_CONTAINS(complaint("&solids hardness = 250  E = Infinity, 1 /"), "E(1) = Infinity makes it rigid");
@@ -149,6 +150,18 @@ void test_warnings() {
     CHECK(reading.warnings.size() == 1 && reading.warnings[0].at.line == 1 && reading.warnings[0].at.column == 33);
     CHECK(read_namelist("&indentation levels = 1.0, 2.0, ! last\n start = 3 /\n").warnings.empty());
     CHECK(read_namelist("&surface sigma = 1.0, ! rms\n n = 64, ! points\n /\n").warnings.empty());
+}
+
+// Realizations are numbered as far as 32 bits go.
+void test_last_realization() {
+    Case c;
+    set_key(c, "run%first_realization", "2147483647");
+    CHECK(check_case(c).empty());
+    set_key(c, "run%realizations", "2");
+    const auto problems = check_case(c);
+    CHECK(problems.size() == 1 && problems[0].text.find("beyond 2147483647") != std::string::npos);
+    set_key(c, "run%first_realization", "2147483646");
+    CHECK(check_case(c).empty());
 }
 
 // What each number may be, written out once more: the last values in, the first values out. A key without a row here is one whose
@@ -464,6 +477,7 @@ int main() {
     test_messages();
     test_warnings();
     test_bounds();
+    test_last_realization();
     test_nulls();
     test_round_trip();
     test_set_and_get();

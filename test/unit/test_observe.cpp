@@ -125,6 +125,11 @@ void test_radial() {
         const double largest = std::min({0.45 * grid.Lx(), 0.48 * grid.Ly()});
         CHECK_RELATIVE(mean.radii().back() + mean.ring_width() / 2, largest, 1e-12);
     }
+    // The largest circle in the map, whichever border is the nearest one.
+    for (const auto& [x, y] : {std::pair{0.1, 0.5}, {0.9, 0.45}, {0.45, 0.1}, {0.5, 0.9}}) {
+        const RadialMean mean(make_map_grid(-0.3, 0.2, 1, 1, 20), x - 0.3, y + 0.2, 4);
+        CHECK_RELATIVE(mean.radii().back() + mean.ring_width() / 2, 0.1, 1e-12);
+    }
     // Re (x + iy)^m about the tip is harmonic: its mean over any circle about it is 0, which no few directions give. The interpolation
     // leaves errors of fourth order in the cell.
     for (int m : {4, 8, 12, 16}) {
