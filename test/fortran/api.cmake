@@ -5,7 +5,7 @@ target_compile_options(test_api_fortran PRIVATE -fcheck=all,no-array-temps -Wall
 add_test(NAME fortran.api COMMAND test_api_fortran)
 
 add_executable(test_axes test_axes.f90)
-target_link_libraries(test_axes PRIVATE rsc::fortran)
+target_link_libraries(test_axes PRIVATE rsc::fortran rsc::rsc77)
 target_compile_options(test_axes PRIVATE -fcheck=all -Wall)
 add_test(NAME fortran.axes COMMAND test_axes)
 

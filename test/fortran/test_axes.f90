@@ -10,6 +10,8 @@ program test_axes
   call moments()
   call asperities()
   call tips()
+  call counts()
+  call fortran_77()
   if (failures > 0) error stop 'test_axes'
   print '(a)', 'nothing is taken for something else'
 
@@ -121,5 +123,55 @@ contains
     call check(w(1) > 0 .and. near(w(1), w(2)), 'equally far from the spot')
     call contact%deflection([0.0_dp, 4.0_dp], [4.0_dp, 0.0_dp], w)
     call check(w(1) > 1.2_dp * w(2), 'nearer along y')
+  end subroutine
+
+  ! Numbers of contacts of every kind, no two alike, by the answer and by their names.
+  subroutine counts()
+    type(rsc_case) :: options
+    type(rsc_asperities) :: made
+    type(rsc_contact) :: contact
+    integer :: all, pairs, large, beyond, edge
+    call options%read("&surface n=256, L_lambda_l=4, L_lambda_s=32, sigma=0.02 / &asperities law='fourth_order' /" // &
+                      "&indentation centre=0.1, 0.5 /")
+    call made%make(options)
+    call contact%create_from_case(made, options)
+    call contact%indent(-0.01_dp)
+    call contact%answer(contacts=all, overlapping_pairs=pairs, large_contacts=large, beyond_law=beyond, edge_contacts=edge)
+    call check(all == contact%contacts() .and. all == nint(contact%value('contacts')), 'contacts')
+    call check(pairs == nint(contact%value('overlapping_pairs')), 'overlapping_pairs')
+    call check(large == nint(contact%value('large_contacts')), 'large_contacts')
+    call check(beyond == nint(contact%value('beyond_law')), 'beyond_law')
+    call check(edge == nint(contact%value('edge_contacts')), 'edge_contacts')
+    call check(all /= pairs .and. all /= large .and. all /= beyond .and. all /= edge .and. pairs /= large .and. &
+               pairs /= beyond .and. pairs /= edge .and. large /= beyond .and. large /= edge .and. beyond /= edge, 'no two alike')
+    call check(min(pairs, large, beyond, edge) > 0, 'each there')
+  end subroutine
+
+  ! The routines of rsc77: the map of heights() again, pressed, and the surface beside its summit.
+  subroutine fortran_77()
+    external :: rscsur, rscfnd, rscxyz, rsccon, rscind, rscdfl, rscdel
+    integer :: surface, found, contact, error, i, j
+    real(dp) :: z(7, 5), x(1), y(1), height(1), radius(1), force, w(2)
+    do j = 1, 5
+      do i = 1, 7
+        z(i, j) = -0.5_dp * (3.0_dp * (0.5_dp * (i - 5))**2 + 1.0_dp * (0.25_dp * (j - 2))**2)
+      end do
+    end do
+    surface = 0
+    found = 0
+    contact = 0
+    call rscsur(surface, 7, 5, 0.5_dp, 0.25_dp, -1.0_dp, 2.0_dp, 0, z, error)
+    call check(error == 0, 'rscsur')
+    call rscfnd(found, surface, 0, error)
+    call rscxyz(found, 1, x, y, height, radius, error)
+    call check(error == 0 .and. near(x(1), 1.0_dp) .and. near(y(1), 2.25_dp), 'rscxyz: place of the summit')
+    call check(near(radius(1), 1 / sqrt(3.0_dp)), 'rscxyz: radius of the summit')
+    call rsccon(contact, found, 1e5_dp, 5.0_dp, 1.0_dp, 2.25_dp, 0, error)
+    call rscind(contact, -0.01_dp, force, error)
+    call rscdfl(contact, 2, [1.0_dp, 3.0_dp], [2.75_dp, 2.25_dp], w, error)
+    call check(error == 0 .and. w(1) > 3 * w(2), 'rscdfl: nearer along y')
+    call rscdel(contact, error)
+    call rscdel(found, error)
+    call rscdel(surface, error)
   end subroutine
 end program

@@ -48,9 +48,25 @@ def argument_types(header):
     return found
 
 
+# What a function gives back through addresses is a named tuple by the same names in the same order.
+RECORDS = {"rsc_surface_grid": rsc.Grid, "rsc_surface_moments": rsc.Moments, "rsc_asperities_get": rsc.Summits, "rsc_asperities_curvatures": rsc.Curvatures,
+           "rsc_contact_level": rsc.Level, "rsc_contact_answer": rsc.Answer, "rsc_contact_spots": rsc.Spots, "rsc_friction_state": rsc.FrictionState,
+           "rsc_friction_spots": rsc.SpotSlip, "rsc_contact_result": rsc._Result, "rsc_contact_tip": rsc._Tip}
+
+
+def record_fields(header):
+    found = []
+    for name, record in RECORDS.items():
+        words = [argument.split()[-1] for argument in declarations(header)[name].split(", ")[1:]]
+        wanted = tuple("status" if word == "level_status" else word for word in words if word not in ("n", "count"))
+        if record._fields != wanted:
+            found.append(f"{record.__name__}: the fields are {record._fields}, those of {name} {wanted}")
+    return found
+
+
 def main():
     header = open(sys.argv[1], encoding="utf-8").read()
-    found = differences(header, rsc._PROTOTYPES) + argument_types(header)
+    found = differences(header, rsc._PROTOTYPES) + argument_types(header) + record_fields(header)
     drifts = [(0, "double separation, double* force)", "float separation, double* force)"), (0, "X(RSC_FILE, 3,", "X(RSC_FILE, 6,"),
               (0, "const double* heights", "double* heights"), (0, "rsc_contact_energy(", "rsc_contact_work("), (0, "X(RSC_LEVEL_OVERLAPPING, 2", "X(RSC_LEVEL_MERGED, 2"),
               (1, "rsc_key_count(int64_t* count)", "rsc_key_count(int32_t* count)"), (1, "rsc_contact_tip(const ", "rsc_contact_tip("),

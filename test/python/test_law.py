@@ -135,6 +135,14 @@ class Springs(unittest.TestCase):
 class Flats(unittest.TestCase):
     Z = np.linspace(0.04, 0.0, 21)
 
+    def test_one_that_failed(self):
+        """A level that did not converge in one realization is no mean of all: it is left out."""
+        file = flats_file("half", self.Z, np.outer([0.9, 1.1], 1e4 * np.exp(-self.Z / 0.008)))
+        with netCDF4.Dataset(file, "a") as data:
+            data["status"][1, 7] = 4
+        found = law.Law(file)
+        self.assertEqual((found.unconverged, found.load.size), (1, 1 + self.Z.size - 1))
+
     def test_points(self):
         p = np.outer([0.9, 1.0, 1.1], np.where(self.Z < 0.0395, 1e4 * np.exp(-self.Z / 0.008), 0))
         file = flats_file("flats", self.Z, p)

@@ -17,12 +17,15 @@ import numpy as np
 
 sys.path.insert(0, sys.argv.pop(1))
 import plot  # noqa: E402
+import plot_compare  # noqa: E402
 import plot_curves  # noqa: E402
 import plot_distributions  # noqa: E402
 import plot_maps  # noqa: E402
+import plot_sideways  # noqa: E402
 import plot_study  # noqa: E402
 from plot_results import Result, names  # noqa: E402
 from plot_style import MARKS, plt  # noqa: E402
+import rsc  # noqa: E402
 
 SURFACE = "&surface n=256 L_lambda_l=8 L_lambda_s=64 sigma=0.01 /"
 CASES = {
@@ -33,6 +36,9 @@ CASES = {
     "yielding": SURFACE + "&solids hardness=5.0e4 / &indentation levels=2.5,1.0 /",
     "far": SURFACE + "&indentation start=9.0 stop=7.0 steps=3 /",
     "failed": SURFACE + "&indentation start=2.0 stop=0.0 steps=5 / &solver tolerance=1.0e-14 max_iterations=1 /",
+    "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.001 / &solids R=Infinity,Infinity / &indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
+    "slid": SURFACE + "&solids friction=0.3 nu=0.3,0.25 E=2.0e5,1.0e5 / &indentation start=3.0 stop=1.0 steps=41 /",
+    "compared": "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / &asperities law='fourth_order' / &indentation levels=2.0,1.0 / &compare levels=2.0,1.0 /",
     "study": SURFACE + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=0.005,0.01,0.02 surface%hurst=0.5,0.8 /",
 }
 
@@ -215,6 +221,81 @@ class Places(unittest.TestCase):
             self.assertFalse(any(axis.patches for axis in figure.axes if axis.get_images()))
 
 
+    def test_flats(self):
+        """kappa = A E* h'/N over p/(E* h'), of the run and of the theories in the file."""
+        axis = plot_curves.flats(results("pressed"), OPTIONS).axes[0]
+        lines = {line.get_label(): line for line in curves(axis)}
+        relative = raw("pressed", "pressure")[0] / (float(raw("pressed", "e_star")) * raw("pressed", "rms_slope")[0])
+        for label, share in (("rsc", raw("pressed", "area_fraction")[0]), ("Persson", raw("pressed", "area_persson")), ("Bush, Gibson, Thomas", raw("pressed", "area_bgt"))):
+            self.assertTrue(np.allclose(lines[label].get_xdata(), relative, rtol=1e-12) and np.allclose(lines[label].get_ydata(), share / relative, rtol=1e-12), label)
+        # The asymptote is sqrt(2 pi) by its definition; the spectrum's slope is not quite that of one surface.
+        self.assertTrue(np.allclose(lines["Bush, Gibson, Thomas"].get_ydata(), np.sqrt(2 * np.pi), rtol=0.1))
+
+
+class Sideways(unittest.TestCase):
+    STEP = 40
+
+    def test_loop(self):
+        """The rough loop is the file's; the smooth one, Mindlin's, slips fully at mu N after (mu/m) delta and closes."""
+        rough, smooth = curves(plot_sideways.loop(results("slid"), plot.Options(step=self.STEP)).axes[0])
+        at = self.STEP - 1
+        self.assertTrue(np.array_equal(rough.get_xdata(), raw("slid", "tangential_displacement")[at]) and np.array_equal(rough.get_ydata(), raw("slid", "tangential_force")[at]))
+        N, m = raw("slid", "force_mean")[at], rsc.stiffness_ratio([2e5, 1e5], [0.3, 0.25])
+        delta = (3 * N / (4 * float(raw("slid", "e_star")) * np.sqrt(float(raw("slid", "r_star"))))) ** (2 / 3)
+        x, Q = smooth.get_xdata(), smooth.get_ydata()
+        self.assertAlmostEqual(Q.max() / (0.3 * N), 1, delta=1e-12)
+        self.assertAlmostEqual(x[np.argmax(Q)] / (0.3 / m * delta), 1, delta=1e-9)
+        self.assertTrue(np.allclose((x[-1], Q[-1]), (x[61], Q[61]), rtol=1e-9))
+
+    def test_stick(self):
+        """Spots true to size; what sticks is the spots of an earlier level, and lies in those of this one."""
+        slips, sticks = plot_sideways.stick(results("slid"), plot.Options(step=self.STEP)).axes[0].collections
+        at = self.STEP - 1
+        first, count = int(raw("slid", "contact_start")[at]) - 1, int(raw("slid", "contact_count")[at])
+        radius = raw("slid", "contact_radius")
+        self.assertTrue(np.allclose(slips._widths, radius[first : first + count]))  # half widths
+        widths = [raw("slid", "contact_radius")[int(s) - 1 : int(s) - 1 + int(n)] for s, n in zip(raw("slid", "contact_start"), raw("slid", "contact_count"))]
+        self.assertTrue(any(w.size == sticks._widths.size and np.allclose(w, sticks._widths) for w in widths[:at]))
+
+    def test_curves(self):
+        """Force and stiffness, both positive, of the levels with contact."""
+        force, stiffness = (curves(axis)[0] for axis in plot_sideways.stiffness(results("slid"), OPTIONS).axes[:2])
+        at = raw("slid", "force_mean") > 0
+        self.assertTrue(np.array_equal(force.get_ydata(), raw("slid", "force")[0][at]) and np.array_equal(stiffness.get_ydata(), -raw("slid", "stiffness")[0][at]))
+
+
+class Compare(unittest.TestCase):
+    def test_errors(self):
+        axis = plot_compare.compare(results("compared"), OPTIONS).axes[-1]
+        lines = {line.get_label(): line for line in axis.get_lines()}
+        z = raw("compared", "separation_sigma")[raw("compared", "compare_step").astype(int) - 1]
+        for label, name in (("$N$", "force_error"), ("$A$", "area_error"), ("contacts", "contacts_error")):
+            self.assertTrue(np.array_equal(lines[label].get_xdata(), z) and np.allclose(lines[label].get_ydata(), 100 * raw("compared", name)), label)
+        self.assertIn("%", axis.get_ylabel())
+        self.assertEqual(raw("compared", "compare_step").tolist(), [1, 2])  # levels count from 1
+        self.assertTrue(np.array_equal(raw("compared", "compare_separation"), raw("compared", "separation")))
+        self.assertAlmostEqual(lines["$N$"].get_ydata()[0], 100 * (raw("compared", "force")[0, 0] / raw("compared", "compare_force")[0] - 1), delta=1e-9)
+
+    def test_spots(self):
+        """Ellipses of the area of the file, long along the axis of the smaller curvature; their pressure along all lines adds up to the force."""
+        result = results("compared")[0]
+        x, y, a, f, ratio, angle = plot_compare._spots(result, 1)
+        which = raw("compared", "contact_asperity")[int(raw("compared", "contact_start")[1]) - 1 :].astype(int) - 1
+        self.assertTrue(np.array_equal(x, raw("compared", "asperity_x")[which]) and np.array_equal(angle, raw("compared", "asperity_angle")[which]))
+        self.assertTrue(np.all(ratio >= 1) and np.any(ratio > 1.2))
+        one = [[0.0], [0.0], [0.5], [3.0], [1.5], [0.4]]
+        lines = np.linspace(-0.8, 0.8, 401)
+        total = 0
+        for line in lines:
+            along, pressure = plot_compare._line(result, one, line, -0.8, 0.8)
+            total += pressure.sum() * (along[1] - along[0]) * (lines[1] - lines[0])
+        self.assertAlmostEqual(total / 3.0, 1, delta=2e-3)
+        _, middle = plot_compare._line(result, one, 0.0, -0.8, 0.8)
+        self.assertAlmostEqual(middle.max() / (1.5 * 3.0 / (np.pi * 0.25)), 1, delta=1e-4)
+        reach = [np.ptp(along[p > 0]) for along, p in (plot_compare._line(result, [[0.0], [0.0], [0.5], [3.0], [1.5], [t]], 0.0, -0.8, 0.8) for t in (0.0, np.pi / 2))]
+        self.assertTrue(np.allclose(reach, (2 * 0.5 * np.sqrt(1.5), 2 * 0.5 / np.sqrt(1.5)), atol=2e-3))
+
+
 class Distributions(unittest.TestCase):
     def test_numbers(self):
         counts = raw("one", "spot_area_count").sum(axis=1)
@@ -226,6 +307,9 @@ class Distributions(unittest.TestCase):
             density = raw("one", name)[0]
             self.assertTrue(np.array_equal(lines[0].get_xdata(), raw("one", bins)[density > 0]) and np.array_equal(lines[0].get_ydata(), density[density > 0]))
             self.assertIn("[mm", axis.get_ylabel())
+            law = next(line for line in axis.get_lines() if line.get_gid() == "fit")
+            x, y = law.get_xdata(), law.get_ydata()
+            self.assertTrue(0.8 < np.sum(0.5 * (y[1:] + y[:-1]) * np.diff(x)) < 1.02, name)  # a density, drawn as far as there are contacts
 
     def test_too_few(self):
         said = []

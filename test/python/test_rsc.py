@@ -419,6 +419,24 @@ class TestFriction(unittest.TestCase):
         friction.rollback()
         self.assertEqual((friction.state().force_x, copy.state().force_x), (0, Qx))
 
+    def test_stiffness(self):
+        """stiffness()[i, j] = dQ_i/dx_j: unsymmetric after a slide aside of what was pressed and slid at once."""
+        contact = rsc.Contact(rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3]), 2e5, 2.5, 0.5, 0.5)
+        friction = rsc.Friction(contact, 0.3, 0.8)
+        friction.update(0.009)
+        slide, _ = friction.full_slip()
+        friction.rollback()
+        friction.update(0.01)
+        friction.update(0.009, x=0.5 * slide)
+        _, *Q, _ = friction.update(0.009, x=0.5 * slide, y=0.4 * slide)
+        K, h = friction.stiffness(), 1e-5 * slide
+        self.assertGreater(abs(K[0, 1] - K[1, 0]), 0.01 * abs(K[0, 0]))
+        # The way that slips now: a further slide along the last one, and a little to its sides.
+        for dx, dy in ((0, 1), (0.2, 1), (-0.2, 1)):
+            ahead = friction.copy()
+            _, *further, _ = ahead.update(0.009, x=0.5 * slide + h * dx, y=0.4 * slide + h * dy)
+            np.testing.assert_allclose((np.array(further) - Q) / h, K @ [dx, dy], rtol=0, atol=1e-3 * K[1, 1])
+
     def test_refused(self):
         contact = rsc.Contact(rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3]), 2e5, 2.5, 0.5, 0.5)
         with self.assertRaisesRegex(rsc.ArgumentError, "mu"):
