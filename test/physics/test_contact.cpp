@@ -378,7 +378,7 @@ protected:
         return level;
     }
     double tolerance() const override { return 1e-10; }
-    double first_place_force(double depth) override { return depth; }
+    double force_at_most(double depth) override { return depth; }
     std::optional<double> likely_separation() const override { return {}; }
     std::size_t levels_since_move() const override { return 2; }
 
