@@ -319,14 +319,11 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 double AsperityContact::shift() const { return impl_->kernel->shift(); }
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() {
-    constexpr double enough = 1e-2;  // of the residual; the slope's error is of its square
-    return impl_->solution.v.empty() ? 0 : impl_->newton.stiffness(enough, false);
-}
+double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.rough_stiffness(); }
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
-    const double slope = impl_->newton.stiffness(1e-7, true);
+    const double slope = impl_->newton.stiffness(1e-12);
     return slope / (1 + shift() * slope);
 }
 

@@ -187,14 +187,23 @@ void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAtt
         check(nc_put_att_int(ncid, varid, name.c_str(), NC_INT, integers->size(), integers->data()), path);
 }
 
-// HDF5 keeps this much of a variable together; maps are read a level at a time, heights a band of rows.
+// HDF5 takes longer to keep books of a chunk than to write a variable as small as this, and deflate saves nothing worth it.
+constexpr std::size_t kChunked = 2048;  // values
+
+std::size_t values_of(const std::vector<std::size_t>& shape) {
+    std::size_t n = 1;
+    for (const std::size_t length : shape) n *= length;
+    return n;
+}
+
+// HDF5 keeps this much of a variable together; maps are read a few levels at a time, heights a band of rows.
 std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
     constexpr std::size_t target = 1u << 17;  // values, 1 MiB
     std::vector<std::size_t> chunk(shape.size(), 1);
     std::size_t held = 1;
     for (std::size_t d = shape.size(); d-- > 0;) {
-        if (shape.size() == 3 && d == 0) break;
-        chunk[d] = std::clamp<std::size_t>(target / held, 1, shape[d]);
+        const std::size_t most = shape.size() == 3 && d == 0 ? target / 4 : target;
+        chunk[d] = std::clamp<std::size_t>(most / held, 1, shape[d]);
         held *= chunk[d];
     }
     return chunk;
@@ -294,9 +303,9 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression, const 
         int varid = -1;
         check(nc_def_var(ncid, v.name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &varid), path);
         if (v.may_be_absent) put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
-        if (format == Format::netcdf4 && !shape.empty()) {
+        if (format == Format::netcdf4 && !shape.empty() && values_of(shape) >= kChunked) {
             check(nc_def_var_chunking(ncid, varid, NC_CHUNKED, chunks(shape).data()), path);
-            if (compression > 0) check(nc_def_var_deflate(ncid, varid, 1, 1, compression), path);
+            if (compression > 0 && !v.disorder) check(nc_def_var_deflate(ncid, varid, 1, 1, compression), path);
         }
         put_attribute(ncid, varid, "long_name", v.long_name, path);
         if (!v.units.empty()) put_attribute(ncid, varid, "units", v.units, path);  // texts have none

@@ -29,6 +29,7 @@ struct NetcdfVariable {
     std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows, std::vector<std::string>> values;
     NetcdfAttributes attributes;
     bool may_be_absent = false;  // NaN is an absent value, written as _FillValue; elsewhere it is an internal error
+    bool disorder = false;       // digits without any order: deflate saves a quarter of them at most, and takes ten times the writing
 };
 
 class NetcdfFile {

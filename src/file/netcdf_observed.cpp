@@ -208,7 +208,7 @@ void ResultTable::asperities() {
     for (const AsperityColumn& column : kAsperityColumns) {
         const std::vector<double>& values = a.*column.values;
         const std::string units = column.length_power == 0 ? "radian" : unit(column.length_power);
-        if (!values.empty()) add("asperity_" + std::string(column.name), {"asperity"}, units, column.meaning, values);
+        if (!values.empty()) add_disorder("asperity_" + std::string(column.name), {"asperity"}, units, column.meaning, values);
     }
     if (!r_.residual_depth.empty())
         add("asperity_residual_depth", {"asperity"}, unit(1), "how far the summit stays pressed down without force, after the last level",
@@ -232,11 +232,11 @@ void ResultTable::contacts() {
     if (!c.asperity.empty()) add("contact_asperity", {"contact"}, "1", "asperity of the contact", plus_one(c.asperity), from_one);
     if (!c.x.empty()) {
         const std::string what = " of the middle of the contact's pressure";
-        add("contact_x", {"contact"}, unit(1), "x" + what, c.x);
-        add("contact_y", {"contact"}, unit(1), "y" + what, c.y, comment("a contact is a set of pixels connected by their sides"));
+        add_disorder("contact_x", {"contact"}, unit(1), "x" + what, c.x);
+        add_disorder("contact_y", {"contact"}, unit(1), "y" + what, c.y, comment("a contact is a set of pixels connected by their sides"));
     }
-    add("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
-    add("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
+    add_disorder("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
+    add_disorder("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
     if (!c.yields.empty())
         add("contact_yields", {"contact"}, "1", "1 where the contact yields at this level, 0 where it is elastic", c.yields);
 }

@@ -100,6 +100,11 @@ private:
              std::vector<std::int32_t> values, NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
     }
+    // Places, heights, forces, one after another as chance has them.
+    void add_disorder(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
+                      std::vector<double> values, NetcdfAttributes attributes = {}) {
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false, true});
+    }
     // One that may lack values.
     void add_absent(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
                     std::vector<double> values, std::string note = "") {

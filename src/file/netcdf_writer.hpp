@@ -10,7 +10,7 @@ namespace rsc {
 
 struct WriteOptions {
     Format format = Format::netcdf4;
-    int compression = 4;  // deflate level of netcdf4, 0 to 9; shuffled first
+    int compression = 1;  // deflate level of netcdf4, 0 to 9; shuffled first
     std::string command;  // goes into the `history` attribute behind the date
 };
 

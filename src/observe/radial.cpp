@@ -54,11 +54,18 @@ double interpolate(const MapGrid& grid, const std::vector<double>& values, doubl
     return sum;
 }
 
-RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) : start_{0} {
+RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
     const double largest = std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly() - y0});
     if (!(largest > 0) || bins < 1) return;
     ring_width_ = largest / bins;
-    std::vector<double> row(static_cast<std::size_t>(grid.cells()));
+    const auto cells = static_cast<std::size_t>(grid.cells());
+    std::vector<double> row(cells);
+    struct Part {
+        std::size_t cell;
+        int circle;
+        double weight;
+    };
+    std::vector<Part> parts;
     for (int b = 0; b < bins; ++b) {
         const double r = (b + 0.5) * ring_width_;
         radii_.push_back(r);
@@ -70,19 +77,28 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) : st
             for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi),
                             [&](std::size_t cell, double weight) { row[cell] += weight / angles; });
         }
-        for (int c = 0; c < grid.cells(); ++c) {
-            if (row[static_cast<std::size_t>(c)] == 0) continue;
-            cell_.push_back(c);
-            weight_.push_back(row[static_cast<std::size_t>(c)]);
-        }
-        start_.push_back(cell_.size());
+        for (std::size_t c = 0; c < cells; ++c)
+            if (row[c] != 0) parts.push_back({c, b, row[c]});
+    }
+    start_.assign(cells + 1, 0);
+    for (const Part& part : parts) ++start_[part.cell + 1];
+    for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
+    circle_.resize(parts.size());
+    weight_.resize(parts.size());
+    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+    for (const Part& part : parts) {
+        const std::size_t k = next[part.cell]++;
+        circle_[k] = part.circle;
+        weight_[k] = part.weight;
     }
 }
 
 std::vector<double> RadialMean::operator()(const double* values) const {
     std::vector<double> mean(radii_.size());
-    for (std::size_t b = 0; b < mean.size(); ++b)
-        for (std::size_t k = start_[b]; k < start_[b + 1]; ++k) mean[b] += weight_[k] * values[cell_[k]];
+    for (std::size_t c = 0; c + 1 < start_.size(); ++c) {
+        if (values[c] == 0) continue;
+        for (std::size_t k = start_[c]; k < start_[c + 1]; ++k) mean[static_cast<std::size_t>(circle_[k])] += weight_[k] * values[c];
+    }
     return mean;
 }
 

@@ -36,15 +36,15 @@ public:
     const std::vector<double>& radii() const { return radii_; }  // middle of the rings [length]
     double ring_width() const { return ring_width_; }            // [length]
     // Mean of a map (grid.cells() values) over each circle: over equispaced angles, at least 64 and at least 8 a cell side, which
-    // is exact for parabolic maps. Added up in a fixed order.
+    // is exact for parabolic maps. Added up in the order of the cells; those that hold nothing cost nothing.
     std::vector<double> operator()(const double* values) const;
 
 private:
     std::vector<double> radii_;
     double ring_width_ = 0;
-    // Sparse rows: the mean over circle b is the sum over k in [start_[b], start_[b+1]) of weight_[k] values[cell_[k]].
+    // What a cell adds to the means: weight_[k] of its value to that over circle circle_[k], k in [start_[cell], start_[cell+1]).
     std::vector<std::size_t> start_;
-    std::vector<int> cell_;
+    std::vector<int> circle_;
     std::vector<double> weight_;
 };
 

@@ -261,6 +261,8 @@ const Part kParts[] = {
     {"elements_finest", bench::elements_finest, true},
     {"friction", bench::friction},
     {"hardness", bench::hardness},
+    {"observe", bench::observe},
+    {"flats", bench::flats},
 };
 
 int main(int argc, char** argv) {

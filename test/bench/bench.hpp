@@ -59,5 +59,8 @@ void elements_growth();
 void friction();
 // bench_hardness.cpp
 void hardness();
+// bench_observe.cpp
+void observe();
+void flats();
 
 }  // namespace bench

@@ -305,16 +305,42 @@ void Newton::potential_at(std::size_t n, const double* x, const double* y, doubl
     products_->elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
 }
 
-double Newton::stiffness(double tolerance, bool precise) {
+double Newton::rough_stiffness() {
+    constexpr double enough = 1e-2;  // of the residual; the error is of its square
     products_->set_active(now_.active);
     scale_active(now_);
-    products_->set_precise(precise);
     Vector b(root_.size()), w;
     for (std::size_t k = 0; k < b.size(); ++k) b[k] = -root_[k];
     Step ignored;
-    steihaug(b, tolerance, std::numeric_limits<double>::infinity(), w, ignored);
-    products_->set_precise(false);
+    steihaug(b, enough, std::numeric_limits<double>::infinity(), w, ignored);
     return -dot(b, w);
+}
+
+// Inner products solve, accurate ones judge: with r = b - A w, b'A^-1 b = b'w + w'r + r'A^-1 r, the last of which is left out.
+double Newton::stiffness(double tolerance) {
+    products_->set_active(now_.active);
+    scale_active(now_);
+    const std::size_t n = root_.size();
+    Vector b(n), r, w(n, 0.0), more, image(n);
+    for (std::size_t k = 0; k < n; ++k) b[k] = -root_[k];
+    r = b;
+    const double goal = std::sqrt(tolerance * dot(b, b));
+    const double forcing = std::clamp(products_->inner_error(), std::sqrt(tolerance), 1e-2);
+    constexpr int most = 6;
+    double left = 0;
+    for (int pass = 0; pass < most; ++pass) {
+        const double before = std::sqrt(dot(r, r));
+        Step ignored;
+        steihaug(Vector(r), forcing, std::numeric_limits<double>::infinity(), more, ignored);
+        for (std::size_t k = 0; k < n; ++k) w[k] += more[k];
+        products_->set_precise(true);
+        multiply(w, image);
+        products_->set_precise(false);
+        for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - image[k];
+        left = std::sqrt(dot(r, r));
+        if (left <= goal || !(left < 0.5 * before)) break;
+    }
+    return -dot(b, w) - dot(r, w);
 }
 
 }  // namespace rsc

@@ -56,9 +56,11 @@ public:
     // At the solution: B F at n other places, in single precision.
     void potential_at(std::size_t n, const double* x, const double* y, double* phi);
 
-    // At the solution: the solution of (I + B D) dv = -1 on the active set gives dN/dZ0 = sum D dv. `tolerance` of the residual of these
-    // linear equations: the stiffness's error is of the order of its square. `precise`: by products as accurate as full ones.
-    double stiffness(double tolerance, bool precise);
+    // At the solution: the solution of (I + B D) dv = -1 on the active set gives dN/dZ0 = sum D dv, to the tolerance or the accuracy of
+    // full products.
+    double stiffness(double tolerance);
+    // The same to some 1e-3.
+    double rough_stiffness();
 
 private:
     struct State {
