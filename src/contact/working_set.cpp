@@ -15,6 +15,7 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
     };
     draw(start);
     bool settle = !options.rough_start;
+    bool saddle = false;  // all that touch are in, and it was no minimum
     auto& [v, force, slope] = solution;
     v = start;
     NewtonOutcome total;
@@ -41,8 +42,8 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
         }
         products.set_points(working.size(), working.x.data(), working.y.data());
         const double tolerance = settle ? options.tolerance : std::max(options.tolerance, 0.1);
-        const auto outcome =
-            newton.solve(working, tolerance, options.max_iterations - total.iterations, working_v, settle && options.rough_start);
+        const bool ask = settle && options.rough_start && (outside.empty() || saddle);
+        const auto outcome = newton.solve(working, tolerance, options.max_iterations - total.iterations, working_v, ask);
         total.iterations += outcome.iterations;
         total.converged = outcome.converged;
         total.minimum = outcome.minimum;
@@ -77,7 +78,10 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
                 complete = false;
             }
         }
-        if (complete || !total.converged) break;
+        if (!total.converged) break;
+        if (!complete) continue;
+        if (ask || !options.rough_start || newton.at_minimum(working)) break;
+        saddle = true;
     }
     return total;
 }

@@ -25,6 +25,7 @@ public:
         phi_.resize(size);
         inner_.reset();  // made when first wanted
         exact_.reset();
+        among_.reset();
         if (direct()) pairs_.assign(size, x, y);
     }
 
@@ -36,6 +37,13 @@ public:
     void set_precise(bool precise) override { precise_ = precise; }
 
     void inner(const double* f, double* phi) override {
+        constexpr double few = 0.8;  // of the points: a mesh of their own pays
+        if (!precise_ && static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
+            ++count_;
+            among().apply(f, phi);
+            for (std::size_t k = 0; k < active_.size(); ++k) phi[k] *= scale_;
+            return;
+        }
         everywhere(f, precise_);
         for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = phi_[static_cast<std::size_t>(active_[k])];
     }
@@ -102,11 +110,26 @@ private:
         for (double& phi : phi_) phi *= scale_;
     }
 
+    // The mesh of the active points alone.
+    const MeshPotential& among() {
+        if (!among_ || among_active_ != active_) {
+            std::vector<double> xa, ya;
+            for (int k : active_) {
+                xa.push_back(x_[static_cast<std::size_t>(k)]);
+                ya.push_back(y_[static_cast<std::size_t>(k)]);
+            }
+            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_->lattice(), &far_);
+            among_active_ = active_;
+        }
+        return *among_;
+    }
+
     double scale_, full_error_, inner_error_;
     bool precise_ = false;
     std::vector<double> x_, y_, f_, phi_;
     FarFields far_;
-    std::optional<MeshPotential> inner_, exact_;
+    std::optional<MeshPotential> inner_, exact_, among_;
+    std::vector<int> among_active_;  // those among_ was made of
     PairSums pairs_;
 };
 

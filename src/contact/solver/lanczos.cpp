@@ -26,11 +26,15 @@ double lanczos_lowest(std::size_t n, const std::function<void(const std::vector<
         basis.push_back(q);
         multiply(q, image);
         alpha.push_back(dot(q, image));
-        for (int pass = 0; pass < 2; ++pass) {  // twice is enough
-            for (const auto& b : basis) {
-                const double c = dot(b, image);
-                for (std::size_t k = 0; k < n; ++k) image[k] -= c * b[k];
-            }
+        // The recurrence of three terms, which leaves little more than rounding errors for the rest.
+        for (std::size_t k = 0; k < n; ++k) image[k] -= alpha.back() * q[k];
+        if (basis.size() > 1) {
+            const auto& before = basis[basis.size() - 2];
+            for (std::size_t k = 0; k < n; ++k) image[k] -= beta.back() * before[k];
+        }
+        for (const auto& b : basis) {
+            const double c = dot(b, image);
+            for (std::size_t k = 0; k < n; ++k) image[k] -= c * b[k];
         }
         q = image;
         length = std::sqrt(dot(q, q));

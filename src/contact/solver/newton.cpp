@@ -249,6 +249,11 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
     return outcome;
 }
 
+bool Newton::at_minimum(const WorkingSet& set) {
+    Vector lowest;
+    return positive_definite(set, now_, lowest);
+}
+
 void Newton::take(const WorkingSet& set, const Vector& v) {
     now_.v = v;
     evaluate(set, now_, true);

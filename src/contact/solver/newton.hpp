@@ -45,6 +45,9 @@ public:
     // minimum is asked unless an approximation is all that is wanted, or uniqueness, which says more, is asked afterwards.
     NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v, bool ask_minimum = true);
 
+    // Whether the solution of this set, which solve() found without asking, is a minimum.
+    bool at_minimum(const WorkingSet& set);
+
     // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
     void take(const WorkingSet& set, const std::vector<double>& v);
 
