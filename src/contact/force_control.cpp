@@ -51,21 +51,46 @@ Level Contact::solve_between_planes(double Z0) {
     Level level;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
-    constexpr int most = 60;
-    for (int i = 0;; ++i) {
-        level = solve(z);
-        iterations += level.iterations;
-        products += level.products;
-        const double miss = z + c * level.force - Z0, rise = slope(), steep = 1 + c * rise;
+    const auto counted = [&](Level solved) {
+        iterations += solved.iterations;
+        products += solved.products;
+        return solved;
+    };
+    double miss = 0, steep = 0;
+    const auto done = [&] {
+        const double rise = slope();
+        miss = z + c * level.force - Z0, steep = 1 + c * rise;
         last_ = {z, level.force, rise};
-        if (level.status == LevelStatus::not_converged) break;
+        if (level.status == LevelStatus::not_converged) return true;
         // An error of Z0 is one of the force of -rise/steep times as much.
         const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
-        if (std::abs(miss) <= rounding || (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep)) break;
+        return std::abs(miss) <= rounding || (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
+    };
+    constexpr int most = 60;
+    int passes = kPasses;
+    for (int i = 0;; ++i) {
+        bool answer = passes == 0 || i >= most / 2;
+        level = counted(answer ? solve(z) : pass(z));
+        bool found = done();
+        if (found && !answer) {
+            answer = true;
+            level = counted(settle(level));
+            found = done();
+            if (!found) {  // another solution than those passed: on from this one
+                --passes;
+                above = Z0, below = -kInfinity;
+            }
+        }
+        if (found) break;
         (miss > 0 ? above : below) = z;
         double next = steep > 0 ? z - miss / steep : -kInfinity;
         if (!(next < above) || !(next > below)) next = std::isfinite(below) ? 0.5 * (above + below) : z - 2 * (std::abs(miss) + (Z0 - z));
         if (i == most || next == z || !std::isfinite(next)) {
+            if (!answer) {  // so it is for what was passed; now for the answers
+                passes = 0;
+                above = Z0, below = -kInfinity;
+                continue;
+            }
             level.status = LevelStatus::not_converged;
             break;
         }
