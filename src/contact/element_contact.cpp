@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numbers>
 
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"

@@ -116,7 +116,7 @@ Level Contact::at_force(double N) {
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (force_at_most(depth) < N) depth *= 2;
     double Z0 = above - 0.25 * depth;
-    // The last level is a start unless it failed, touched nothing, or lies so much deeper that coming down anew is the shorter way.
+    // The last level is a start unless it failed, touched nothing, or lies so much deeper that a start from first touch takes fewer steps.
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
         Z0 = likely_separation().value_or(Z0);
         if (last_ && last_->force > 0) {

@@ -9,7 +9,8 @@
 namespace rsc {
 
 // Separations are from z = 0 of the heights, their mean plane where they have one (made surfaces, detrended maps), to the flat, the mean of
-// all deflections being 0. As between asperities, and as the pressure's modes answer: 2/(E* |k|), k = 0 with nothing.
+// all deflections being 0. It is the same for asperities: a mode of pressure with the wavenumber k deflects
+// the surface by 2/(E* |k|) of itself, the mean pressure by nothing.
 class PeriodicElementContact final : public Contact {
 public:
     // The heights must outlive the contact, which never changes them; the map is the period. Of the options it takes the tolerance, the

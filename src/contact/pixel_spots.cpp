@@ -1,7 +1,6 @@
 #include "contact/pixel_spots.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "contact/interaction/love.hpp"

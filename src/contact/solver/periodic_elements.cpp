@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "contact/solver/periodic_grid.hpp"
 #include "error.hpp"
@@ -11,7 +10,7 @@
 namespace rsc {
 namespace {
 
-// Of the solutions on coarser grids: a start is wanted, no more.
+// Tolerance of the solutions on coarser grids, which only serve as a start.
 constexpr double kCoarseError = 1e-2;
 constexpr double kRounding = 1e-12;  // of separations, in rms heights
 

@@ -341,7 +341,7 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
     }
 }
 
-// Pressures into their bounds, and their mean back to what is given: what is missing goes where a lower flat would put it.
+// Pressures into their bounds, and their mean back to what is given: what is missing is added where a lower flat would add it.
 void PeriodicGrid::bound(Given given) {
     const std::size_t n = p_.size();
     for (double& p : p_) p = std::clamp(p, 0.0, highest_);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -174,7 +173,7 @@ private:
 
     // Narrows the bounds by the equation v = v0 - B (F - F0); false: there is no solution between them.
     bool narrow(Vector& low, Vector& high) {
-        // What the others, further away, give way to: a part of what the cluster itself may change.
+        // How much the field of the contacts further away may change: this share of what the cluster itself may change.
         constexpr double give = 0.1;
         f_low_ = forces(low);
         f_high_ = forces(high);
@@ -263,14 +262,14 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
         if (radius[i] > 0) sharpest = std::max(sharpest, radius[i] / flatness[i]);
     }
     for (std::size_t i = 0; i < n; ++i) reach[i] = std::max({near * radius[i], farthest * sharpest * flatness[i], touch});
-    // Penetrations of candidates far from touching come from single precision: partners that nearly coincide are beyond its judgement.
+    // Penetrations of candidates far from touching come from single precision, which cannot resolve partners that nearly coincide.
     constexpr double resolved = 1e-6, precision = 1e-4;
     const double nearest = resolved * std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
                                                *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
     const double noise = precision * deepest;
     bool told_apart = true;
     std::vector<Coupling> close;
-    std::vector<Pair> distant;  // for all their radii say, but for what a flat one might become
+    std::vector<Pair> distant;  // by their radii; but a flat one might grow a large spot
     for_close_pairs(x, y, reach, kernel.period(), [&](std::size_t i, std::size_t j, double d) {
         if (d < std::max(near * (radius[i] + radius[j]), 2 * touch)) {
             told_apart = told_apart && d > nearest;
@@ -285,7 +284,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     Vector alone(v), relief(n), high, low(n), f(n), a(n);
     couple(close, force, relief);
     if (!distant.empty()) {
-        Vector all(relief);  // what would let go of each if every partner did
+        Vector all(relief);  // how much deeper each could go if all its partners lost contact
         for (const Pair& p : distant) {
             all[p.i] += force[p.j] * kernel.at(p.d, 0);
             all[p.j] += force[p.i] * kernel.at(p.d, 0);
@@ -308,7 +307,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     };
     secants();
     if (!shells_fit(a, kernel.period())) return false;
-    const auto pairs = shell_pairs(x, y, a, kernel.period());  // of the widest shells: the bounds only close in
+    const auto pairs = shell_pairs(x, y, a, kernel.period());  // of the widest shells: the bounds become narrower from here on
     auto doubtful = doubtful_clusters(pairs, a);
     const auto settled = [&](const Cluster& cluster) { return positive_definite(cluster, of_points(cluster, a)); };
     std::erase_if(doubtful, settled);
