@@ -72,12 +72,12 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
     std::size_t next = 0;
     bool on_path = true;  // elements have gone through all levels that matter
     for (const std::size_t step : steps_to_compare(job, levels, contact.path_dependent())) {
-        for (; contact.path_dependent() && next < step; ++next)
-            if (turns(levels, next))
-                on_path = contact.at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
         const LevelValues& level = levels[step];
         Level truth;
         try {
+            for (; contact.path_dependent() && next < step; ++next)
+                if (turns(levels, next))
+                    on_path = contact.at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
             truth = contact.at_separation(level.separation);
         } catch (const Error& error) {  // two flats nearer than the mean planes: only asperities can be
             if (error.kind() != Failure::bad_input) throw;

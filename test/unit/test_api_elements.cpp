@@ -24,6 +24,31 @@ bool says(const char* what) {
     return std::string(text).find(what) != std::string::npos;
 }
 
+// Elements that yield: what a copy has not been through, it does not know; a size effect is refused.
+void yielding() {
+    rsc_case* a_case = make_case("'elements'");
+    CHECK(rsc_case_set(a_case, "solids%hardness", "15000") == RSC_SUCCESS);
+    rsc_asperities* on = nullptr;
+    rsc_contact *contact = nullptr, *copy = nullptr;
+    CHECK(rsc_asperities_make(&on, a_case, 1) == RSC_SUCCESS);
+    CHECK(rsc_contact_create_from_case(&contact, on, a_case) == RSC_SUCCESS);
+    double N = 0, less = 0, lost = 0, plastic = 0, virgin = 0;
+    CHECK(rsc_contact_indent(contact, 0.004, &N) == RSC_SUCCESS && N > 0);
+    CHECK(rsc_contact_value(contact, "plastic_work", &lost) == RSC_SUCCESS && lost > 0);
+    CHECK(rsc_contact_value(contact, "plastic_contacts", &plastic) == RSC_SUCCESS && plastic > 0);
+    CHECK(rsc_contact_indent(contact, 0.006, &less) == RSC_SUCCESS && less < N);
+    CHECK(rsc_contact_value(contact, "plastic_contacts", &plastic) == RSC_SUCCESS && plastic == 0);
+    CHECK(rsc_contact_copy(&copy, contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_indent(copy, 0.006, &virgin) == RSC_SUCCESS);
+    CHECK(virgin > 1.05 * less);
+    CHECK(rsc_contact_destroy(&contact) == RSC_SUCCESS);
+    CHECK(rsc_case_set(a_case, "solids%size_effect", "0.001") == RSC_SUCCESS);
+    CHECK(rsc_contact_create_from_case(&contact, on, a_case) != RSC_SUCCESS);
+    CHECK(says("size_effect"));
+    CHECK(rsc_contact_destroy(&copy) == RSC_SUCCESS && rsc_asperities_destroy(&on) == RSC_SUCCESS &&
+          rsc_case_destroy(&a_case) == RSC_SUCCESS);
+}
+
 // Two flats by both models: made from a case, pressed, put at the separation found, copied; the tip's place means nothing there.
 void flats(const char* model) {
     rsc_case* a_case = nullptr;
@@ -93,6 +118,7 @@ void flats(const char* model) {
 }  // namespace
 
 int main() {
+    yielding();
     flats("asperities");
     flats("elements");
     rsc_case *elements = make_case("'elements'"), *asperities = make_case("'asperities'");

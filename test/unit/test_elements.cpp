@@ -75,6 +75,18 @@ std::vector<double> solved(const Problem& problem, double highest, ElementsOutco
     std::vector<double> p(problem.pixels.size(), 0.0);
     outcome = solver.solve(problem.pixels, problem.g0, 1e-10, 1000, p);
     stiffness = solver.stiffness(1e-10, ElementsSolver::Way::further);
+    // p'Kp/2 with all pixels, those at the highest pressure too, before and after what they press out is taken off.
+    std::vector<double> w(p.size());
+    products->set_pixels(problem.pixels);
+    products->apply(p.data(), w.data(), PixelProducts::Accuracy::full);
+    double energy = 0;
+    for (std::size_t k = 0; k < p.size(); ++k) energy += 0.5 * p[k] * w[k];
+    CHECK_RELATIVE(solver.energy(), energy, 1e-8);
+    std::vector<Pixel> pressed;
+    std::vector<double> depth;
+    solver.press_out(pressed, depth);
+    CHECK(pressed.empty() == std::isinf(highest));
+    CHECK_RELATIVE(solver.energy(), energy, 1e-8);
     return p;
 }
 
