@@ -14,11 +14,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kThreads = 400000;  // pixels from which threads pay
 // The preconditioner's reach, and numbers of a row of its table: those beyond the reach are 0.
 constexpr int kReach = 4, kTaps = 12;
-// A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
-constexpr int kSteps = 8;
+// A round of conjugate gradients: steps at most, where all goes well and where it does not, and the reduction of the preconditioned residual that ends it sooner.
+constexpr int kSteps = 8, kLeast = 2;
 constexpr double kReduction = 0.05;
-// Rounds from which the energy is watched, and their steps: sets that settle do so in some ten rounds.
-constexpr int kQuick = 30, kCareful = 2;
+// Rounds from which the energy is watched in all: those that settle do so in some ten.
+constexpr int kQuick = 15;
 // Errors below which a round is judged in double.
 constexpr double kSingle = 1e-4;
 // The shortest side worth a coarser grid.
@@ -390,10 +390,22 @@ ElementsOutcome PeriodicGrid::solve(Given given, double tolerance, int most_iter
         else
             evaluate(inner_, given);
     };
+    int steps = kSteps;
+    double last = kInfinity;
     for (;;) {
-        look();
-        if (outcome.iterations > kQuick && !before_p_.empty() && !fell()) look();
-        outcome.residual = exact ? error(*fine_) : error(inner_);
+        const auto measure = [&] {
+            look();
+            outcome.residual = exact ? error(*fine_) : error(inner_);
+        };
+        measure();
+        // Where the error grows, and in later rounds always, the energy is asked, and a round that raised it taken back to its best place; shorter ones follow.
+        if ((outcome.residual > last || outcome.iterations > kQuick) && !before_p_.empty() && !fell()) {
+            measure();
+            steps = std::max(steps / 2, kLeast);
+        } else {
+            steps = std::min(steps + 1, kSteps);
+        }
+        last = outcome.residual;
         if (outcome.residual <= tolerance && finest && !exact) {
             exact = true;
             before_p_.clear();
@@ -411,7 +423,7 @@ ElementsOutcome PeriodicGrid::solve(Given given, double tolerance, int most_iter
         for (std::size_t k = 0; k < n; ++k) r_[k] = free_[k] ? 0 - w_[k] : 0.0;
         before_p_ = p_;
         before_w_ = w_;
-        descend(p_, given.is_pressure, outcome.iterations > kQuick ? kCareful : kSteps, kReduction);
+        descend(p_, given.is_pressure, steps, kReduction);
         bound(given);
         exact = finest && (exact || outcome.residual < kSingle);
     }
