@@ -85,7 +85,8 @@ contains
     type(rsc_case) :: options
     real(dp), parameter :: R = 1e-3_dp, q = 1e4_dp, E = 1e5_dp
     real(dp), allocatable :: x(:), y(:), z(:), radius(:), k1(:), k2(:), angle(:), spot(:), force(:)
-    real(dp) :: N, u
+    real(dp) :: N, u, two(2), deep(1)
+    integer :: told
     call given%take([1.0_dp, 2.0_dp], [3.0_dp, 4.0_dp], [0.5_dp, 0.6_dp], [0.7_dp, 0.8_dp], kappa1=[1.9_dp, 1.8_dp], &
                     kappa2=[1.3_dp, 1.2_dp], angle=[0.3_dp, -0.4_dp], biharmonic=[5.0_dp, 6.0_dp])
     call given%get(x, y, z, radius)
@@ -103,6 +104,14 @@ contains
     call contact%spots(force=force, radius=spot)
     call check(abs(spot(1) - pi / q) < 1e-6_dp * pi / q, 'the biharmonic is the biharmonic')
     call check(near(force(1), N), 'its force')
+    call contact%per_asperity(force=two, stat=told)
+    call check(told < 0, 'per_asperity: forces of another size')
+    call contact%per_asperity(radius=two, stat=told)
+    call check(told < 0, 'per_asperity: radii of another size')
+    call contact%per_asperity(penetration=two, stat=told)
+    call check(told < 0, 'per_asperity: penetrations of another size')
+    call contact%per_asperity(force, spot, deep)
+    call check(near(force(1), N) .and. abs(spot(1) - pi / q) < 1e-6_dp * pi / q .and. near(deep(1), 1.5_dp * u), 'per_asperity')
   end subroutine
 
   subroutine tips()

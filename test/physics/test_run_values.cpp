@@ -328,6 +328,21 @@ void between_points(const Folder& folder) {
     CHECK(file.values("saddles")[0] == static_cast<double>(count.saddles + count.repeated));
 }
 
+// Elements that yield: where the surface is lower for good is under the tip, and its volume is the work.
+void pressed_out(const Folder& folder) {
+    const std::string path = folder / "pressed.nc";
+    CHECK(run("&surface n = 128, L_lambda_l = 2, L_lambda_s = 16, sigma = 0.002 /\n&solver model = 'elements' /\n"
+              "&solids hardness = 500 /\n&indentation levels = 1.0, 0.0, centre = 0.3, 0.6 /",
+              path) == 0);
+    const Reader file(path);
+    const Vector x = file.values("residual_pixel_x"), y = file.values("residual_pixel_y"), depth = file.values("residual_pixel_depth");
+    const double h = file.numbers("residual_pixel_x", "pixel_size").at(0), n = static_cast<double>(x.size());
+    CHECK(n > 5 && file.numbers("residual_pixel_y", "pixel_size").at(0) == h);
+    CHECK_RELATIVE(file.values("plastic_work")[1], 500 * h * h * sum(depth), 1e-12);
+    CHECK_CLOSE(sum(x) / n, 0.3, 0.1);
+    CHECK_CLOSE(sum(y) / n, 0.6, 0.1);
+}
+
 // Linear spacing, and a list.
 void levels(const Folder& folder) {
     const std::string path = folder / "levels.nc", surface = "&surface n = 64, L_lambda_l = 2, L_lambda_s = 8 /\n";
@@ -478,6 +493,7 @@ int main() {
     const Folder folder;
     synthetic(folder);
     between_points(folder);
+    pressed_out(folder);
     levels(folder);
     ensemble(folder);
     force_control(folder);

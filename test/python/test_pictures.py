@@ -271,6 +271,8 @@ class Compare(unittest.TestCase):
         z = raw("compared", "separation_sigma")[raw("compared", "compare_step").astype(int) - 1]
         for label, name in (("$N$", "force_error"), ("$A$", "area_error"), ("contacts", "contacts_error")):
             self.assertTrue(np.array_equal(lines[label].get_xdata(), z) and np.allclose(lines[label].get_ydata(), 100 * raw("compared", name)), label)
+        for error, model, elements in (("force_error", "force", "compare_force"), ("area_error", "contact_area", "compare_contact_area"), ("contacts_error", "contacts", "compare_contacts")):
+            self.assertTrue(np.allclose(raw("compared", error), raw("compared", model)[0] / raw("compared", elements) - 1, rtol=1e-9), error)
         self.assertIn("%", axis.get_ylabel())
         self.assertEqual(raw("compared", "compare_step").tolist(), [1, 2])  # levels count from 1
         self.assertTrue(np.array_equal(raw("compared", "compare_separation"), raw("compared", "separation")))

@@ -104,6 +104,7 @@ void comparison() {
         CHECK(compared.contacts[k] == elements.levels[s].contacts);
         CHECK_RELATIVE(compared.force_error[k], record.levels[s].force / compared.force[k] - 1, 1e-12);
         CHECK_RELATIVE(compared.area_error[k], record.levels[s].area / compared.area[k] - 1, 1e-12);
+        CHECK_RELATIVE(compared.contacts_error[k], static_cast<double>(record.levels[s].contacts) / compared.contacts[k] - 1, 1e-12);
         CHECK(std::abs(compared.force_error[k]) < 0.2);  // it is the same surface
     }
     double N = 0;

@@ -106,6 +106,9 @@ void forms() {
     const Form s = detrend(both, Detrend::sphere);
     CHECK_RELATIVE(s.rms, 0.01, 0.01);
     CHECK_RELATIVE(s.radius, 30.0, 0.01);
+    // The rms height left is about the mean, also of what was left as it is.
+    HeightMap steps = make(20, 20, 1, 1, [](double x, double) { return std::lround(x) % 2 == 0 ? 5.25 : 4.75; });
+    CHECK_RELATIVE(detrend(steps, Detrend::none).rms, 0.25, 1e-12);
     // Points on one line fix no plane, and none fix nothing.
     HeightMap line = make(20, 20, 1, 1, [](double x, double y) { return y == 3 ? x : std::nan(""); });
     CHECK_THROWS(detrend(line, Detrend::plane), Error);
@@ -280,6 +283,18 @@ void power() {
     CHECK_RELATIVE(p.sku, 1.5, 1e-12);
     CHECK_RELATIVE(p.sdq, 0.3 * 2 * kPi / std::sqrt(2.0), 0.01);
     CHECK_CLOSE(isotropy_ratio(grooves), 0.0, 1e-9);
+    // One point in four at h, the others at 0: Ssk = (1 - 2p)/sqrt(p (1 - p)), Sku = 1/(p (1 - p)) - 3, p = 1/4.
+    const HeightParameters spots =
+        height_parameters(make(40, 40, 1, 1, [](double x, double) { return std::lround(x) % 4 == 0 ? 0.01 : 0.0; }));
+    CHECK_RELATIVE(spots.ssk, 2 / std::sqrt(3.0), 1e-12);
+    CHECK_RELATIVE(spots.sku, 16.0 / 3 - 3, 1e-12);
+    // A power law that ends within some rings: ks is where the spectrum falls to half of it.
+    MeasuredSpectrum fades;
+    for (int k = 1; k <= 200; ++k) {
+        const double left = k <= 100 ? 1 : k == 101 ? 0.8 : k == 102 ? 0.4 : k == 103 ? 0.05 : 1e-5;
+        fades.wavenumber.push_back(k), fades.psd.push_back(left * std::pow(k, -3.6)), fades.modes.push_back(6.28 * k);
+    }
+    CHECK_CLOSE(fit_self_affine(fades).ks.value, 101.75, 0.05);
     CHECK(isotropy_ratio(map) > 0.95);
     const HeightMap dimples = make(200, 100, 0.01, 0.02, [](double x, double y) { return std::cos(2 * kPi * x) + std::cos(2 * kPi * y); });
     CHECK(isotropy_ratio(dimples) > 0.98);
@@ -310,6 +325,7 @@ void whole() {
     CHECK_THROWS(measure(thin, {Missing::fill, Detrend::plane, 0}), Error);
     const Measured m = measure(map, {Missing::fill, Detrend::plane, 0.02});
     CHECK(m.missing == 2 && m.filled[100 * 256 + 50] == 1);
+    CHECK_RELATIVE(m.missing_share, 2.0 / (256 * 256), 1e-12);
     CHECK_RELATIVE(m.parameters.sq, 0.01, 0.02);
     CHECK_RELATIVE(m.form.slope_x, 0.05, 0.05);
     CHECK(m.as_read.height > m.without_form.height && m.without_form.curvature > m.filtered.curvature);
@@ -324,6 +340,12 @@ void whole() {
     for (double p : m.height_pdf) share += p * m.height_bin;
     CHECK_RELATIVE(share, 1.0, 1e-4);
     CHECK(told(m, "mm").size() >= 5);
+    for (const double sign : {1.0, -1.0}) {  // a dome is a dome on the screen
+        HeightMap ball = make(40, 40, 0.1, 0.1, [&](double x, double y) { return sign * std::sqrt(400 - x * x - y * y); });
+        std::string text;
+        for (const std::string& line : told(measure(ball, {Missing::refuse, Detrend::sphere, 0}), "mm")) text += line;
+        CHECK(text.find(sign > 0 ? "radius 20 mm (dome)" : "radius 20 mm (bowl)") != std::string::npos);
+    }
     HeightMap small = make(3, 3, 1, 1, [](double x, double y) { return x * y * y; });
     CHECK(!measure(small, {}).fit);
 }

@@ -164,6 +164,25 @@ void test_last_realization() {
     CHECK(check_case(c).empty());
 }
 
+// Forces, pressures and levels in geometric steps are positive; separations may be anything.
+void test_positive_levels() {
+    const auto refused = [](std::initializer_list<std::pair<const char*, const char*>> keys) {
+        Case c;
+        for (const auto& [key, value] : keys) set_key(c, key, value);
+        for (const Problem& problem : check_case(c))
+            if (problem.text.find("must be positive") != std::string::npos) return true;
+        return false;
+    };
+    CHECK(!refused({{"indentation%start", "1.0"}, {"indentation%stop", "-1.0"}}));
+    CHECK(refused({{"indentation%control", "'force'"}, {"indentation%start", "1.0"}, {"indentation%stop", "-1.0"}}));
+    CHECK(refused({{"indentation%control", "'force'"}, {"indentation%start", "0.0"}, {"indentation%stop", "1.0"}}));
+    CHECK(refused({{"indentation%control", "'force'"}, {"indentation%levels", "1.0, 0.0"}}));
+    CHECK(!refused({{"indentation%control", "'force'"}, {"indentation%levels", "1.0, 2.0"}}));
+    CHECK(refused({{"indentation%control", "'pressure'"}, {"indentation%levels", "-1.0"}}));
+    CHECK(refused({{"indentation%spacing", "'log'"}, {"indentation%start", "3.0"}, {"indentation%stop", "0.0"}}));
+    CHECK(!refused({{"indentation%spacing", "'log'"}, {"indentation%levels", "1.0, -1.0"}}));
+}
+
 // What each number may be, written out once more: the last values in, the first values out. A key without a row here is one whose
 // bounds nobody has looked at.
 void test_bounds() {
@@ -478,6 +497,7 @@ int main() {
     test_warnings();
     test_bounds();
     test_last_realization();
+    test_positive_levels();
     test_nulls();
     test_round_trip();
     test_set_and_get();
