@@ -254,12 +254,11 @@ Level AsperityContact::settle(const Level& passed) {
     if (!my.passed) return Contact::settle(passed);
     my.passed = false;
     const long products_before = my.products_taken();
-    bool unique = my.one_solution();
+    const bool unique = my.one_solution();
     int iterations = 0;
-    if (!unique) {
+    if (!unique) {  // the one passed again, for which there was no proof, or another beside it
         my.outcome = my.solve_cold();
         iterations = my.outcome.iterations;
-        unique = my.outcome.converged && my.one_solution();
     }
     my.earlier.remember(passed.separation, my.candidates, my.solution.v, unique);
     Level level = my.level(passed.separation, my.outcome, unique);
