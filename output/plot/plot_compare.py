@@ -8,7 +8,7 @@ from plot_style import STYLES, plt
 
 
 def _spots(result, step):
-    """x, y, radius, force, ratio of the axes and angle of the asperities in contact at level `step`; None where the file does not hold them."""
+    """x, y, radius, force, ratio of the axes and angle of the asperities in contact at level `step`, and whether they yield; None where the file does not hold them."""
     if "contact_asperity" not in result or int(result["contact_count"][step]) == 0:
         return None
     at = int(result["contact_start"][step]) - 1 + np.arange(int(result["contact_count"][step]))
@@ -18,19 +18,19 @@ def _spots(result, step):
         ratio = (np.asarray(result["asperity_kappa1"])[asperity] / np.asarray(result["asperity_kappa2"])[asperity]) ** (2 / 3)  # near enough for a picture
         angle = np.asarray(result["asperity_angle"])[asperity]
     return (np.asarray(result["asperity_x"])[asperity], np.asarray(result["asperity_y"])[asperity], np.asarray(result["contact_radius"])[at],
-            np.asarray(result["contact_force"])[at], ratio, angle)
+            np.asarray(result["contact_force"])[at], ratio, angle, np.asarray(result["contact_yields"])[at] if "contact_yields" in result else np.zeros(at.size))
 
 
 def _line(result, spots, y, x0, x1):
-    """Hertz's pressures of the spots along the line at y from x0 to x1."""
+    """Hertz's pressures of the spots along the line at y from x0 to x1; those that yield carry theirs everywhere."""
     x = np.linspace(x0, x1, 2000)
     p = np.zeros_like(x)
-    for sx, sy, a, f, ratio, angle in zip(*spots):
+    for sx, sy, a, f, ratio, angle, yields in zip(*spots):
         major, minor = a * np.sqrt(ratio), a / np.sqrt(ratio)
         u = (x - sx) * np.cos(angle) + (y - sy) * np.sin(angle)
         v = -(x - sx) * np.sin(angle) + (y - sy) * np.cos(angle)
         inside = 1 - (u / major) ** 2 - (v / minor) ** 2
-        p += np.where(inside > 0, 1.5 * f / (np.pi * a * a) * np.sqrt(np.maximum(inside, 0)), 0)
+        p += np.where(inside > 0, f / (np.pi * a * a) * (1 if yields else 1.5 * np.sqrt(np.maximum(inside, 0))), 0)
     return x, p
 
 
@@ -63,6 +63,9 @@ def compare(results, options):
     h = float(np.ravel(result.attribute("compare_pixel_x", "pixel_size"))[0])
     spots = _spots(result, step)
     peak = int(np.argmax(pressure))
+    if spots is not None and np.sum(pressure == pressure[peak]) > 1:  # many at the hardness: in the spot of the largest force
+        strongest = int(np.argmax(spots[3]))
+        peak = int(np.argmin(np.hypot(px - spots[0][strongest], py - spots[1][strongest])))
     half = 60 * h
     x0, x1, y0, y1 = px[peak] - half, px[peak] + half, py[peak] - half, py[peak] + half
     near = (px > x0) & (px < x1) & (py > y0) & (py < y1)
@@ -72,7 +75,7 @@ def compare(results, options):
     image[np.clip(row, 0, 119), np.clip(column, 0, 119)] = 1
     axis.imshow(image, extent=(x0, x1, y0, y1), cmap="Greys", vmin=0, vmax=2, interpolation="nearest")
     if spots is not None:
-        x, y, a, _, ratio, angle = spots
+        x, y, a, _, ratio, angle, _ = spots
         some = (x > x0 - half) & (x < x1 + half) & (y > y0 - half) & (y < y1 + half)
         axis.add_collection(EllipseCollection(2 * (a * np.sqrt(ratio))[some], 2 * (a / np.sqrt(ratio))[some], np.degrees(angle)[some], units="x", offsets=np.c_[x, y][some],
                                               transOffset=axis.transData, facecolors="none", edgecolors="#c1440e", linewidths=0.8))

@@ -281,11 +281,12 @@ class Compare(unittest.TestCase):
     def test_spots(self):
         """Ellipses of the area of the file, long along the axis of the smaller curvature; their pressure along all lines adds up to the force."""
         result = results("compared")[0]
-        x, y, a, f, ratio, angle = plot_compare._spots(result, 1)
+        x, y, a, f, ratio, angle, yields = plot_compare._spots(result, 1)
         which = raw("compared", "contact_asperity")[int(raw("compared", "contact_start")[1]) - 1 :].astype(int) - 1
         self.assertTrue(np.array_equal(x, raw("compared", "asperity_x")[which]) and np.array_equal(angle, raw("compared", "asperity_angle")[which]))
         self.assertTrue(np.all(ratio >= 1) and np.any(ratio > 1.2))
-        one = [[0.0], [0.0], [0.5], [3.0], [1.5], [0.4]]
+        self.assertFalse(np.any(yields))
+        one = [[0.0], [0.0], [0.5], [3.0], [1.5], [0.4], [0]]
         lines = np.linspace(-0.8, 0.8, 401)
         total = 0
         for line in lines:
@@ -294,8 +295,10 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(total / 3.0, 1, delta=2e-3)
         _, middle = plot_compare._line(result, one, 0.0, -0.8, 0.8)
         self.assertAlmostEqual(middle.max() / (1.5 * 3.0 / (np.pi * 0.25)), 1, delta=1e-4)
-        reach = [np.ptp(along[p > 0]) for along, p in (plot_compare._line(result, [[0.0], [0.0], [0.5], [3.0], [1.5], [t]], 0.0, -0.8, 0.8) for t in (0.0, np.pi / 2))]
+        reach = [np.ptp(along[p > 0]) for along, p in (plot_compare._line(result, [[0.0], [0.0], [0.5], [3.0], [1.5], [t], [0]], 0.0, -0.8, 0.8) for t in (0.0, np.pi / 2))]
         self.assertTrue(np.allclose(reach, (2 * 0.5 * np.sqrt(1.5), 2 * 0.5 / np.sqrt(1.5)), atol=2e-3))
+        _, flat = plot_compare._line(result, [*one[:6], [1]], 0.0, -0.8, 0.8)  # it yields: the same pressure everywhere
+        self.assertTrue(np.allclose(flat[flat > 0], 3.0 / (np.pi * 0.25)) and np.array_equal(flat > 0, middle > 0))
 
 
 class Distributions(unittest.TestCase):
