@@ -40,7 +40,7 @@ def nayak(folder, report):
         axis.axhline(value, color="0.5", lw=0.8)
         axis.text(alpha[-1], value, name, ha="right", va="bottom", fontsize=7.5, color="0.35")
     pressure = runs[0].case["indentation%levels"]
-    axis.set(xscale="log", xlabel=r"Nayak's parameter $\alpha = m_0 m_4/m_2^2$", ylabel=r"$\kappa = A\,E^*h'/N$", ylim=(1.4, 2.7), title=f"$p/(E^*h')$ = {pressure}, {runs[0].realizations} surfaces a point")
+    axis.set(xscale="log", xlabel=r"Nayak's parameter $\alpha = m_0 m_4/m_2^2$", ylabel=r"$\kappa = A\,E^*h'/N$", ylim=(1.1, 2.7), title=f"$p/(E^*h')$ = {pressure}, {runs[0].realizations} surfaces a point")
     axis.legend(loc="lower left")
     save(figure, folder, "flat_kappa")
 
@@ -74,15 +74,16 @@ def size(folder, report):
         error = elements["stiffness"].std(axis=0, ddof=1) / np.sqrt(elements.realizations) / elements["force"].mean(axis=0) * sigma
         waves = elements.number("surface%L_lambda_l")
         axis.errorbar(relative, K(elements), yerr=error, fmt=marker, ls=line, ms=4, mfc="none", color=colour, lw=1, elinewidth=0.7, label=rf"$L/\lambda_l$ = {waves:g}, elements")
-        axis.plot(relative, K(asperities), marker, ms=2, color=colour, label="asperities")
+        axis.plot(relative, K(asperities), marker, ms=2, color=colour, label="asperities (filled)" if not rows else None)
         ln_p, ln_K = np.log(relative), np.log(K(elements) * relative)
         found.append((waves, (ln_K[2] - ln_K[0]) / (ln_p[2] - ln_p[0]), np.interp(np.log(0.005), ln_p, K(elements)), relative[2]))
         rows.append((waves, K(elements), K(asperities)))
         H = elements.number("surface%hurst")
     # Beside the smallest surface at the lightest pressure: the exponent of a single contact.
-    axis.plot(relative, rows[0][1][0] * (relative / relative[0]) ** (1 / (1 + H) - 1), ":", color="0.4", lw=1, label=r"$K \sim p^{1/(1+H)}$")
+    axis.plot(relative[:5], rows[0][1][0] * (relative[:5] / relative[0]) ** (1 / (1 + H) - 1), ":", color="0.4", lw=1, label=r"$K \sim p^{1/(1+H)}$")
     axis.axhline(2, color="0.5", lw=0.8)
-    axis.set(xscale="log", yscale="log", xlabel=r"pressure $p/(E^*h')$", ylabel=r"stiffness over pressure $K\sigma/p$", title=f"{elements.realizations} surfaces a point")
+    axis.minorticks_off()
+    axis.set(xscale="log", yscale="log", ylim=(1.5, 10), yticks=[2, 3, 4, 6, 8], yticklabels=["2", "3", "4", "6", "8"], xlabel=r"pressure $p/(E^*h')$", ylabel=r"stiffness over pressure $K\sigma/p$", title=f"{elements.realizations} surfaces a point")
     axis.legend()
     save(figure, folder, "flat_stiffness")
 

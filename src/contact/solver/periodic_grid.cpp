@@ -14,8 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kThreads = 400000;  // pixels from which threads pay
 // The preconditioner's reach, and numbers of a row of its table: those beyond the reach are 0.
 constexpr int kReach = 4, kTaps = 12;
-// A round of conjugate gradients: steps at most, where all goes well and where it does not, and the reduction of the preconditioned residual that ends it sooner.
-constexpr int kSteps = 8, kLeast = 2;
+// A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
+constexpr int kSteps = 8;
 constexpr double kReduction = 0.05;
 // Rounds from which the energy is watched in all: those that settle do so in some ten.
 constexpr int kQuick = 15;
@@ -305,13 +305,18 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
                     image_[k] = free_[k] ? unit_ * static_cast<double>(row[set_.column[k]]) : 0.0;
             });
     };
+    // A single step is one along the gradient itself: cut off at the bounds it still leads down.
+    const bool plain = most_steps == 1;
     std::vector<double> ones(n, 1.0);
     one_.resize(n);
-    precondition(ones, one_);
+    if (plain)
+        for (std::size_t k = 0; k < n; ++k) one_[k] = free_[k] ? 1 : 0;
+    else
+        precondition(ones, one_);
     const double whole = total(one_);
     // Where the sum may change, pressures like those of a punch are cheap, the more so the fuller the contact: they are a step of their own.
     double punch = 0;
-    if (!keep_sum) {
+    if (!keep_sum && !plain) {
         d_ = one_;
         product();
         const double energy = sum_of(d_, image_);
@@ -320,7 +325,10 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
     }
     double first = 0, last = 0;
     for (int step = 0;; ++step) {
-        precondition(r_, y_);
+        if (plain)
+            y_ = r_;
+        else
+            precondition(r_, y_);
         const double c = keep_sum ? -total(y_) / whole : punch * sum_of(one_, r_);
         for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
         const double ry = sum_of(r_, y_);
@@ -401,7 +409,7 @@ ElementsOutcome PeriodicGrid::solve(Given given, double tolerance, int most_iter
         // Where the error grows, and in later rounds always, the energy is asked, and a round that raised it taken back to its best place; shorter ones follow.
         if ((outcome.residual > last || outcome.iterations > kQuick) && !before_p_.empty() && !fell()) {
             measure();
-            steps = std::max(steps / 2, kLeast);
+            steps = std::max(steps / 2, 1);
         } else {
             steps = std::min(steps + 1, kSteps);
         }
