@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/solver/periodic_grid.hpp"
 #include "error.hpp"
@@ -119,7 +120,10 @@ ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most
     return my.solve({false, (Z0 - my.zero) / my.rms}, tolerance, most_iterations);
 }
 
-double PeriodicElements::closed() const { return impl_->mean + kRounding * impl_->rms; }
+double PeriodicElements::closed() const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return impl_->highest < infinity ? -infinity : impl_->mean + kRounding * impl_->rms;
+}
 
 double PeriodicElements::closing_pressure() { return 0 - impl_->grid->least_inverse() * impl_->pressure_unit(); }
 

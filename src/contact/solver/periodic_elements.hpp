@@ -35,7 +35,8 @@ public:
     ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
     ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
 
-    // The separation at which nothing is left of the gap: the mean height, to rounding.
+    // The separation at which nothing is left of the gap: the mean height, to rounding. With a highest pressure there is none: what
+    // carries no more goes on penetrating.
     double closed() const;
 
     // Heights were changed, as accepting a solution does that lowers pixels at the highest pressure by their penetration: the last
