@@ -25,6 +25,9 @@ constexpr double kSecondsPerNearPair = 2.3e-9;
 constexpr double kSecondsPerMeshPoint = 11e-9;
 double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
 
+// Far fields kept for later points take no more memory than this.
+constexpr std::size_t kKeptBytes = std::size_t{100} << 20;
+
 // The doubled mesh takes 16 bytes of memory per point at most; beyond this the near field does the rest.
 constexpr double kMeshPointsAtMost = 5e7;
 
@@ -264,9 +267,18 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
     const double cutoff = design->cutoff * choice.spacing;
     kernel = near_kernel(*design, cutoff * scale);
     window = mesh_window(*design);
-    if (kept) far = (*kept)[{design, choice.spacing}];
-    if (!far) far = std::make_shared<FarField>(*design, *lattice, choice.spacing, cutoff);
-    if (kept) (*kept)[{design, choice.spacing}] = far;
+    const std::pair<const MeshDesign*, double> key{design, choice.spacing};
+    if (kept && kept->contains(key)) {
+        far = kept->at(key);
+    } else {
+        far = std::make_shared<FarField>(*design, *lattice, choice.spacing, cutoff);
+        if (kept) {
+            std::size_t held = far->bytes();
+            for (const auto& [other, field] : *kept) held += field->bytes();
+            if (held > kKeptBytes) kept->clear();
+            kept->emplace(key, far);
+        }
+    }
     make_strips(inside_x.data(), inside_y.data(), 0, 0, period.y);
 }
 

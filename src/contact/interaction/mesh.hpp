@@ -31,7 +31,7 @@ public:
     // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
     // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
     // With a lattice (it is copied) everything repeats: Gamma - Gamma's least value takes the place of 1/d, and a point acts on itself.
-    // `kept`: far fields made before with this lattice; what is missing is added.
+    // `kept`: far fields made before with this lattice; what is missing is added, and all give way once they take much memory.
     MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice = nullptr,
                   FarFields* kept = nullptr);
     ~MeshPotential();
