@@ -158,9 +158,11 @@ contains
 
   ! The routines of rsc77: the map of heights() again, pressed, and the surface beside its summit.
   subroutine fortran_77()
-    external :: rscsur, rscfnd, rscxyz, rsccon, rscind, rscdfl, rscdel
-    integer :: surface, found, contact, error, i, j
-    real(dp) :: z(7, 5), x(1), y(1), height(1), radius(1), force, w(2)
+    external :: rscsur, rscfnd, rscxyz, rscasp, rsccon, rscind, rscdfl, rscdel, rsclev, rsctip, rsctch
+    type(rsc_asperities) :: three
+    type(rsc_contact) :: of_three
+    integer :: surface, found, contact, error, i, j, status, candidates, iterations, overlapping, n(3)
+    real(dp) :: z(7, 5), x(1), y(1), height(1), radius(1), force, w(2), residual, touch
     do j = 1, 5
       do i = 1, 7
         z(i, j) = -0.5_dp * (3.0_dp * (0.5_dp * (i - 5))**2 + 1.0_dp * (0.25_dp * (j - 2))**2)
@@ -179,6 +181,21 @@ contains
     call rscind(contact, -0.01_dp, force, error)
     call rscdfl(contact, 2, [1.0_dp, 3.0_dp], [2.75_dp, 2.25_dp], w, error)
     call check(error == 0 .and. w(1) > 3 * w(2), 'rscdfl: nearer along y')
+    call rsctip(contact, 0.5_dp, 3.0_dp, error)  ! x = 3, y = 0.5 is not above the map
+    call rsctch(contact, touch, error)
+    call check(error == 0 .and. abs(touch + (0.5_dp**2 + 0.75_dp**2) / 10) < 0.01_dp, 'rsctip: beside the summit')
+    ! Three asperities: the numbers are those of the module.
+    call three%take([1.0_dp, 1.01_dp, 1.3_dp], [0.0_dp, 0.0_dp, 0.1_dp], [0.0_dp, 0.0_dp, 0.0_dp], [0.3_dp, 0.3_dp, 0.3_dp])
+    call of_three%create(three, 1e5_dp, 5.0_dp, 1.0_dp, 0.0_dp)
+    call of_three%indent(-0.01_dp)
+    call of_three%level(candidates=n(1), iterations=n(2), overlapping_pairs=n(3))
+    call rscasp(found, 3, [1.0_dp, 1.01_dp, 1.3_dp], [0.0_dp, 0.0_dp, 0.1_dp], [0.0_dp, 0.0_dp, 0.0_dp], &
+                [0.3_dp, 0.3_dp, 0.3_dp], error)
+    call rsccon(contact, found, 1e5_dp, 5.0_dp, 1.0_dp, 0.0_dp, 0, error)
+    call rscind(contact, -0.01_dp, force, error)
+    call rsclev(contact, status, candidates, iterations, overlapping, residual, error)
+    call check(error == 0 .and. all([candidates, iterations, overlapping] == n), 'rsclev')
+    call check(n(2) /= n(3) .and. n(1) /= n(3), 'rsclev: not alike')
     call rscdel(contact, error)
     call rscdel(found, error)
     call rscdel(surface, error)

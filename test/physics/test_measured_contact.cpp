@@ -189,6 +189,11 @@ void twins() {
             inside += !below && !beyond;
         }
         CHECK(inside > 20 && inside < k.size());
+        const SelfAffineFit found = *prepare(measured).measured->fit;
+        for (const auto& [name, value] : {std::pair{"Phi0", found.Phi0}, {"kl", found.kl}, {"ks", found.ks}, {"hurst", found.hurst}}) {
+            CHECK(one(name) == value.value && one((std::string(name) + "_error").c_str()) == value.error);
+            CHECK(value.error > 0);
+        }
     }
     Case twin;
     {

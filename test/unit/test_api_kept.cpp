@@ -61,6 +61,12 @@ void contacts_in_files(const Folder& folder) {
     OK(rsc_contact_result(again, &Z0, &same, nullptr, nullptr));
     OK(rsc_contact_energy(again, &E));
     CHECK(Z0 == 0.0045 && same == N && E == W && N > 0);
+    for (const char* name : {"force", "contact_area", "energy", "lateral_force_x", "lateral_force_y", "moment_x", "moment_y", "contacts"}) {
+        double here = 0, there = 0;
+        OK(rsc_contact_value(contact, name, &here));
+        OK(rsc_contact_value(again, name, &there));
+        CHECK(here == there && here != 0);
+    }
     CHECK(go_on(contact) == go_on(again));
     // Saved after the tip moved: the level is that of the old place.
     OK(rsc_contact_move_tip(contact, 0.45, 0.52));

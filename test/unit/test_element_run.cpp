@@ -102,6 +102,9 @@ void comparison() {
         const auto s = static_cast<std::size_t>(compared.step[k]);
         CHECK_RELATIVE(compared.force[k], elements.levels[s].force, 1e-5);
         CHECK(compared.contacts[k] == elements.levels[s].contacts);
+        CHECK_RELATIVE(compared.area[k], elements.levels[s].area, 1e-3);  // a pixel more or less
+        CHECK_RELATIVE(compared.area_pixels[k], elements.levels[s].area_pixels, 1e-3);
+        CHECK(compared.area_pixels[k] > 1.01 * compared.area[k]);
         CHECK_RELATIVE(compared.force_error[k], record.levels[s].force / compared.force[k] - 1, 1e-12);
         CHECK_RELATIVE(compared.area_error[k], record.levels[s].area / compared.area[k] - 1, 1e-12);
         CHECK_RELATIVE(compared.contacts_error[k], static_cast<double>(record.levels[s].contacts) / compared.contacts[k] - 1, 1e-12);

@@ -283,6 +283,11 @@ void power() {
     CHECK_RELATIVE(p.sku, 1.5, 1e-12);
     CHECK_RELATIVE(p.sdq, 0.3 * 2 * kPi / std::sqrt(2.0), 0.01);
     CHECK_CLOSE(isotropy_ratio(grooves), 0.0, 1e-9);
+    // Rings go from one wave in the longer side to the Nyquist wavenumber of the wider steps.
+    const MeasuredSpectrum oblong =
+        measure_spectrum(make(64, 64, 0.1, 0.2, [](double x, double y) { return std::cos(3 * x) + std::sin(2 * y); }));
+    CHECK_RELATIVE(oblong.wavenumber.front(), 2 * kPi / 12.8, 1e-12);
+    CHECK_RELATIVE(oblong.wavenumber.back(), kPi / 0.2, 1e-12);
     // One point in four at h, the others at 0: Ssk = (1 - 2p)/sqrt(p (1 - p)), Sku = 1/(p (1 - p)) - 3, p = 1/4.
     const HeightParameters spots =
         height_parameters(make(40, 40, 1, 1, [](double x, double) { return std::lround(x) % 4 == 0 ? 0.01 : 0.0; }));

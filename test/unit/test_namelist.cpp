@@ -162,6 +162,13 @@ void test_last_realization() {
     CHECK(problems.size() == 1 && problems[0].text.find("beyond 2147483647") != std::string::npos);
     set_key(c, "run%first_realization", "2147483646");
     CHECK(check_case(c).empty());
+    // No more than 1e9 values of a curve.
+    Case many;
+    set_key(many, "run%realizations", "10000000");
+    set_key(many, "indentation%steps", "100");
+    CHECK(check_case(many).empty());
+    set_key(many, "indentation%steps", "101");
+    CHECK(check_case(many).size() == 1 && check_case(many)[0].text.find("values of each curve") != std::string::npos);
 }
 
 // Forces, pressures and levels in geometric steps are positive; separations may be anything.

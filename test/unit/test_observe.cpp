@@ -201,6 +201,19 @@ ObserveOptions sample_options() {
     return options;
 }
 
+// Pixels that are no squares carry p dx dy each, and share the area of their contact.
+void test_pixels_on_a_map() {
+    Level level;
+    level.pixels = {4, 0.05, 0.1, 0.1, 0.2, {0, 1, 4, 15}, {0, 0, 0, 1}, {1, 2, 3, 4}};
+    level.add_contact(0, 0.1, 0.15, 6 * 0.02, 0.13, 0), level.add_contact(15, 0.35, 0.7, 4 * 0.02, 0.08, 0);
+    const MapLevel map = map_level(make_map_grid(0, 0, 0.8, 0.8, 2), level);
+    CHECK((map.cell == std::vector<std::int32_t>{0, 2}));
+    CHECK_RELATIVE(map.force[0], 6 * 0.02, 1e-14);
+    CHECK_RELATIVE(map.force[1], 4 * 0.02, 1e-14);
+    CHECK_RELATIVE(map.area[0], pi * 0.13 * 0.13, 1e-14);
+    CHECK_RELATIVE(map.area[1], pi * 0.08 * 0.08, 1e-14);
+}
+
 void test_maps_conserve() {
     const ObserveOptions options = sample_options();
     Sample s = random_sample(7, 4);
@@ -466,6 +479,7 @@ int main() {
     test_regimes();
     test_grid();
     test_radial();
+    test_pixels_on_a_map();
     test_maps_conserve();
     test_histograms();
     test_scale_fits();
