@@ -51,6 +51,10 @@ struct AsperityContact::Impl {
     Method method = Method::direct;
     NewtonOutcome outcome;  // of pass() and settle()
     bool passed = false;    // the solution is one of pass(), not settled
+    struct {
+        double separation = 0;
+        bool unique = true;  // proved to be the only one
+    } solved;                // what solve() gave last
 
     EarlierLevels earlier;
     std::unique_ptr<Products> direct, mesh;  // mesh: made when first wanted
@@ -81,6 +85,9 @@ struct AsperityContact::Impl {
     void use(Method how);
     void select(double Z0);  // candidates and method
     NewtonOutcome solve_from(const Vector& start, bool rough_start);
+    // A law that remembers its path goes on from the accepted levels, on the branch they are on; all others, where several solutions
+    // exist, by the rule of solve_cold().
+    bool follows() const { return law->path_dependent(); }
     // The rule that defines the answer: from the no-interaction start, downhill to a minimum.
     NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
@@ -191,13 +198,14 @@ Level AsperityContact::solve(double Z0) {
     my.select(Z0);
     if (my.candidates.size() == 0) {
         my.solution.clear();
-        my.earlier.remember(Z0, my.candidates, my.solution.v, true);
+        my.solved = {Z0, true};
+        if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, true);
         return my.report(Z0);
     }
     const long products_before = my.products_taken();
     NewtonOutcome outcome;
     int iterations = 0;
-    bool unique = false;
+    bool unique = false, followed = false;
     const bool dense = my.method == Method::dgesv;
     Fallback fallback = Fallback::none;
     if (dense) {
@@ -207,22 +215,22 @@ Level AsperityContact::solve(double Z0) {
         unique = outcome.converged && my.one_solution();
         my.products->set_points(my.candidates.size(), my.candidates.set.x.data(), my.candidates.set.y.data());
         my.newton.take(my.candidates.set, my.solution.v);
-    } else {
-        Vector start;
-        if (my.earlier.unique() && my.earlier.predict(Z0, my.candidates, start)) {
-            outcome = my.solve_from(start, false);
-            iterations = outcome.iterations;
-            unique = outcome.converged && my.one_solution();
-        }
     }
     const bool by_dgesv = dense && unique;
-    if (!unique) {
+    if (Vector start; !unique && (my.follows() || (!dense && my.earlier.unique())) && my.earlier.predict(Z0, my.candidates, start)) {
+        outcome = my.solve_from(start, false);
+        iterations += outcome.iterations;
+        unique = outcome.converged && my.one_solution();
+        followed = my.follows() && outcome.converged;
+    }
+    if (!unique && !followed) {
         outcome = my.solve_cold();
         iterations += outcome.iterations;
         unique = outcome.converged && my.one_solution();
-        if (dense && fallback == Fallback::none) fallback = Fallback::not_unique;
     }
-    my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
+    if (dense && !by_dgesv && fallback == Fallback::none) fallback = Fallback::not_unique;
+    my.solved = {Z0, unique};
+    if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
     Level level = my.level(Z0, outcome, unique);
     level.iterations = iterations;
     level.products = by_dgesv ? iterations : my.products_taken() - products_before;
@@ -235,7 +243,8 @@ Level AsperityContact::pass(double Z0) {
     Impl& my = *impl_;
     my.select(Z0);
     Vector start;
-    if (my.candidates.size() == 0 || my.method == Method::dgesv || !my.earlier.predict(Z0, my.candidates, start)) return solve(Z0);
+    if (my.follows() || my.candidates.size() == 0 || my.method == Method::dgesv || !my.earlier.predict(Z0, my.candidates, start))
+        return solve(Z0);
     const long products_before = my.products_taken();
     my.outcome = my.solve_from(start, false);
     if (!my.outcome.converged) return solve(Z0);
@@ -271,6 +280,7 @@ void AsperityContact::accept(Level& level) {
     Impl& my = *impl_;
     if (!my.law->path_dependent()) return;
     level.plastic_work = my.law->work_lost();
+    my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
     if (my.solution.v.empty()) return;
     const WorkingSet& set = my.candidates.set;
     my.law->commit(set.size(), set.asperity.data(), my.solution.v.data());

@@ -31,8 +31,8 @@ public:
 
 protected:
     void forget_levels() override;
-    // The answer depends on Z0 alone, unless the law remembers its path: earlier levels are used as a start where the solution is
-    // proved unique, and not otherwise.
+    // The answer depends on Z0 alone: earlier levels are used as a start where the solution is proved unique, and not otherwise. Where the
+    // law remembers its path, the answer is the one to which the accepted levels lead.
     Level solve(double Z0) override;
     Level pass(double Z0) override;
     Level settle(const Level& passed) override;
