@@ -95,7 +95,7 @@ struct Case {
         int map_cells = 50, radial_bins = 50;
         std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
         int pdf_bins = 60;
-        int compression = 1;
+        int compression = 4;
     } output;
 
     static constexpr double kInfinity = __builtin_huge_val();

@@ -48,6 +48,7 @@ Level Contact::solve_between_planes(double Z0) {
         z = at + (Z0 - at - c * force) / (1 + c * rise);
         if (!(z < above) || !(1 + c * rise > 0)) z = above;
     }
+    const double begin = z;
     Level level;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
@@ -67,17 +68,24 @@ Level Contact::solve_between_planes(double Z0) {
         return std::abs(miss) <= rounding || (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
     };
     constexpr int most = 60;
-    int passes = kPasses;
-    for (int i = 0;; ++i) {
-        bool answer = passes == 0 || i >= most / 2;
-        level = counted(answer ? solve(z) : pass(z));
+    int passes = kPasses, i = 0;
+    const auto answers_alone = [&] {  // from where it all began
+        passes = 0, i = -1;
+        above = Z0, below = -kInfinity;
+        z = begin;
+    };
+    for (;; ++i) {
+        const bool passing = passes > 0;
+        level = counted(passing ? pass(z) : solve(z));
         bool found = done();
-        if (found && !answer) {
-            answer = true;
+        if (found && passing) {
             level = counted(settle(level));
             found = done();
             if (!found) {  // another solution than those passed: on from this one
-                --passes;
+                if (--passes == 0) {
+                    answers_alone();
+                    continue;
+                }
                 above = Z0, below = -kInfinity;
             }
         }
@@ -86,9 +94,8 @@ Level Contact::solve_between_planes(double Z0) {
         double next = steep > 0 ? z - miss / steep : -kInfinity;
         if (!(next < above) || !(next > below)) next = std::isfinite(below) ? 0.5 * (above + below) : z - 2 * (std::abs(miss) + (Z0 - z));
         if (i == most || next == z || !std::isfinite(next)) {
-            if (!answer) {  // so it is for what was passed; now for the answers
-                passes = 0;
-                above = Z0, below = -kInfinity;
+            if (passing) {  // so it is for what was passed; now for the answers
+                answers_alone();
                 continue;
             }
             level.status = LevelStatus::not_converged;
@@ -125,6 +132,7 @@ Level Contact::at_force(double N) {
         }
     }
     if (!(Z0 > below)) Z0 = 0.5 * (above + below);
+    const double begin = Z0, first_depth = depth;
     Level level;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
@@ -135,15 +143,22 @@ Level Contact::at_force(double N) {
     };
     const auto done = [&] { return std::abs(level.force / N - 1) <= tolerance() || level.status == LevelStatus::not_converged; };
     constexpr int most = 200;
-    int passes = kPasses;
-    for (int i = 0; i < most; ++i) {
-        bool answer = passes == 0 || i >= most / 2;
-        level = counted(answer ? solve(Z0) : pass(Z0));
-        if (!answer && done()) {
-            answer = true;
+    int passes = kPasses, i = 0;
+    const auto answers_alone = [&] {  // from where it all began
+        passes = 0, i = -1;
+        above = first_touch(), below = closed();
+        Z0 = begin, depth = first_depth;
+    };
+    for (; i < most; ++i) {
+        const bool passing = passes > 0;
+        level = counted(passing ? pass(Z0) : solve(Z0));
+        if (passing && done()) {
             level = counted(settle(level));
             if (!done()) {  // another solution than those passed: on from this one
-                --passes;
+                if (--passes == 0) {
+                    answers_alone();
+                    continue;
+                }
                 above = first_touch(), below = closed();
             }
         }
@@ -158,9 +173,8 @@ Level Contact::at_force(double N) {
         }
         if (!(next < above) || !(next > below)) next = std::isinf(below) ? above - depth : 0.5 * (above + below);
         if (next == Z0 || next >= above || next <= below) {
-            if (!answer) {  // so it is for what was passed; now for the answers
-                passes = 0;
-                above = first_touch(), below = closed();
+            if (passing) {  // so it is for what was passed; now for the answers
+                answers_alone();
                 continue;
             }
             // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
@@ -170,7 +184,12 @@ Level Contact::at_force(double N) {
             break;
         }
         Z0 = next;
-        if (i + 1 == most) level.status = LevelStatus::not_converged;
+        if (i + 1 == most) {
+            if (passing)
+                answers_alone();
+            else
+                level.status = LevelStatus::not_converged;
+        }
     }
     if (shift() > 0) {
         last_ = {level.separation, level.force, slope()};

@@ -294,7 +294,7 @@ contains
     radial_bins = 50
     pdf_levels = unset
     pdf_bins = 60
-    compression = 1
+    compression = 4
     read (unit_in, nml=output, iostat=ios)
     call status('output', ios)
     call put_text('output%file', file)

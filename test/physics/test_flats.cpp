@@ -200,6 +200,16 @@ void rectangular_maps() {
 }
 
 // At h = 0: F_1 = 1/sqrt(2 pi), F_{3/2} = 2^(-1/4) Gamma(5/4)/sqrt(pi).
+// Crowded asperities, a fifth of the area in contact, several solutions at the deep levels, whose separations trials reach by another
+// branch than the answers: all are found.
+void crowded() {
+    const Folder folder;
+    const std::string text = kFlat +
+                             "&surface n=256 L_lambda_l=8 L_lambda_s=64 sigma=0.01 / &asperities law='fourth_order' / "
+                             "&run first_realization=4 / &indentation boundary='periodic' start=4.5 stop=0.6 steps=40 /";
+    run_one(text, folder / "deep.nc");
+}
+
 void greenwood_williamson() {
     const FlatSummits s{40, 0.02, 0.003};
     const double sum = std::pow(2.0, -0.25) * std::tgamma(1.25) / std::sqrt(std::numbers::pi);
@@ -216,5 +226,6 @@ int main() {
     by_elements();
     rectangular_maps();
     greenwood_williamson();
+    crowded();
     return check::summary();
 }
