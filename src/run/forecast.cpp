@@ -55,6 +55,24 @@ double level_seconds(const Job& job, double candidates) {
     return 1e-4 + 3e-6 * candidates + solve;
 }
 
+// The part of the domain where a Gaussian surface is higher than the sphere at Z0.
+double area_under(const Job& job, double Z0) {
+    const double everywhere = job.site.domain.Lx * job.site.domain.Ly * mean_excess(Z0, job.sigma, 0);
+    if (std::isinf(job.indenter.R)) return everywhere;
+    return std::min(everywhere, 2 * 3.14159265358979 * job.indenter.R * mean_excess(Z0, job.sigma, 1));
+}
+
+// A level by elements: so much for each point under the sphere, or, between flats that repeat, for each of the period.
+double element_level_seconds(const Job& job, double Z0) {
+    double points = 0;
+    if (job.given_heights)
+        points = static_cast<double>(job.given_heights->nx) * job.given_heights->ny;
+    else if (job.spectrum)
+        points = std::pow(element_points(job.settings, *job.spectrum), 2);
+    if (job.indenter.period.finite()) return 1e-6 * points;
+    return 5e-6 * points * area_under(job, Z0) / (job.site.domain.Lx * job.site.domain.Ly);
+}
+
 // Seconds for a surface, its summits included.
 double surface_seconds(const Case& settings) {
     using Clock = std::chrono::steady_clock;
@@ -84,22 +102,18 @@ double expected_candidates(const Job& job, double Z0) {
         for (std::size_t i = 0; i < a.size(); ++i) count += height_under_sphere(job.indenter, a.x[i], a.y[i], a.z[i]) > Z0 ? 1 : 0;
         return count;
     }
-    const double density = 1 / (job.site.mean_spacing * job.site.mean_spacing);
-    const double everywhere = density * job.site.domain.Lx * job.site.domain.Ly * mean_excess(Z0, job.sigma, 0);
-    if (std::isinf(job.indenter.R)) return everywhere;
-    return std::min(everywhere, density * 2 * 3.14159265358979 * job.indenter.R * mean_excess(Z0, job.sigma, 1));
+    return area_under(job, Z0) / (job.site.mean_spacing * job.site.mean_spacing);
 }
 
 double expected_seconds(const Job& job, double workers) {
     const bool force = job.settings.indentation.control != Control::separation;
+    const bool elements = job.settings.solver.model == Model::elements;
     double one = job.given ? 0 : surface_seconds(job.settings);
     for (const double level : job.levels) {
-        if (!force)
-            one += level_seconds(job, expected_candidates(job, level));
-        else if (job.given)
-            one += 6 * level_seconds(job, expected_candidates(job, 0.0));  // some six separations a level
-        else
-            one += 6 * level_seconds(job, expected_candidates(job, separation_at(job, level)));
+        const double Z0 = !force ? level : job.given ? 0.0 : separation_at(job, level);
+        const double once = elements ? element_level_seconds(job, Z0) : level_seconds(job, expected_candidates(job, Z0));
+        const bool at_once = !force || (elements && job.indenter.period.finite());
+        one += at_once ? once : 6 * once;  // some six separations for a force
     }
     const double realizations = job.settings.run.realizations;
     return one * std::ceil(realizations / std::max(1.0, std::min(workers, realizations)));
