@@ -185,7 +185,8 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
     // Parseval: the squares of the modes sum up to nx ny times those of the windowed heights.
     const double scale = 1 / (static_cast<double>(nx) * ny * squares * step_x * step_y);
     MeasuredSpectrum s;
-    // (sum w^2)^2/(n sum w^4) of a Hann window is 0.514 in each direction.
+    // (sum w^2)^2/(n sum w^4) of a Hann window is 0.514 in each direction. Of the modes in a ring one mode wide 0.27 are independent, twice
+    // what is taken here: with this share the hurst of 100 known spectra came out nearer, as it also makes up for the window's blur.
     constexpr double kHann = 0.514;
     s.independent = map.periodic ? 0.5 : 0.5 * kHann * kHann;
     s.coupled = map.periodic ? 1 : 1 / kHann;
