@@ -14,6 +14,7 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
+#include "archive.hpp"
 #include "version.h"
 
 namespace rsc::api {
@@ -30,49 +31,13 @@ constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;
 
 std::uint64_t digest(const Asperities& a) {
     std::uint64_t hash = kHash;
-    for (const auto* column : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic}) {
-        const std::uint64_t n = column->size();
-        hash = mix(mix(hash, &n, sizeof n), column->data(), column->size() * sizeof(double));
+    for (const AsperityColumn& column : kAsperityColumns) {
+        const auto& values = a.*column.values;
+        const std::uint64_t n = values.size();
+        hash = mix(mix(hash, &n, sizeof n), values.data(), values.size() * sizeof(double));
     }
     return hash;
 }
-
-struct Writer {
-    std::string bytes;
-    template <class T>
-    void operator()(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-    template <class T>
-    void operator()(const std::vector<T>& values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        (*this)(static_cast<std::uint64_t>(values.size()));
-        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-    }
-};
-
-struct Reader {
-    std::string bytes;
-    std::size_t at = 0;
-    void take(void* to, std::size_t n) {
-        if (n > bytes.size() - at) throw Error(Failure::bad_input, "the file is damaged");
-        if (n > 0) std::memcpy(to, bytes.data() + at, n);
-        at += n;
-    }
-    template <class T>
-    void operator()(T& value) {
-        take(&value, sizeof value);
-    }
-    template <class T>
-    void operator()(std::vector<T>& values) {
-        std::uint64_t n = 0;
-        (*this)(n);
-        if (n > bytes.size() / sizeof(T)) throw Error(Failure::bad_input, "the file is damaged");
-        values.resize(static_cast<std::size_t>(n));
-        take(values.data(), values.size() * sizeof(T));
-    }
-};
 
 std::string first_line(const char* what) { return std::string("rsc ") + what + " " RSC_VERSION "\n"; }
 
@@ -90,7 +55,8 @@ void write(const std::string& path, const char* what, const std::string& bytes) 
     }
 }
 
-Reader read(const std::string& path, const char* what) {
+// The values in it.
+std::string read(const std::string& path, const char* what) {
     std::ifstream in(path, std::ios::binary);
     if (!in) throw Error(Failure::bad_input, "cannot read '" + path + "'");
     std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -99,10 +65,12 @@ Reader read(const std::string& path, const char* what) {
     if (!all.starts_with(head) || all.size() < head.size() + sizeof hash)
         throw Error(Failure::bad_input, "'" + path + "' is not " + what + " kept by rsc " RSC_VERSION);
     std::memcpy(&hash, all.data() + head.size(), sizeof hash);
-    Reader reader{all.substr(head.size() + sizeof hash)};
-    if (mix(kHash, reader.bytes.data(), reader.bytes.size()) != hash) throw Error(Failure::bad_input, "'" + path + "' is damaged");
-    return reader;
+    all.erase(0, head.size() + sizeof hash);
+    if (mix(kHash, all.data(), all.size()) != hash) throw Error(Failure::bad_input, "'" + path + "' is damaged");
+    return all;
 }
+
+ArchiveReader reader_of(const std::string& bytes) { return {bytes, Failure::bad_input, "the file is damaged"}; }
 
 void require_path(const char* path, int argument) {
     require(path, argument, "path");
@@ -128,7 +96,7 @@ void visit_known(Archive& archive, Handle& contact) {
 }
 
 // What makes a contact of the same asperities.
-void put_making(Writer& writer, const rsc_contact& contact) {
+void put_making(ArchiveWriter& writer, const rsc_contact& contact) {
     writer(digest(contact.on->asperities));
     writer(contact.contact.indenter());
     writer(contact.options);
@@ -150,7 +118,7 @@ struct Making {
 void require_keepable(const rsc_contact& contact) {
     if (contact.on->points) refuse(1, "contact", "must be one of asperities: a contact of elements cannot be kept");
 }
-Making get_making(Reader& reader, const rsc_asperities& asperities) {
+Making get_making(ArchiveReader& reader, const rsc_asperities& asperities) {
     std::uint64_t hash = 0;
     Making making;
     reader(hash);
@@ -201,6 +169,8 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
 }  // namespace
 }  // namespace rsc::api
 
+using rsc::ArchiveReader;
+using rsc::ArchiveWriter;
 using namespace rsc::api;
 
 extern "C" {
@@ -221,7 +191,7 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
         require_path(path, 2);
         require_keepable(*contact);
         if (contact->contact.path_dependent()) refuse(1, "contact", "must be elastic: a contact that remembers its path cannot be kept");
-        Writer writer;
+        ArchiveWriter writer;
         put_making(writer, *contact);
         writer(contact->level.has_value());
         if (contact->level) {
@@ -239,7 +209,8 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
         construct(contact, "contact", [&] {
             require(asperities, 2, "asperities");
             require_path(path, 3);
-            Reader reader = read(path, "a contact");
+            const std::string bytes = read(path, "a contact");
+            ArchiveReader reader = reader_of(bytes);
             const Making making = get_making(reader, *asperities);
             auto made = making.contact(*asperities);
             bool has_level = false;
@@ -261,7 +232,7 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
         require(friction, 1, "friction");
         require_path(path, 2);
         require_keepable(friction->outer);
-        Writer writer;
+        ArchiveWriter writer;
         put_making(writer, friction->outer);
         writer(friction->history.friction());
         visit_state(writer, friction->history.state());
@@ -278,7 +249,8 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         construct(friction, "friction", [&] {
             require(asperities, 2, "asperities");
             require_path(path, 3);
-            Reader reader = read(path, "a contact with friction");
+            const std::string bytes = read(path, "a contact with friction");
+            ArchiveReader reader = reader_of(bytes);
             const Making making = get_making(reader, *asperities);
             rsc::Friction with;
             rsc::FrictionHistory::State now, committed;

@@ -1,65 +1,16 @@
 #include "run/campaign_archive.hpp"
 
-#include <cstring>
 #include <type_traits>
 #include <vector>
 
-#include "error.hpp"
+#include "archive.hpp"
 
 namespace rsc {
 namespace {
 
-class Writer {
-public:
-    static constexpr bool writing = true;
-    template <class T>
-    void operator()(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-    template <class T>
-    void operator()(const std::vector<T>& values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        (*this)(static_cast<std::uint64_t>(values.size()));
-        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-    }
-    std::string bytes;
-};
-
-class Reader {
-public:
-    static constexpr bool writing = false;
-    explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-    template <class T>
-    void operator()(T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::memcpy(&value, take(sizeof value), sizeof value);
-    }
-    template <class T>
-    void operator()(std::vector<T>& values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::uint64_t size = 0;
-        (*this)(size);
-        if (size > bytes_.size() / sizeof(T)) broken();
-        values.resize(static_cast<std::size_t>(size));
-        const std::size_t length = values.size() * sizeof(T);
-        const char* from = take(length);
-        if (length > 0) std::memcpy(values.data(), from, length);
-    }
-    void end() const {
-        if (!bytes_.empty()) broken();
-    }
-
-private:
-    [[noreturn]] static void broken() { throw Error(Failure::internal, "a record of a realization has not the length it should have"); }
-    const char* take(std::size_t n) {
-        if (n > bytes_.size()) broken();
-        const char* p = bytes_.data();
-        bytes_.remove_prefix(n);
-        return p;
-    }
-    std::string_view bytes_;
-};
+ArchiveReader reader_of(std::string_view bytes) {
+    return {bytes, Failure::internal, "a record of a realization has not the length it should have"};
+}
 
 // One function a type for both directions: what is written is what is read.
 template <class Archive, class T>
@@ -122,30 +73,30 @@ void transfer(Archive& a, In<Archive, Accumulators>& s) {
 }  // namespace
 
 std::string to_bytes(const RealizationRecord& record) {
-    Writer writer;
-    transfer<Writer>(writer, record);
+    ArchiveWriter writer;
+    transfer<ArchiveWriter>(writer, record);
     return std::move(writer.bytes);
 }
 
 std::string to_bytes(const Accumulators& sums) {
-    Writer writer;
+    ArchiveWriter writer;
     writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() + 65536);
-    transfer<Writer>(writer, sums);
+    transfer<ArchiveWriter>(writer, sums);
     return std::move(writer.bytes);
 }
 
 RealizationRecord record_from_bytes(std::string_view bytes) {
     RealizationRecord record;
-    Reader reader(bytes);
-    transfer<Reader>(reader, record);
+    ArchiveReader reader = reader_of(bytes);
+    transfer<ArchiveReader>(reader, record);
     reader.end();
     return record;
 }
 
 void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
     Accumulators read(sums.options, sums.steps);
-    Reader reader(bytes);
-    transfer<Reader>(reader, read);
+    ArchiveReader reader = reader_of(bytes);
+    transfer<ArchiveReader>(reader, read);
     reader.end();
     if (read.map_area.size() != sums.map_area.size() || read.map_force.size() != sums.map_force.size() ||
         read.distributions.size() != sums.distributions.size() || read.rows.size() != read.realization.size() * sums.steps ||
@@ -156,7 +107,7 @@ void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
 
 std::int64_t realization_of(std::string_view record_bytes) {
     std::int64_t number = 0;
-    Reader reader(record_bytes);
+    ArchiveReader reader = reader_of(record_bytes);
     reader(number);
     return number;
 }
