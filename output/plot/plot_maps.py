@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 
 from plot_curves import chosen_levels
-from plot_results import names
+from plot_results import names, plain
 from plot_style import few, legend, panels, plt, style
 
 # Zero is white: what is not touched is not coloured.
@@ -68,11 +68,6 @@ def maps(results, options):
     what = ("Area fraction and pressure" if len(results) == 1 else "Pressure") + ("; dashed: Hertz contact of the smooth sphere" if any(r.has_sphere() for r, _, _ in shown) else "")
     figure.suptitle(results[0].heading(what) if len(results) == 1 else what, fontsize=8)
     return figure
-
-
-def plain(unit):
-    """' [N]' as ' N', behind a number."""
-    return unit.replace("[", "").replace("]", "")
 
 
 def _map(figure, axis, result, level, name, label):

@@ -27,6 +27,11 @@ def pretty_unit(text):
     return re.sub(r"(?<=[A-Za-z)])(-?\d+)\b", r"$^{\1}$", text)
 
 
+def plain(unit):
+    """' [N]' as ' N', behind a number."""
+    return unit.replace("[", "").replace("]", "")
+
+
 class Result:
     """One result file. result[name] is a variable as an array of doubles; name in result; result.mean(name) over realizations. OSError if there is
     no such file."""

@@ -5,7 +5,7 @@ The functions are of the kind that plot.py knows: (results, options) -> figure o
 
 import numpy as np
 
-from plot_results import names
+from plot_results import names, plain
 from plot_style import few, legend, panels, style
 
 def _loaded(result):
@@ -90,7 +90,7 @@ def loop(results, options):
         axes[0].plot(full * smooth_x, smooth_Q, style(1, 2)[1], color=style(1, 2)[2], label="smooth sphere (Mindlin)")
     axes[0].set(xlabel="displacement" + result.unit("tangential_displacement"), ylabel="tangential force $Q$" + result.unit("tangential_force"))
     legend(axes[0])
-    figure.suptitle(result.heading(f"Friction at {result.level_name(step)}, $N$ = {N:.3g}"), fontsize=8)
+    figure.suptitle(result.heading(f"Friction at {result.level_name(step)}, $N$ = {N:.3g}{plain(result.unit('force'))}"), fontsize=8)
     return figure
 
 
