@@ -1,0 +1,237 @@
+// Every number of every result file: a matrix of cases is run, and each value of each file is worked out here once more from the contacts
+// (or the pixels under pressure) of its levels, from the heights, and from the case. values/checked_file.hpp fails for what was not checked.
+//
+// The levels themselves are the library's; that they are right is what the tests of the contact show. Here, too, spots of the free Hertz
+// cases must balance: each force is that of its own penetration under all the others.
+#include <netcdf.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "case/read_case.hpp"
+#include "check.hpp"
+#include "physics/values/checked_file.hpp"
+#include "physics/values/distributions.hpp"
+#include "physics/values/levels.hpp"
+#include "physics/values/observed.hpp"
+#include "physics/values/single.hpp"
+#include "run/campaign_merge.hpp"
+#include "run/run.hpp"
+#include "unit/temporary_folder.hpp"
+
+using namespace rsc;
+using namespace values;
+
+namespace {
+
+struct Scene {
+    std::string name, text;
+    std::vector<Vector> compare_path = {};
+    const HeightMap* as_read = nullptr;
+};
+
+Case settings_of(const std::string& text, const std::string& output) {
+    const ReadCase read = read_case_text(text, "case.nml");
+    Case c = read.settings;
+    c.output.file = output;
+    return c;
+}
+
+void check_file(const Scene& scene, const std::string& path, const Case& settings, Descriptions& descriptions) {
+    const int before = check::failures;
+    const Truth t(settings);
+    CheckedFile f(scene.name, path, settings.run.length_unit, settings.run.force_unit);
+    header(f, t), levels(f, t), separations(f, t), surfaces(f, t), regimes(f, t), maps(f, t);
+    if (!settings.output.pdf_levels.empty())
+        distributions(f, t);
+    else
+        CHECK(!f.has("pdf_level") && !f.has("bin"));
+    asperities(f, t), contacts(f, t), heights(f, t), friction(f, t), measured(f, t, scene.as_read), compared(f, t, scene.compare_path);
+    f.finish(descriptions);
+    if (check::failures > before) std::printf("%s: %d failures\n", scene.name.c_str(), check::failures - before);
+}
+
+const RunOptions kOptions{.command = "rsc the_case.nml", .inputs = {}};
+
+void run_and_check(const Scene& scene, const Folder& folder, Descriptions& descriptions) {
+    const std::string path = folder / (scene.name + ".nc");
+    const Case settings = settings_of(scene.text, path);
+    CHECK(run_case(settings, kOptions) == 0);
+    check_file(scene, path, settings, descriptions);
+    int format = 0;
+    nc_inq_format(Reader(path).id(), &format);
+    const std::map<Format, int> formats{
+        {Format::netcdf4, NC_FORMAT_NETCDF4_CLASSIC}, {Format::cdf5, NC_FORMAT_CDF5}, {Format::classic, NC_FORMAT_CLASSIC}};
+    CHECK(format == formats.at(settings.output.format));
+}
+
+// The same variables with the same values, bit for bit.
+void same_values(const std::string& a, const std::string& b) {
+    const Reader one(a), other(b);
+    int n = 0, m = 0;
+    nc_inq_nvars(one.id(), &n), nc_inq_nvars(other.id(), &m);
+    CHECK(n == m && n > 50);
+    for (int v = 0; v < n; ++v) {
+        char name[NC_MAX_NAME + 1] = "";
+        nc_inq_varname(one.id(), v, name);
+        if (one.values(name) != other.values(name))
+            std::printf("%s: ", name), check::that(false, "the same in both files", __FILE__, __LINE__);
+    }
+}
+
+// A campaign merged of two, and one that went on after its first half: the campaign of all, whose file is there.
+void put_together(const Scene& scene, const Folder& folder, Descriptions& descriptions) {
+    const std::string merged = folder / (scene.name + "_merged.nc"), resumed = folder / (scene.name + "_resumed.nc");
+    Case whole = settings_of(scene.text, merged);
+    const int half = whole.run.realizations / 2;
+    std::vector<std::string> parts;
+    for (int k = 1; k >= 0; --k) {
+        Case part = whole;
+        part.run.realizations = half, part.run.first_realization += k * half;
+        part.output.file = folder / (scene.name + "_part" + std::to_string(k) + ".nc");
+        parts.push_back(part.output.file);
+        CHECK(run_case(part, kOptions) == 0);
+    }
+    const RunSummary summary = merge_campaigns(parts, merged, kOptions);
+    CHECK(summary.levels == whole.run.realizations * static_cast<long>(whole.indentation.levels.size()) && summary.failed == 0);
+    check_file({scene.name + " merged", ""}, merged, whole, descriptions);
+
+    whole.output.file = resumed;
+    Case first = whole;
+    first.run.realizations = half;
+    CHECK(run_case(first, kOptions) == 0);
+    RunOptions resume = kOptions;
+    resume.resume = true;
+    std::ostringstream messages;
+    resume.messages = &messages;
+    CHECK(run_case(whole, resume) == 0);
+    CHECK(messages.str().find("all realizations are computed") == std::string::npos);
+    check_file({scene.name + " resumed", ""}, resumed, whole, descriptions);
+    for (const std::string& file : {merged, resumed}) same_values(file, folder / (scene.name + ".nc"));
+}
+
+// A map of other steps along x than along y, tilted, bent, away from the origin; some points missing.
+HeightMap measured_map() {
+    HeightMap map;
+    map.allocate(60, 42, 60);
+    map.dx = 0.1, map.dy = 0.07, map.x0 = 2, map.y0 = -1;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            const double x = map.dx * i, y = map.dy * j;
+            double z = 0.0005 * x * x - 0.001 * y * y + 0.0008 * x * y + 0.002 * x - 0.003 * y + 7;
+            for (int k = 1; k < 12; ++k)  // waves of all directions, shorter and lower
+                z += 0.01 / (k + 1) * std::sin(1.9 * (k + 1) * (x * std::cos(2.4 * k * k) + 1.2 * y * std::sin(2.4 * k * k)) + 1.7 * k * k);
+            const bool missing = (i == 20 && j > 10 && j < 14) || (i == 50 && j == 30);
+            map.row(j)[i] = missing ? kNone : z;
+        }
+    return map;
+}
+
+void write_map(const HeightMap& map, const std::string& path) {
+    int id = -1, dims[2] = {}, vx = -1, vy = -1, vz = -1;
+    CHECK(nc_create(path.c_str(), NC_CLOBBER, &id) == NC_NOERR);
+    nc_def_dim(id, "y", at(map.ny), &dims[0]), nc_def_dim(id, "x", at(map.nx), &dims[1]);
+    nc_def_var(id, "y", NC_DOUBLE, 1, &dims[0], &vy), nc_def_var(id, "x", NC_DOUBLE, 1, &dims[1], &vx);
+    nc_def_var(id, "height", NC_DOUBLE, 2, dims, &vz);
+    for (int v : {vx, vy, vz}) nc_put_att_text(id, v, "units", 2, "mm");
+    nc_enddef(id);
+    Vector x, y;
+    for (int i = 0; i < map.nx; ++i) x.push_back(map.x0 + map.dx * i);
+    for (int j = 0; j < map.ny; ++j) y.push_back(map.y0 + map.dy * j);
+    nc_put_var_double(id, vx, x.data()), nc_put_var_double(id, vy, y.data()), nc_put_var_double(id, vz, map.data.get());
+    CHECK(nc_close(id) == NC_NOERR);
+}
+
+std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
+    const std::string micro = "&run length_unit = 'um', force_unit = 'mN', seed = 7 /\n";
+    const std::string bodies = "&solids E = 80, 200  nu = 0.35, 0.3  R = 900, 2500  resistivity = 2.0e-5, 3.0e-5";
+    const std::string flats = "&solids E = 80, 200  nu = 0.35, 0.3  R = Infinity, Infinity  resistivity = 2.0e-5, 3.0e-5";
+    const std::string surface = "&surface n = 128, L = 100, L_lambda_l = 2, L_lambda_s = 16, hurst = 0.7, sigma = 0.5";
+    const std::string rough = "&surface n = 128, L = 100, L_lambda_l = 2, L_lambda_s = 16, hurst = 0.6, plateau = .true., sigma = 1.5";
+    const std::string out = "&output map_cells = 9, radial_bins = 7, pdf_levels = 0.9, 0.25, pdf_bins = 31";
+    const std::string of_map = "&surface source = 'heights', file = '" + folder / "input_map.nc" + "', missing = 'fill', ";
+
+    std::vector<Scene> all;
+    all.push_back({"sphere", "&run length_unit = 'um', force_unit = 'mN', seed = 12345678901, title = 'Of its own' /\n" + bodies +
+                                 ", friction = 0.3 /\n" + surface + " /\n&indentation levels = 9.0, 1.5, 0.8, 0.2, centre = 57, 38 /\n" +
+                                 out + ", heights = .true. /\n&compare levels = 8.5, 0.3, 1.2 /\n"});
+    all.push_back({"rough", micro + bodies + " /\n" + rough + " /\n&indentation start = 2.5, stop = -3.2, steps = 5, centre = 44, 52 /\n" +
+                                "&output map_cells = 8, radial_bins = 5, pdf_levels = -0.5, pdf_bins = 40, contacts = 'last' /\n"});
+    all.push_back(
+        {"paper", micro + bodies + " /\n" + surface + ", normalise = 'ensemble' /\n&asperities curvature = 'algebraic' /\n" +
+                      "&indentation start = 2.5, stop = 0.3, steps = 4, spacing = 'log', selection = 'paper', selection_factor = 0.4 /\n" +
+                      "&solver method = 'dgesv', tolerance = 1e-8 /\n&output format = 'cdf5', contacts = 'none', map_cells = 5 /\n"});
+    all.push_back({"ellipses", micro + bodies + " /\n" + rough + " /\n&asperities law = 'elliptic' /\n" +
+                                   "&indentation levels = 2, 1, centre = 60, 41 /\n&solver method = 'mesh', interaction = 'none' /\n" +
+                                   out + " /\n"});
+    all.push_back({"fourth_order", bodies + " /\n" + rough + " /\n&asperities law = 'fourth_order' /\n&solver method = 'mesh' /\n" +
+                                       "&indentation levels = 1.8, 0.5, -1.2 /\n" + out + ", format = 'classic' /\n"});
+    all.push_back({"force", bodies + " /\n" + surface + " /\n&indentation control = 'force', levels = 200, 900, centre = 57, 38 /\n" + out +
+                                " /\n&compare levels = 1000, 300 /\n"});
+    all.push_back({"elements", micro + bodies + " /\n" + surface + " /\n&solver model = 'elements' /\n" +
+                                   "&indentation levels = 9.0, 1.5, 0.8, 0.2, centre = 57, 38 /\n" + out + ", heights = .true. /\n"});
+    all.push_back({"flats", micro + flats + " /\n" + surface +
+                                " /\n&indentation boundary = 'periodic', control = 'pressure', unit = 'relative', " +
+                                "levels = 0.003, 0.01 /\n&output map_cells = 6, pdf_levels = 1.9, 2.2, pdf_bins = 20 /\n"});
+    all.push_back({"flats_apart", micro + flats + " /\n" + surface + " /\n&indentation boundary = 'periodic', levels = 2.2, 1.7 /\n" +
+                                      "&output map_cells = 6, pdf_levels = 1.9, pdf_bins = 20 /\n&compare levels = 2 /\n"});
+    all.push_back(
+        {"flats_elements", micro + flats + " /\n" + surface + " /\n&solver model = 'elements' /\n" +
+                               "&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', levels = 0.1, 0.4 /\n" +
+                               "&output map_cells = 6, pdf_levels = 2.0, pdf_bins = 20 /\n"});
+    all.push_back({"yielding", micro + bodies + ", hardness = 1.5, size_effect = 6 /\n" + surface + " /\n" +
+                                   "&indentation levels = 1.5, 0.6, 0.2, 0.5, 0.1, centre = 57, 38 /\n" + out + " /\n"});
+    // Elements that yield go through the turning points: the deepest level, then up.
+    all.push_back({"yielding_compared",
+                   micro + bodies + ", hardness = 2 /\n" + surface + " /\n&asperities law = 'elliptic' /\n" +
+                       "&indentation levels = 1.5, 0.6, 0.2, 0.6, centre = 57, 38 /\n" + out + " /\n&compare levels = 0.6, 0.6 /\n",
+                   {{1}, {0.2, 3}}});
+    all.push_back({"yielding_elements", micro + bodies + ", hardness = 2 /\n" + surface + " /\n&solver model = 'elements' /\n" +
+                                            "&indentation levels = 1.5, 0.6, 0.2, 0.5, centre = 57, 38 /\n" + out + " /\n"});
+    const std::string on_map =
+        "&solids E = 3000, 9000  R(2) = 80 /\n&indentation levels = 0.8, 0.2, centre = 5.3, 1.6 /\n&output map_cells = 11, " +
+        std::string("radial_bins = 6, heights = .true., pdf_levels = 0.3, pdf_bins = 25 /\n");
+    all.push_back({"map", of_map + "detrend = 'quadratic' /\n" + on_map + "&compare levels = 0.2 /\n", {}, &map});
+    all.push_back(
+        {"map_elements", of_map + "detrend = 'sphere', filter_cutoff = 0.5 /\n&solver model = 'elements' /\n" + on_map, {}, &map});
+    all.push_back({"list", micro + bodies + " /\n&surface source = 'asperities', file = '" + folder / "list.txt" + "', L = 90 /\n" +
+                               "&indentation levels = 0.5, -0.4, centre = 41, 55 /\n" + out + " /\n"});
+    all.push_back({"spectrum", micro + bodies + " /\n&surface source = 'spectrum', file = '" + folder / "psd.txt" +
+                                   "', n = 128, L = 100 /\n" + "&indentation levels = 0.5, -0.4, centre = 41, 55 /\n" + out + " /\n"});
+    // Campaigns.
+    all.push_back({"campaign", "&run length_unit = 'um', force_unit = 'mN', realizations = 4, first_realization = 3 /\n" + bodies + " /\n" +
+                                   surface + " /\n&indentation levels = 9.0, 1.2, 0.3, centre = 57, 38 /\n" + out +
+                                   " /\n&compare levels = 0.3 /\n"});
+    all.push_back({"campaign_force", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
+                                         " /\n&indentation control = 'force', levels = 200, 900 /\n" + out + " /\n"});
+    all.push_back(
+        {"campaign_flats", "&run realizations = 4 /\n" + flats + " /\n" + surface +
+                               " /\n&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', levels = 0.1 /\n" +
+                               "&output map_cells = 6, pdf_levels = 2.0, pdf_bins = 20 /\n"});
+    all.push_back({"campaign_elements", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
+                                            " /\n&solver model = 'elements' /\n&indentation levels = 0.5 /\n" + out + " /\n"});
+    return all;
+}
+
+}  // namespace
+
+int main() {
+    ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
+    const Folder folder;
+    Descriptions descriptions(RSC_TEST_DATA "/result_variables.txt");
+    const HeightMap map = measured_map();
+    write_map(map, folder / "input_map.nc");
+    std::ofstream(folder / "list.txt") << "10 20 0.2 30\n44 51 1.1 12\n47 58 0.9 22\n40 60 0.4 17\n70 75 1.4 25\n38.5 52 1.0 19\n";
+    std::ofstream(folder / "psd.txt") << "0.15 0.9\n0.4 0.3\n0.9 0.01\n";
+    for (const Scene& scene : scenes(folder, map)) {
+        run_and_check(scene, folder, descriptions);
+        if (scene.name.starts_with("campaign")) put_together(scene, folder, descriptions);
+    }
+    descriptions.finish();
+    CHECK(gammas_fitted > 0);
+    return check::summary();
+}

@@ -1,0 +1,272 @@
+// Histograms, densities, moments and fits, from the contacts of all realizations.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "physics/values/truth.hpp"
+
+namespace values {
+
+using namespace rsc;
+using std::numbers::pi;
+
+// Skewness and kurtosis are absent where values do not spread beyond rounding.
+struct Moments1 {
+    double mean, deviation, skewness, kurtosis;
+    Moments1 or_absent() const {
+        const bool spread = deviation * deviation > 1e-12 * (mean * mean + deviation * deviation);
+        return {mean, std::isnan(deviation) ? 0 : deviation, spread ? skewness : kNone, spread ? kurtosis : kNone};
+    }
+};
+// Of values with weights.
+inline Moments1 moments_of(const Vector& values, const Vector& weights) {
+    const double all = sum(weights);
+    const auto power = [&](double about, int n) {
+        double s = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) s += weights[i] * std::pow(values[i] - about, n);
+        return s / all;
+    };
+    const double m = power(0, 1), d = std::sqrt(power(m, 2));
+    return {m, d, power(m, 3) / (d * d * d), power(m, 4) / (d * d * d * d)};
+}
+
+// Of the pressures of Hertz spots (density 2 p/p0^2) and of places with one pressure, by exact raw moments.
+struct Part {
+    double area, p;
+    bool hertz;
+};
+inline Moments1 moments_of(const std::vector<Part>& parts) {
+    long double all = 0, m[5] = {};
+    for (const Part& q : parts) {
+        all += q.area;
+        for (int n = 1; n <= 4; ++n)
+            m[n] += q.hertz ? q.area * 2 * std::pow(1.5L * q.p, n) / (n + 2) : q.area * std::pow(static_cast<long double>(q.p), n);
+    }
+    for (long double& v : m) v /= all;
+    const long double a = m[1], v = m[2] - a * a, d = std::sqrt(v);
+    return {static_cast<double>(a), static_cast<double>(d), static_cast<double>((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
+            static_cast<double>((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) / (v * v))};
+}
+
+inline double ks(const Vector& weight, double width, double total, const std::function<double(double)>& cdf) {
+    double below = 0, worst = 0;
+    for (std::size_t b = 0; b < weight.size(); ++b) {
+        below += weight[b];
+        worst = std::max(worst, std::abs(below / total - cdf(width * (number(b) + 1))));
+    }
+    return total > 0 ? worst : kNone;
+}
+
+// A fitted generalised gamma: the likelihood of the bins is largest there, and the errors are those its curvature gives.
+inline void check_gamma(const Vector& fit, const Vector& errors, const Vector& weight, double overflow, double width, double independent) {
+    const double alpha = fit[0], beta = fit[1], delta = fit[2];
+    const auto probabilities = [&](const Vector& q) {
+        Vector p;
+        double below = 0;
+        for (std::size_t b = 0; b < weight.size(); ++b) {
+            const double to = boost::math::gamma_p((q[0] + 1) / q[1], std::pow(width * (number(b) + 1) / q[2], q[1]));
+            p.push_back(to - below), below = to;
+        }
+        p.push_back(boost::math::gamma_q((q[0] + 1) / q[1], std::pow(width * number(weight.size()) / q[2], q[1])));
+        return p;
+    };
+    const double total = sum(weight) + overflow;
+    const Vector p = probabilities({alpha, beta, delta});
+    std::vector<Vector> slope;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vector up{alpha, beta, delta}, down = up;
+        const double h = 1e-5 * std::max(std::abs(up[i]), 0.1 * (i < 2));
+        up[i] += h, down[i] -= h;
+        const Vector a = probabilities(up), b = probabilities(down);
+        slope.emplace_back();
+        for (std::size_t k = 0; k < a.size(); ++k) slope.back().push_back((a[k] - b[k]) / (2 * h));
+    }
+    Vector information(9), gradient(3);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+        if (!(p[k] > 1e-13)) continue;
+        const double w = (k < weight.size() ? weight[k] : overflow) / total;
+        for (std::size_t i = 0; i < 3; ++i) {
+            gradient[i] += w * slope[i][k] / p[k];
+            for (std::size_t j = 0; j < 3; ++j) information[i * 3 + j] += slope[i][k] * slope[j][k] / p[k];
+        }
+    }
+    const Vector off = solved(information, gradient);
+    std::array<Vector, 3> covariance;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vector unit(3);
+        unit[i] = 1 / independent;
+        covariance[i] = solved(information, unit);
+        CHECK_CLOSE(off[i], 0, 1e-3 * std::sqrt(covariance[i][i] * independent));
+        CHECK_RELATIVE(errors[i], std::sqrt(covariance[i][i]), 1e-3);
+    }
+    const double s = (alpha + 1) / beta, gamma = beta / (std::pow(delta, alpha + 1) * std::tgamma(s)), psi = boost::math::digamma(s);
+    CHECK_RELATIVE(fit[3], gamma, 1e-9);
+    const Vector by{-std::log(delta) - psi / beta, 1 / beta + psi * (alpha + 1) / (beta * beta), -(alpha + 1) / delta};
+    double variance = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) variance += by[i] * covariance[i][j] * by[j];
+    CHECK_RELATIVE(errors[3], gamma * std::sqrt(variance), 1e-3);
+}
+
+inline int gammas_fitted = 0;
+
+inline void distributions(CheckedFile& f, const Truth& t) {
+    const auto& wanted = t.c.output.pdf_levels;
+    const std::size_t n = at(t.c.output.pdf_bins), D = wanted.size();
+    double sqrt_m4 = std::sqrt(t.regime.m4);
+    if (t.list) sqrt_m4 = 0.9 / mean(t.r[0].asperities.radius);
+    if (t.c.surface.source == Source::heights) sqrt_m4 = std::sqrt(t.heights[0].differences().m4);
+    const double hardest = 1.1 * t.c.solids.hardness * std::sqrt(1 + 4 * t.c.solids.size_effect * sqrt_m4);
+    const double reach = std::min(1.2 * t.E * std::sqrt(t.sigma * sqrt_m4), hardest), width_p = reach / number(n), width_q = 1.5 * width_p,
+                 width_A = 10 * t.sigma / sqrt_m4 / number(n);
+    const auto axis = [&](const std::string& name, double width) {
+        Vector v;
+        for (std::size_t b = 0; b < n; ++b) v.push_back((number(b) + 0.5) * width);
+        f.same(name, v, 1e-9), f.attribute(name, "bin_width", {width}, 1e-9);
+    };
+    axis("pressure_mean_bin", width_p), axis("pressure_bin", width_q), axis("spot_area_bin", width_A);
+    Vector number_of;
+    for (std::size_t b = 1; b <= n; ++b) number_of.push_back(number(b));
+    f.same("bin", number_of);
+    f.same("pdf_level", wanted, 1e-14);
+
+    Vector used, step, sums;
+    Vector counts, count_over, count_pdf, spot_counts, spot_over, spot_pdf, areas, area_over, area_pdf, independent;
+    Vector rayleigh, rayleigh_error, rayleigh_ks, exponential, exponential_error, exponential_ks, gamma_ks;
+    std::array<std::vector<Moments1>, 3> moments;
+    const std::array<const char*, 4> names{"alpha", "beta", "delta", "gamma"};
+    for (std::size_t d = 0; d < D; ++d) {
+        Vector p, A, one, count(n), spot(n), area(n);
+        std::vector<Part> parts;
+        double over = 0, over_A = 0, over_q = 0, Z = 0, squares = 0, where = -1;
+        for (std::size_t k = 0; k < t.M; ++k) {
+            std::size_t s = 0;
+            for (std::size_t i = 1; i < t.steps; ++i)
+                if (std::abs(t.r[k].levels[i].separation - wanted[d] * t.sigma) <
+                    std::abs(t.r[k].levels[s].separation - wanted[d] * t.sigma))
+                    s = i;
+            where = k == 0 || where == number(s) + 1 ? number(s) + 1 : 0;
+            Z += t.r[k].levels[s].separation;
+            const Contacts2& c = t.contacts[k][s];
+            Vector pixels(c.spots.size());
+            for (const Spot2& q : c.spots) {
+                p.push_back(q.pressure()), A.push_back(q.area), one.push_back(1);
+                if (c.pixels.empty()) parts.push_back({q.area, q.pressure(), !q.yields}), squares += q.area * q.area;
+            }
+            for (const Pixel2& q : c.pixels) parts.push_back({c.pixel, q.p, false}), pixels[q.contact] += c.pixel;
+            for (double a : pixels) squares += a * a;
+        }
+        const auto put = [&](Vector& into, double& beyond, double value, double width) {
+            for (std::size_t b = 0; b < n; ++b)
+                if (value >= number(b) * width && value < (number(b) + 1) * width) return void(into[b] += 1);
+            beyond += 1;
+        };
+        for (double v : p) put(count, over, v, width_p);
+        for (double v : A) put(spot, over_A, v, width_A);
+        double total = 0;
+        for (const Part& q : parts) {
+            const auto below = [&](double edge) {
+                return q.hertz ? std::min(1.0, std::pow(edge / (1.5 * q.p), 2)) : edge > q.p ? 1.0 : 0.0;
+            };
+            for (std::size_t b = 0; b < n; ++b) area[b] += q.area * (below((number(b) + 1) * width_q) - below(number(b) * width_q));
+            over_q += q.area * (1 - below(number(n) * width_q)), total += q.area;
+        }
+        const double m = number(p.size());
+        used.push_back(Z / number(t.M) / t.sigma), step.push_back(where);
+        count_over.push_back(over), spot_over.push_back(over_A), area_over.push_back(over_q);
+        for (std::size_t b = 0; b < n; ++b) {
+            counts.push_back(count[b]), spot_counts.push_back(spot[b]), areas.push_back(area[b]);
+            count_pdf.push_back(m > 0 ? count[b] / (m * width_p) : kNone), spot_pdf.push_back(m > 0 ? spot[b] / (m * width_A) : kNone);
+            area_pdf.push_back(m > 0 ? area[b] / (total * width_q) : kNone);
+        }
+        double pp = 0;
+        for (double v : p) pp += v * v;
+        const double s = m > 0 ? std::sqrt(pp / m / 2) : kNone, mean_A = m > 0 ? sum(A) / m : kNone;
+        rayleigh.push_back(s), rayleigh_error.push_back(s / (2 * std::sqrt(m)));
+        rayleigh_ks.push_back(ks(count, width_p, m, [&](double x) { return 1 - std::exp(-x * x / (2 * s * s)); }));
+        exponential.push_back(mean_A), exponential_error.push_back(mean_A / std::sqrt(m));
+        exponential_ks.push_back(ks(spot, width_A, m, [&](double x) { return 1 - std::exp(-x / mean_A); }));
+        independent.push_back(squares > 0 ? total * total / squares : 0);
+        const Moments1 none{kNone, kNone, kNone, kNone};
+        moments[0].push_back(m > 0 ? moments_of(p, one).or_absent() : none);
+        moments[1].push_back(m > 0 ? moments_of(parts).or_absent() : none);
+        moments[2].push_back(m > 0 ? moments_of(A, one).or_absent() : none);
+
+        // The gamma fit: against its own equations.
+        Vector fit, errors;
+        for (const char* name : names) {
+            fit.push_back(f.reader().numbers("pressure_pdf", name).at(d));
+            errors.push_back(f.reader().numbers("pressure_pdf", std::string(name) + "_error").at(d));
+        }
+        const auto filled = std::count_if(area.begin(), area.end(), [](double a) { return a > 0; }) + (over_q > 0);
+        const bool fitted = fit[0] != NC_FILL_DOUBLE;
+        if (filled < 5 || independent.back() < 10) CHECK(!fitted);
+        if (fitted) check_gamma(fit, errors, area, over_q, width_q, independent.back()), ++gammas_fitted;
+        gamma_ks.push_back(!fitted ? kNone : ks(area, width_q, total, [&](double x) {
+            return boost::math::gamma_p((fit[0] + 1) / fit[1], std::pow(x / fit[2], fit[1]));
+        }));
+
+        // In the order in which they are stored.
+        sums.push_back(Z);
+        sums.insert(sums.end(), count.begin(), count.end()), sums.push_back(over);
+        sums.insert(sums.end(), area.begin(), area.end()), sums.push_back(over_q), sums.push_back(total), sums.push_back(squares);
+        sums.insert(sums.end(), spot.begin(), spot.end()), sums.push_back(over_A);
+        for (int k = 1; k <= 4; ++k) {
+            double of_p = 0, of_q = 0, of_A = 0;
+            for (double v : p) of_p += std::pow(v, k);
+            for (double v : A) of_A += std::pow(v, k);
+            for (const Part& q : parts) of_q += q.area * (q.hertz ? 2 * std::pow(1.5 * q.p, k) / (k + 2) : std::pow(q.p, k));
+            sums.push_back(of_p), sums.push_back(of_q), sums.push_back(of_A);
+        }
+    }
+    f.same("pdf_separation_sigma", used, 1e-12), f.same("pdf_step", step), f.attribute("pdf_step", "start_index", {1});
+    f.same("pressure_mean_count", counts), f.attribute("pressure_mean_count", "overflow", count_over);
+    f.same("spot_area_count", spot_counts), f.attribute("spot_area_count", "overflow", spot_over);
+    const double most = *std::max_element(areas.begin(), areas.end());
+    f.same("pressure_area", areas, 1e-9, 1e-12 * most), f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
+    f.same("pressure_mean_pdf", count_pdf, 1e-9), f.same("spot_area_pdf", spot_pdf, 1e-9);
+    f.same("pressure_pdf", area_pdf, 1e-9, 1e-11 / width_q);
+    f.attribute("pressure_mean_pdf", "rayleigh_scale", rayleigh, 1e-10),
+        f.attribute("pressure_mean_pdf", "rayleigh_scale_error", rayleigh_error, 1e-10);
+    f.attribute("pressure_mean_pdf", "ks_distance", rayleigh_ks, 1e-9);
+    f.attribute("spot_area_pdf", "exponential_scale", exponential, 1e-10);
+    f.attribute("spot_area_pdf", "exponential_scale_error", exponential_error, 1e-10);
+    f.attribute("spot_area_pdf", "ks_distance", exponential_ks, 1e-9);
+    f.attribute("pressure_pdf", "independent_contacts", independent, 1e-10);
+    f.attribute("pressure_pdf", "ks_distance", gamma_ks, 1e-9);
+    for (const char* name : names)  // by check_gamma
+        for (const char* error : {"", "_error"}) f.attribute_was_checked("pressure_pdf", name + std::string(error));
+    const std::array<const char*, 3> of{"pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto put = [&](const char* name, double Moments1::*member) {
+            Vector v;
+            for (const Moments1& m : moments[i]) v.push_back(m.*member);
+            // A difference of powers loses digits where the values hardly spread; skewness may be 0.
+            const bool ratio = member == &Moments1::skewness, deviation = member == &Moments1::deviation;
+            f.attribute(of[i], name, v, 1e-6, ratio ? 1e-9 : deviation ? 1e-7 * moments[i][0].mean : 0);
+        };
+        put("mean", &Moments1::mean), put("standard_deviation", &Moments1::deviation);
+        put("skewness", &Moments1::skewness), put("kurtosis", &Moments1::kurtosis);
+    }
+    if (t.M == 1) return CHECK(!f.has("pdf_sums") && !f.has("pdf_sum"));
+    Vector numbers, both;
+    const Vector there = f.values("pdf_sums");
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        if (k < sums.size() / D) numbers.push_back(number(k) + 1);
+        const double rest = 2 * k + 1 < there.size() ? there[2 * k + 1] : 0;  // beyond rounding: the campaigns put together below
+        CHECK(std::abs(rest) <= 2e-16 * std::abs(sums[k]));
+        both.push_back(sums[k]), both.push_back(rest);
+    }
+    f.same("pdf_sums", both, 1e-10, 1e-12 * most), f.same("pdf_sum", numbers);
+    f.same("part", {1, 2}), f.attribute("part", "flag_values", {1, 2});
+}
+
+}  // namespace values
