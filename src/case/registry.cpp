@@ -191,7 +191,7 @@ std::vector<Key> make_registry() {
              RSC_SLOT(output.pdf_levels)),
         scalar("output", "pdf_bins", integer, "1", between(1, 100000), "bins of the distributions", RSC_SLOT(output.pdf_bins)),
         changing(Changes::file,
-                 scalar("output", "compression", integer, "4", between(0, 9), "deflate level of netcdf4", RSC_SLOT(output.compression))),
+                 scalar("output", "compression", integer, "1", between(0, 9), "deflate level of netcdf4", RSC_SLOT(output.compression))),
     };
 }
 
