@@ -297,6 +297,7 @@ private:
             if (part == 0) s.first = number;
             if (part == 1) s.last = number;
             if (part == 2) {
+                if (c == ':') break;
                 if (!ends || !number || *number == 0) return "the step in the subscript of '" + a.key + "' must be an integer other than 0";
                 s.step = *number;
             }
@@ -373,6 +374,7 @@ private:
     bool item(Assignment& a, std::size_t start) {
         Item item;
         item.at = position(start);
+        item.behind_comma = comma_;
         repeat_count(item);
         const int c = peek();
         if (item.counted && is_separator(c)) {

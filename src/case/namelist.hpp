@@ -30,7 +30,8 @@ struct Item {
     bool quoted = false;
     bool counted = false;    // a repeat count was written
     bool commented = false;  // a comment follows without a blank between
-    long repeat = 1;         // >= 1
+    bool behind_comma = false;
+    long repeat = 1;  // >= 1
     Position at;
 };
 

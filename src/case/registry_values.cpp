@@ -49,8 +49,8 @@ std::string likely_cause(const Assignment& a, const Item& item) {
         if (&a.items[k] != &item || before.quoted) continue;
         const std::string sign_off =
             before.text.substr(before.text.find_first_not_of("+-") == std::string::npos ? 0 : before.text.find_first_not_of("+-"));
-        const bool touching =
-            before.at.line == item.at.line && before.at.column + static_cast<int>(before.text.size()) + 1 == item.at.column;
+        const bool touching = item.behind_comma && before.at.line == item.at.line &&
+                              before.at.column + static_cast<int>(before.text.size()) + 1 == item.at.column;
         if (touching && digits(sign_off) && digits(text.substr(0, text.find_first_of("eEdD"))))
             return "; the decimal mark is a point: " + before.text + "." + text;
         if (namelist::to_real(before.text) && std::isalpha(static_cast<unsigned char>(text.front())))

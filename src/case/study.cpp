@@ -21,7 +21,7 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
     if (percent == std::string::npos) return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
     const std::string group = a.key.substr(0, percent), name = a.key.substr(percent + 1);
     if (group == "study" || !group_meaning(group)) {
-        const std::string_view near = namelist::nearest(group, group_names());
+        const std::string_view near = group == "study" ? "" : namelist::nearest(group, group_names());
         return fault("unknown group '" + group + "' in '" + a.key + "'" +
                      (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
     }
@@ -85,6 +85,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
             fault(a.at, axis.key + ": given twice");
             continue;
         }
+        const std::size_t before = faults.size();
         for (std::size_t i = 0; i < a.items.size(); ++i) {
             const namelist::Item& item = a.items[i];
             if (item.null && !item.counted && i + 1 == a.items.size()) break;  // a comma after the last value
@@ -100,10 +101,11 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
             axis.values.insert(axis.values.end(), static_cast<std::size_t>(item.repeat), value);
             axis.places.insert(axis.places.end(), static_cast<std::size_t>(item.repeat), item.at);
         }
-        if (axis.values.empty())
-            fault(a.at, axis.key + ": no values");
-        else
+        if (axis.values.empty()) {
+            if (faults.size() == before) fault(a.at, axis.key + ": no values");
+        } else {
             study.axes.push_back(std::move(axis));
+        }
     }
     if (study.axes.empty() && faults.empty()) faults.push_back({group.at, "&study: no lists of values"});
     return study;

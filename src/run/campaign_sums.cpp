@@ -31,12 +31,12 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
     try {
         const std::optional<ResultHead> head = head_of_result(file);
         if (!head) return {};
-        if (!head->this_version()) throw Error(Failure::bad_input, "it is of another version of rsc");
-        if (input_is_newer(job.settings)) throw Error(Failure::bad_input, "an input has changed since");
         const Reading there = read_namelist(head->case_text);
+        if (there.study) throw Error(Failure::bad_input, "it is no campaign");
+        if (!head->this_version() || !there.faults.empty()) throw Error(Failure::bad_input, "it is of another version of rsc");
+        if (input_is_newer(job.settings)) throw Error(Failure::bad_input, "an input has changed since");
         for (const std::string& line : Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
             why += (why.empty() ? "" : "; ") + line;
-        if (!there.faults.empty() || there.study) why = "it is no campaign";
         if (why.empty()) return read_sums(file, job.observe, job.levels.size());
     } catch (const Error& error) {
         why = error.what();

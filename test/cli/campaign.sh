@@ -140,7 +140,7 @@ test_signals() {
         kill -s $signal $!
         wait $!
         [ $? -eq $([ $signal = INT ] && echo 130 || echo 143) ] || fail "exit status"
-        says "stopped by SIG$signal; [0-9]* of 20000 realizations are finished.*--resume"
+        says "^rsc: stopped by SIG$signal; [0-9]* of 20000 realizations are finished and kept in 'out.nc.checkpoint': the same command with --resume goes on from there$"
         [ -s out.nc.checkpoint ] && [ ! -e out.nc ] || fail "the state is not as it should be"
     done
     # While the result is written: it is finished, and nothing else is left.
@@ -189,7 +189,7 @@ test_refused() {
     "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
     until_state "$(stat -c %s out.nc.checkpoint)" $!
     expect 2 "$rsc" --resume long.nml
-    says "another rsc is at work"
+    says "^'out.nc.checkpoint': another rsc is at work on this campaign$"
     kill %1
     wait
     # Another number of threads, and another format, are the same case.
@@ -298,9 +298,9 @@ test_merge() {
     refused a/out.nc grid/out.nc
     says "surface%n: 256 in"
     refused a/out.nc one/out.nc
-    says "'one/out.nc' holds a single realization"
+    says "^--merge: 'one/out.nc' holds a single realization, not a campaign$"
     refused a/out.nc study/out/rsc_manifest.nc
-    says "rsc_manifest.nc' is the manifest of a study"
+    says "^--merge: 'study/out/rsc_manifest.nc' is the manifest of a study, not the result of a campaign$"
     refused a/out.nc text.nc
     says "'text.nc' is no result of rsc"
     refused a/out.nc a/../a/out.nc
@@ -417,7 +417,7 @@ test_full_disk() {
     expect 0 in_folder whole "$rsc" -q ../case.nml
     expect 1 in_folder disk "$rsc" -q ../case.nml
     says "is full"
-    says "of 300 realizations are finished and kept.*--resume"
+    says "^[0-9]* of 300 realizations are finished and kept in 'out.nc.checkpoint': the same command with --resume goes on from there$"
     [ "$(ls disk)" = out.nc.checkpoint ] || fail "found: $(ls disk)"
     expect 1 in_folder disk "$rsc" -q --resume ../case.nml
     mount -o remount,size=64m disk || exit 77

@@ -1,9 +1,11 @@
 // Campaigns: what is written comes back, what is torn is left out, sums over realizations are those of the realizations.
 #include <netcdf.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
@@ -49,7 +51,13 @@ void test_archive() {
         const std::string bytes = to_bytes(record);
         CHECK(realization_of(bytes) == k);
         CHECK(to_bytes(record_from_bytes(bytes)) == bytes);
-        CHECK_THROWS(record_from_bytes(bytes + "x"), Error);
+        try {
+            record_from_bytes(bytes + "x");
+            CHECK(!"a record of another length is refused");
+        } catch (const Error& error) {
+            CHECK(error.kind() == Failure::internal);
+            CHECK(std::string(error.what()) == "a record of a realization has not the length it should have");
+        }
         for (std::size_t length = 0; length < bytes.size(); length += 97)
             CHECK_THROWS(record_from_bytes(std::string_view(bytes).substr(0, length)), Error);
         sums.add(record);
@@ -69,7 +77,13 @@ void test_archive() {
     CHECK(same(map_sums(job.observe.map, 6, o.map_area_fraction, o.map_area_rest), sums.map_area));
     CHECK(same(map_sums(job.observe.map, 6, o.map_pressure, o.map_force_rest), sums.map_force));
     Accumulators other(job.observe, job.levels.size() + 1);
-    CHECK_THROWS(sums_from_bytes(to_bytes(sums), other), Error);
+    try {
+        sums_from_bytes(to_bytes(sums), other);
+        CHECK(!"sums of another shape are refused");
+    } catch (const Error& error) {
+        CHECK(error.kind() == Failure::internal);
+        CHECK(std::string(error.what()) == "the sums of a campaign have not the shape its case gives them");
+    }
 }
 
 // Every number of a record comes back, field by field: bytes that lack one are equal, too.
@@ -127,9 +141,20 @@ void test_torn(const Folder& folder) {
             checkpoint.append(record);
             ends.push_back(bytes(state).size());
         }
-        CHECK(refusal(file, c, true).find("another rsc is at work") != std::string::npos);
+        CHECK(refusal(file, c, true) == "'" + state + "': another rsc is at work on this campaign");
     }
-    CHECK(refusal(file, c, false).find("--resume") != std::string::npos);
+    CHECK(refusal(file, c, false) ==
+          "'" + state +
+              "' holds the work of an interrupted campaign: go on with it by --resume, or remove that file to start "
+              "from the beginning");
+    Case other = c;
+    other.solids.R[1] = 3;
+    other.surface.L = 2;
+    CHECK(refusal(file, other, true) ==
+          "'" + state +
+              "' belongs to another case: it cannot be resumed with\n  solids%R: Infinity, 2.5 there, Infinity, 3.0 "
+              "now\n  surface%L: unset there, 2.0 now\nGive these keys their old values, or remove the file to start "
+              "from the beginning.");
     const std::string whole = bytes(state);
     // Killed at any moment: the records that are whole are there, and the next one is taken.
     for (std::size_t length = 0; length <= whole.size(); ++length) {
@@ -164,7 +189,30 @@ void test_torn(const Folder& folder) {
         for (std::size_t k = 0; k < contents.records.size(); ++k) CHECK(contents.records[k] == records[k]);
     }
     write_bytes(state, "something else that has nothing to do with rsc but has this name\n" + whole);
-    CHECK(refusal(file, c, true).find("no checkpoint of rsc") != std::string::npos);
+    CHECK(refusal(file, c, true) == "'" + state + "' is damaged, or no checkpoint of rsc; remove it to start from the beginning");
+    // Whole frames that are no header of this version.
+    write_bytes(state, whole.substr(ends[0]));
+    CHECK(refusal(file, c, true) == "'" + state + "' is not a checkpoint of rsc");
+    const std::string header = whole.substr(16, ends[0] - 16);
+    const auto framed = [&](const std::string& bytes) {
+        std::string frame = whole.substr(0, 16);  // kind, checksum of kind, length and bytes, length
+        const std::uint64_t length = bytes.size();
+        std::memcpy(frame.data() + 8, &length, sizeof length);
+        uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(frame.data()), 4);
+        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(frame.data() + 8), 8);
+        const auto sum = static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+        std::memcpy(frame.data() + 4, &sum, sizeof sum);
+        return frame + bytes;
+    };
+    write_bytes(state, framed(header));
+    CHECK(refusal(file, c, true).empty());
+    write_bytes(state, framed(header + "&nothing /\n"));
+    CHECK(refusal(file, c, true) == "'" + state + "' is damaged; remove it to start from the beginning");
+    write_bytes(state, framed("rsc 0.0.9\n" + header.substr(header.find('\n') + 1)));
+    CHECK(refusal(file, c, true) ==
+          "'" + state +
+              "' was written by another version of rsc (rsc 0.0.9), whose numbers may differ in the last bits: finish it "
+              "with that one, or remove the file to start from the beginning");
     std::filesystem::remove(state);
 }
 
@@ -177,6 +225,15 @@ void test_rewrite(const Folder& folder) {
         checkpoint.rewrite("the sums", {&records[3]});
         CHECK(!checkpoint.wants_rewrite());
         checkpoint.append("after it");
+    }
+    {
+        const std::string whole = bytes(state);
+        std::string spoilt = whole;
+        spoilt[whole.find("the sums")] = 'T';
+        write_bytes(state, spoilt);
+        CHECK(refusal(file, small_case(), true) ==
+              "'" + state + "' is damaged: its checksum does not hold; remove it to start from the beginning");
+        write_bytes(state, whole);
     }
     {
         Checkpoint checkpoint(file, small_case(), true);

@@ -17,6 +17,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
+#include "read/input_spectrum.hpp"
 
 using namespace rsc;
 
@@ -31,7 +32,8 @@ std::string write(const std::string& name, const std::string& content) {
     return in_folder(name);
 }
 
-void refused(const std::function<void()>& what, const char* words, int line) {
+void refused(const std::function<void()>& what, const std::string& expected, int line) {
+    const char* const words = expected.c_str();
     try {
         what();
         std::printf("line %d: accepted, though '%s' was expected\n", line, words);
@@ -110,12 +112,13 @@ void heights_from_netcdf() {
     const std::string bare = heights_file("bare", NC_NETCDF4, {}, {}, "Topography");
     const HeightMap m = read_heights(bare, 2.0);
     CHECK(m.dx == 0.4 && m.dy == 0.4 && m.x0 == 0 && m.y0 == 0 && m(4, 1) == 14);
-    REFUSED(read_heights(bare, std::nullopt), "L, its extent in x, must be given");
-    REFUSED(read_heights(bare, -1.0), "L must be positive");
+    REFUSED(read_heights(bare, std::nullopt), ": Topography(y = 3, x = 5) has no coordinate variables; L, its extent in x, must be given");
+    REFUSED(read_heights(bare, -1.0), "bare: L must be positive and finite, not -1");
+    REFUSED(read_heights(bare, 0.0), "bare: L must be positive and finite, not 0");
     // L beside coordinates: the same or refused.
     const std::string both = heights_file("both", NC_NETCDF4, ramp(5, 0, 0.1), ramp(3, 0, 0.1));
     CHECK_CLOSE(read_heights(both, 0.5).dx, 0.1, 1e-15);
-    REFUSED(read_heights(both, 0.4), "5 steps of 0.1 = 0.5, but L = 0.4");
+    REFUSED(read_heights(both, 0.4), ": its coordinate x spans 5 steps of 0.1 = 0.5, but L = 0.4 was given");
     // Falling coordinates are turned round.
     const HeightMap turned = read_heights(heights_file("turned", NC_NETCDF4, ramp(5, 0.4, -0.1), ramp(3, 2, -1)), std::nullopt);
     CHECK(turned(0, 0) == 24 && turned(4, 2) == 0 && turned(4, 0) == 20);
@@ -137,19 +140,22 @@ void bad_heights_from_netcdf() {
     std::vector<double> uneven = x;
     uneven[2] += 1e-6;
     REFUSED(read_heights(heights_file("uneven", NC_NETCDF4, uneven, y), std::nullopt),
-            "coordinate x is not uniform to 1e-6 of its step 0.1: x(2)");
+            ": coordinate x is not uniform to 1e-6 of its step 0.1: x(2), counted from 0, is 0.200001 where 0.2 was expected");
     uneven[2] = x[2] + 0.9e-7;  // within the tolerance
     CHECK(read_heights(heights_file("even", NC_NETCDF4, uneven, y), std::nullopt).nx == 5);
-    REFUSED(read_heights(heights_file("flat", NC_NETCDF4, ramp(5, 1, 0), y), std::nullopt), "does not vary");
-    REFUSED(read_heights(heights_file("one", NC_NETCDF4, x, {}), std::nullopt), "one dimension alone");
+    REFUSED(read_heights(heights_file("flat", NC_NETCDF4, ramp(5, 1, 0), y), std::nullopt),
+            ": coordinate x does not vary: it begins and ends at 1");
+    REFUSED(read_heights(heights_file("one", NC_NETCDF4, x, {}), std::nullopt),
+            ": height(y = 3, x = 5) has a coordinate variable for one dimension alone; for both or neither was expected");
     std::vector<double> nan_x = x;
     nan_x[4] = std::nan("");
-    REFUSED(read_heights(heights_file("nanx", NC_NETCDF4, nan_x, y), std::nullopt), "x(x = 4), counted from 0, is not finite");
+    REFUSED(read_heights(heights_file("nanx", NC_NETCDF4, nan_x, y), std::nullopt),
+            ": x(x = 4), counted from 0, is not finite; every value must be known");
 
     std::vector<double> z = ramp(15, 0, 1);
     z[7] = std::nan("");
     REFUSED(read_heights(heights_file("nan", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt),
-            "height(y = 1, x = 2), counted from 0, is not finite");
+            ": height(y = 1, x = 2), counted from 0, is not finite; every value must be known");
     z[7] = HUGE_VAL;
     REFUSED(read_heights(heights_file("inf", 0, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "height(y = 1, x = 2)");
     z[7] = -99;
@@ -162,7 +168,7 @@ void bad_heights_from_netcdf() {
         ok(nc_put_att_double(id, v, "missing_value", NC_DOUBLE, 2, values));
     };
     REFUSED(read_heights(heights_file("fill", NC_NETCDF4, x, y, "height", NC_DOUBLE, fill, z), std::nullopt),
-            "height(y = 1, x = 2), counted from 0, is missing");
+            ": height(y = 1, x = 2), counted from 0, is missing (it holds the fill value -99); every value must be known");
     REFUSED(read_heights(heights_file("missing", NC_NETCDF4, x, y, "height", NC_DOUBLE, missing, z), std::nullopt), "is missing");
     z[7] = NC_FILL_DOUBLE;
     REFUSED(read_heights(heights_file("unwritten", NC_NETCDF4, x, y, "height", NC_DOUBLE, {}, z), std::nullopt), "is missing");
@@ -173,20 +179,22 @@ void bad_heights_from_netcdf() {
         f.variable("first", NC_DOUBLE, {d, e});
         f.variable("second", NC_FLOAT, {d, e});
         f.close();
-        REFUSED(read_heights(f.path, 1.0), "first(a = 4, b = 4), second(a = 4, b = 4)");
+        REFUSED(read_heights(f.path, 1.0),
+                ": there is no variable height(y, x), and it cannot be told which is meant: first(a = 4, b = 4), second(a = 4, b = 4)");
     }
     {
         NcFile f("cube");
         f.variable("height", NC_DOUBLE, {f.dimension("t", 2), f.dimension("y", 4), f.dimension("x", 4)});
         f.close();
-        REFUSED(read_heights(f.path, 1.0), "not height(t = 2, y = 4, x = 4)");
+        REFUSED(read_heights(f.path, 1.0), ": height(y, x), numeric, was expected, not height(t = 2, y = 4, x = 4)");
     }
     {
         NcFile f("none");
         f.variable("t", NC_DOUBLE, {f.dimension("t", 2)});
         f.close();
-        REFUSED(read_heights(f.path, 1.0), "no variable height(y, x)");
-        REFUSED(read_asperities(f.path), "no variable asperity_x");
+        REFUSED(read_heights(f.path, 1.0), ": there is no variable height(y, x) and no other of two dimensions");
+        REFUSED(read_asperities(f.path),
+                ": there is no variable asperity_x; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
     }
     {
         NcFile f("absurd");  // an empty file may announce anything
@@ -195,13 +203,13 @@ void bad_heights_from_netcdf() {
         const std::size_t chunks[] = {100, 100};
         ok(nc_def_var_chunking(f.id, v, NC_CHUNKED, chunks));
         f.close();
-        REFUSED(read_heights(f.path, 1.0), "2000000000 x 2000000000 points");
+        REFUSED(read_heights(f.path, 1.0), ": a height map of 2000000000 x 2000000000 points needs 3.2e+10 GB; this machine has ");
     }
     {
         NcFile f("small");
         f.variable("height", NC_DOUBLE, {f.dimension("y", 2), f.dimension("x", 9)});
         f.close();
-        REFUSED(read_heights(f.path, 1.0), "at least 3 x 3");
+        REFUSED(read_heights(f.path, 1.0), ": a height map of 9 x 2 points; at least 3 x 3 are needed");
     }
 }
 
@@ -224,11 +232,13 @@ void units() {
     CHECK(read_heights(file(nullptr, nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
     CHECK(read_heights(file("um", nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
     CHECK(read_heights(file("1", "1", "1"), std::nullopt, "1")(3, 2) == 23);
-    REFUSED(read_heights(file("um", nullptr, "um"), std::nullopt, "mm"), "is in 'um', but x has no attribute units");
-    REFUSED(read_heights(file("banana", "um", "um"), std::nullopt, "mm"), "the units of height: 'banana' is no unit");
-    REFUSED(read_heights(file("um", "s", "um"), std::nullopt, "mm"), "the units of x: 's' is no unit of length");
+    REFUSED(read_heights(file("um", nullptr, "um"), std::nullopt, "mm"),
+            ": y is in 'um', but x has no attribute units: it cannot be told what it is in");
+    REFUSED(read_heights(file("banana", "um", "um"), std::nullopt, "mm"),
+            ": the units of height: 'banana' is no unit; a unit of length as UDUNITS spells it is expected, such as 'mm', 'um' or 'm'");
+    REFUSED(read_heights(file("um", "s", "um"), std::nullopt, "mm"), ": the units of x: 's' is no unit of length; a unit");
     REFUSED(read_heights(file("1", "1", "1"), std::nullopt, "mm"), "the units of height: '1' is no unit of length");
-    REFUSED(read_heights(file("um", "um", "nm"), 5.0, "mm"), "= 0.005, but L = 5 was given");
+    REFUSED(read_heights(file("um", "um", "nm"), 5.0, "mm"), ": its coordinate x spans 5 steps of 0.001 = 0.005, but L = 5 was given");
 
     NcFile f("list");
     const int d = f.dimension("asperity", 1);
@@ -287,41 +297,47 @@ void cut_files() {
     }
     f.close();
     CHECK(read_heights(f.path, 3.0)(2, 3) == 3);
-    std::filesystem::resize_file(f.path, std::filesystem::file_size(f.path) - 8);
-    REFUSED(read_heights(f.path, 3.0), "not whole");
+    const auto whole = std::filesystem::file_size(f.path);
+    std::filesystem::resize_file(f.path, whole - 8);
+    REFUSED(read_heights(f.path, 3.0), ": ends at byte " + std::to_string(std::filesystem::file_size(f.path)) + " of the " +
+                                           std::to_string(whole - 2) + " its header announces; the file is not whole");
 }
 
 void heights_from_text() {
     const HeightMap m = read_heights(RSC_TEST_DATA "/heights.txt", 8.0);
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 1.6 && m.dy == 1.6 && m.x0 == 0 && !m.periodic);
     CHECK(m(1, 0) == 1.5e-3 && m(3, 0) == 3 && m(2, 1) == 6.25 && m(3, 2) == -11);
-    REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt), "L, its extent in x, must be given");
+    REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt),
+            "heights.txt: a text matrix has no spacing; L, its extent in x, must be given");
     // Windows' line ends, a byte order mark, no line end at the end, a number below the range of double.
     CHECK(read_heights(write("dos",
                              "\xef\xbb\xbf"
                              "1 2 3 0 0\r\n4 5 6 0 0\r\n\r\n7 8 1e-400 0 0"),
                        3.0)(1, 2) == 8);
-    REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0), "t:2: 2 values where 3 as in line 1");
-    REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0), "t:3: 4 values where 3 as in line 2");
+    REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0), "t:2: 2 values where 3 as in line 1 were expected");
+    REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0), "t:3: 4 values where 3 as in line 2 were expected");
     REFUSED(read_heights(write("t", "1 2 3\n4 abc 6\n"), 1.0), "t:2: 'abc' in column 2 is not a number");
     REFUSED(read_heights(write("t", "1 2 3\n4 5.0.0 6\n"), 1.0), "'5.0.0' in column 2");
     REFUSED(read_heights(write("t", "1 2 3\n4 +-5 6\n"), 1.0), "'+-5' in column 2");
-    REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite");
+    REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0),
+            "t:2: 'nan' in column 3 is not finite: every value must be known (missing points of a map: surface%missing)");
     REFUSED(read_heights(write("t", "1 2 3\n-inf 5 3\n"), 1.0), "'-inf' in column 1 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 1e60 3 4 5\n1 2 3 4 5\n"), 1.0),
-            "a height must be finite, 1e50 at most, not 1e+60 as in column 1 of row 1");
-    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), 1e-60), "the spacing must be from 1e-50 to 1e50");
+            "t: a height must be finite, 1e50 at most, not 1e+60 as in column 1 of row 1, counted from 0");
+    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), 1e-60), "t: the spacing must be from 1e-50 to 1e50, not 2e-61");
     REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
-    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0), "at least 3 x 3");
-    REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "holds no numbers");
-    REFUSED(read_heights(write("t", ""), 1.0), "is empty");
+    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0), "t: a height map of 5 x 2 points; at least 3 x 3 are needed");
+    REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "t: holds no numbers");
+    REFUSED(read_heights(write("t", ""), 1.0), "t: is empty");
     REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0),
-            "neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=");
-    REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0), "t: is text in UTF-16");
-    REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0), "four columns are a list of asperities x y z r");
-    REFUSED(read_heights(in_folder("absent"), 1.0), "absent: No such file");
-    REFUSED(read_heights(folder.string(), 1.0), "is a directory");
+            "t: neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" +
+                in_folder("t") + "' makes one that rsc reads");
+    REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0), "t: is text in UTF-16; save it as UTF-8 or plain ASCII");
+    REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0),
+            "t: four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
+    REFUSED(read_heights(in_folder("absent"), 1.0), "absent: No such file or directory");
+    REFUSED(read_heights(folder.string(), 1.0), ": is a directory, not a file");
     REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0), "t.nc:2: 'x'");  // by content, not by name
 }
 
@@ -337,12 +353,15 @@ void separators() {
     REFUSED(row("1;2;3;4.5;0,01"), "t:1: '0,01' in column 5: a decimal comma, where line 1 has decimal points");
     REFUSED(row("1.000,5;2;3;4;5"), "'1.000,5' in column 1 is not a number");
     REFUSED(row("1,000,5;2;3;4;5"), "'1,000,5' in column 1 is not a number");
-    REFUSED(row("1 2;2;3;4;5"), "t:1: blanks before '2' where the rest of the line has semicolons");
+    REFUSED(row("1 2;2;3;4;5"), "t:1: blanks before '2' where the rest of the line has semicolons: one separator is expected throughout");
     REFUSED(row("1 2 3 4 5"), "t:2: semicolons before the end where line 1 has blanks");
-    REFUSED(row("1,2,3,4,5"), "t:2: semicolons before the end where line 1 has commas");
+    REFUSED(row("1,2,3,4,5"), "t:2: semicolons before the end where line 1 has commas: one separator is expected throughout");
+    REFUSED(read_heights(write("t", std::string("1 2 3\n4 5 6\n", 12) + std::string(5000, ' ') + std::string("\n1 \0", 4)), 1.0),
+            "t:4: neither text nor a NetCDF file (there is a zero byte)");
     // 0,01 between blanks was twice the columns once.
     REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0), "t:1: blanks before '0' where the rest of the line has commas");
-    REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0), "decimal commas are read between semicolons only");
+    REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0),
+            ": one separator is expected throughout; decimal commas are read between semicolons only");
 }
 
 // x y z of a grid, in any order.
@@ -359,10 +378,13 @@ void triples() {
     CHECK_CLOSE(m.x0, -1, 1e-12);
     CHECK(read_heights(write("xyz", text), 5 * 0.333).nx == 5);
     REFUSED(read_heights(write("xyz", text), 2.0), "its coordinate x spans 5 steps of 0.333 = 1.665, but L = 2");
-    REFUSED(read_heights(write("xyz", text.substr(0, text.rfind('\n', text.size() - 2) + 1)), std::nullopt), "but there is none at x = ");
+    REFUSED(read_heights(write("xyz", text.substr(0, text.rfind('\n', text.size() - 2) + 1)), std::nullopt),
+            "xyz: three columns are read as x y z of a map of 5 x 3 points, but there is none at x = -0.001, y = 0.25");
     REFUSED(read_heights(write("xyz", text + "-1 0 3\n"), std::nullopt), "xyz:16: x = -1, y = 0 is already in line 1");
-    REFUSED(read_heights(write("xyz", text + "-0.9 0 3\n"), std::nullopt), "three columns are read as x y z of a map");
-    REFUSED(read_heights(write("xyz", "1 2 3\n1 3 4\n1 4 5\n"), 1.0), "column x is 1 throughout");
+    REFUSED(read_heights(write("xyz", text + "-0.9 0 3\n"), std::nullopt),
+            "xyz:2: three columns are read as x y z of a map; x = -0.334 is not on a uniform grid of 6 values from -1 to 0.332");
+    REFUSED(read_heights(write("xyz", "1 2 3\n1 3 4\n1 4 5\n"), 1.0),
+            "xyz: three columns are read as x y z of a map; column x is 1 throughout");
 }
 
 std::string asperities_file(const std::string& name, std::vector<double> x, std::vector<double> r, bool curvatures,
@@ -397,18 +419,20 @@ void asperities() {
           full.angle[1] == 0.5 && full.biharmonic[2] == 0.3);
     CHECK(read_asperities(asperities_file("plain", {0, 1, 1}, {1, 2, 3}, false)).kappa1.empty());
 
-    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)), "asperity 1, counted from 0: lies at the same point as");
+    REFUSED(read_asperities(asperities_file("bad", {1, 1, 1}, {1, 2, 3}, false)),
+            ": asperity 1, counted from 0: lies at the same point as");
     REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 0}, false)),
             "asperity 2, counted from 0: the radius must be positive");
     REFUSED(read_asperities(asperities_file("bad", {0, std::nan(""), 1}, {1, 2, 3}, false)),
-            "asperity_x(asperity = 1), counted from 0, is not finite");
-    REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 3, 4}, false, 4)), "asperity_radius(other = 4): 3 values");
+            ": asperity_x(asperity = 1), counted from 0, is not finite; every value must be known");
+    REFUSED(read_asperities(asperities_file("bad", {0, 1, 1}, {1, 2, 3, 4}, false, 4)),
+            ": asperity_radius(other = 4): 3 values as of asperity_x were expected");
     {
         NcFile f("empty");
         const int d = f.dimension("asperity", NC_UNLIMITED);
         for (const char* name : {"asperity_x", "asperity_y", "asperity_z", "asperity_radius"}) f.variable(name, NC_DOUBLE, {d});
         f.close();
-        REFUSED(read_asperities(f.path), "no asperity in it");
+        REFUSED(read_asperities(f.path), ": there is no asperity in it");
     }
     {
         NcFile f("absurd");
@@ -416,13 +440,153 @@ void asperities() {
         const std::size_t chunk = 100;
         ok(nc_def_var_chunking(f.id, f.variable("asperity_x", NC_DOUBLE, {d}), NC_CHUNKED, &chunk));
         f.close();
-        REFUSED(read_asperities(f.path), "more asperities than rsc can number");
+        REFUSED(read_asperities(f.path), ": asperity_x(asperity = 1152921504606846976): more asperities than rsc can number");
     }
     REFUSED(read_asperities(write("t", "1 2 3 4\n# remark\n1 2 3\n")), "t:3: 3 values where 4 were expected");
     REFUSED(read_asperities(write("t", "1 2 3 4\n2 2 3 -4\n")), "t:2: the radius must be positive, not -4");
     REFUSED(read_asperities(write("t", "1 2 3 4\n2 2 3 4\n\n1 2 9 9\n")), "t:4: lies at the same point as ");
     REFUSED(read_asperities(write("t", "1 2 nan 4\n")), "t:1: 'nan' in column 3 is not finite");
     REFUSED(read_asperities(in_folder("absent")), "No such file");
+}
+
+// Refusals of NetCDF files that no other test here brings about; x and y differ in all of them.
+void more_words() {
+    const std::vector<double> x = ramp(5, 0, 0.1), y = ramp(3, 1, 0.25);
+    const auto with = [&](const std::function<void(int, int)>& tamper, std::vector<double> cx, std::vector<double> cy) {
+        return heights_file("m", NC_NETCDF4, std::move(cx), std::move(cy), "height", NC_DOUBLE, tamper);
+    };
+    const std::string plain = heights_file("plain", NC_NETCDF4, x, y);
+    REFUSED(read_heights(plain, std::nullopt, "mm", "Phase"), "plain: there is no variable 'Phase'");
+    REFUSED(read_heights(plain, std::nullopt, "mm", "x"), "plain: channel 'x': two dimensions of numbers were expected, not x(x = 5)");
+    CHECK(read_heights(plain, std::nullopt, "mm", "height")(4, 2) == 24);
+    REFUSED(read_heights(write("t", "1 2 3\n"), 1.0, "mm", "Phase"),
+            "t: has no channels to choose 'Phase' from; only .gwy and NetCDF files have");
+    // Which variable is the map, where there are several.
+    {
+        NcFile f("channels");
+        const int d = f.dimension("y", 3), e = f.dimension("x", 4);
+        const int first = f.variable("first", NC_DOUBLE, {d, e}), second = f.variable("second", NC_INT, {d, e});
+        const int height = f.variable("height", NC_CHAR, {d, e});
+        (void)height;
+        ok(nc_enddef(f.id));
+        std::vector<double> z = ramp(12, 0, 1);
+        ok(nc_put_var_double(f.id, first, z.data()));
+        z = ramp(12, 100, 1);
+        ok(nc_put_var_double(f.id, second, z.data()));
+        f.close();
+        CHECK(read_heights(f.path, 8.0, "mm", "second")(1, 2) == 109 && read_heights(f.path, 8.0, "mm", "first")(1, 2) == 9);
+        CHECK(read_heights(f.path, 8.0, "mm", "second").dx == 2 && read_heights(f.path, 8.0, "mm", "second").dy == 2);
+        REFUSED(read_heights(f.path, 8.0), "channels: height(y, x), numeric, was expected, not height(y = 3, x = 4)");
+        REFUSED(read_heights(f.path, 8.0, "mm", "height"),
+                "channel 'height': two dimensions of numbers were expected, not height(y = 3, x = 4)");
+    }
+    const auto text = [](const char* name) { return [name](int id, int v) { ok(nc_put_att_text(id, v, name, 3, "two")); }; };
+    for (const char* name : {"missing_value", "scale_factor", "add_offset"})
+        REFUSED(read_heights(with(text(name), x, y), std::nullopt),
+                std::string("m: attribute height:") + name + " is text; a number was expected");
+    const auto numbers = [](const char* name, std::vector<double> values) {
+        return [=](int id, int v) { ok(nc_put_att_double(id, v, name, NC_DOUBLE, values.size(), values.data())); };
+    };
+    for (const char* name : {"scale_factor", "add_offset"}) {
+        REFUSED(read_heights(with(numbers(name, {1, 2}), x, y), std::nullopt),
+                std::string("m: attribute height:") + name + " must be one finite number");
+        REFUSED(read_heights(with(numbers(name, {HUGE_VAL}), x, y), std::nullopt), "must be one finite number");
+    }
+    CHECK(read_heights(with(numbers("scale_factor", {3}), x, y), std::nullopt)(3, 2) == 69);
+    CHECK(read_heights(with(numbers("add_offset", {3}), x, y), std::nullopt)(3, 2) == 26);
+    // One point by missing_value, one by _FillValue: both are missing where they may be.
+    const auto both = [](int id, int v) {
+        const double fill = 12, missing = 3;
+        ok(nc_put_att_double(id, v, "_FillValue", NC_DOUBLE, 1, &fill));
+        ok(nc_put_att_double(id, v, "missing_value", NC_DOUBLE, 1, &missing));
+    };
+    const HeightMap holes = read_heights(with(both, x, y), std::nullopt, "mm", "", Missing::fill);
+    CHECK(std::isnan(holes(2, 1)) && std::isnan(holes(3, 0)) && holes(3, 1) == 13);
+    // Reversed in one of the two directions alone.
+    const HeightMap left = read_heights(with({}, ramp(5, 0.4, -0.1), y), std::nullopt),
+                    down = read_heights(with({}, x, ramp(3, 1.5, -0.25)), std::nullopt);
+    CHECK(left(0, 0) == 4 && left(4, 2) == 20 && left.x0 == 0 && left.y0 == 1 && down(0, 0) == 20 && down(4, 2) == 4 && down.x0 == 0 &&
+          down.y0 == 1);
+    // The other coordinate, at its tolerance: 1e-6 of its step.
+    std::vector<double> uneven = y;
+    uneven[1] += 0.24e-6;
+    CHECK(read_heights(with({}, x, uneven), std::nullopt).dy == 0.25);
+    uneven[1] += 0.02e-6;
+    REFUSED(read_heights(with({}, x, uneven), std::nullopt),
+            "m: coordinate y is not uniform to 1e-6 of its step 0.25: y(1), counted from 0, is 1.25000026 where 1.25 was expected");
+    REFUSED(read_heights(with({}, ramp(5, 0.4, -0.1), ramp(3, 2, 0)), std::nullopt),
+            "m: coordinate y does not vary: it begins and ends at 2");
+    REFUSED(read_heights(with({}, ramp(5, 3e50, 1e49), y), std::nullopt),
+            "m: the first coordinate must be finite, 1e50 at most, not 3e+50");
+    // L beside coordinates: the same to 1e-6.
+    CHECK(read_heights(plain, 0.5 * (1 + 0.99e-6)).nx == 5);
+    REFUSED(read_heights(plain, 0.5 * (1 + 1.01e-6)), "plain: its coordinate x spans 5 steps of 0.1 = 0.5, but L = 0.500000505 was given");
+    // A text's grid: to a hundredth of a step.
+    const auto triples = [](const char* middle) {
+        return std::string("0 0 1\n0 2 2\n0 4 3\n") + middle + " 0 4\n1 2 5\n1 4 6\n2 0 7\n2 2 8\n2 4 9\n";
+    };
+    const HeightMap nine = read_heights(write("t", triples("1.0")), std::nullopt);
+    CHECK(nine.nx == 3 && nine.ny == 3 && nine.dx == 1 && nine.dy == 2 && nine(0, 2) == 3 && nine(2, 0) == 7 && nine(1, 0) == 4);
+    REFUSED(read_heights(write("t", triples("1.02")), std::nullopt),
+            "t:4: three columns are read as x y z of a map; x = 1.02 is not on a uniform grid of 4 values from 0 to 2");
+    REFUSED(read_heights(write("t", "0 0 1\n1 nan 2\n"), std::nullopt, "mm", "", Missing::fill),
+            "t:2: three columns are read as x y z of a map; y is missing");
+
+    NcFile f("list");
+    const int d = f.dimension("asperity", 2);
+    std::vector<int> all;
+    for (const char* name :
+         {"asperity_x", "asperity_y", "asperity_z", "asperity_radius", "asperity_kappa1", "asperity_kappa2", "asperity_angle"})
+        all.push_back(f.variable(name, NC_DOUBLE, {d}));
+    ok(nc_put_att_text(f.id, all.back(), "units", 6, "degree"));
+    ok(nc_enddef(f.id));
+    const double values[] = {1, 2};
+    for (const int v : all) ok(nc_put_var_double(f.id, v, values));
+    f.close();
+    REFUSED(read_asperities(f.path), "list: asperity_angle is in 'degree'; radian is expected");
+    for (const char* name : {"radian", "radians", "rad", "1"}) {
+        NcFile g("list");
+        const int e = g.dimension("asperity", 2);
+        all.clear();
+        for (const char* v :
+             {"asperity_x", "asperity_y", "asperity_z", "asperity_radius", "asperity_kappa1", "asperity_kappa2", "asperity_angle"})
+            all.push_back(g.variable(v, NC_DOUBLE, {e}));
+        ok(nc_put_att_text(g.id, all.back(), "units", std::strlen(name), name));
+        ok(nc_enddef(g.id));
+        for (const int v : all) ok(nc_put_var_double(g.id, v, values));
+        g.close();
+        CHECK(read_asperities(g.path).angle[1] == 2);
+    }
+    NcFile g("square");
+    g.variable("asperity_x", NC_DOUBLE, {g.dimension("a", 2), g.dimension("b", 3)});
+    g.close();
+    REFUSED(read_asperities(g.path), "square: asperity_x(asperity), numeric, was expected, not asperity_x(a = 2, b = 3)");
+
+    // Spectra: two columns, or wavenumber and psd each in its unit.
+    CHECK_RELATIVE((*read_spectrum(write("t", "1 4\n2 3\n3 2\n"), "mm"))(2), 3.0, 1e-14);
+    REFUSED(read_spectrum(write("t", "1 4 5\n"), "mm"), "t:1: 3 values where 2 were expected");
+    REFUSED(
+        read_spectrum(plain, "mm"),
+        "plain: there is no variable wavenumber; wavenumber and psd were expected, as in the result of a measured map (surface%source = 'heights')");
+    NcFile h("spectrum");
+    const int k = h.dimension("k", 3);
+    const int w = h.variable("wavenumber", NC_DOUBLE, {k}), p = h.variable("psd", NC_DOUBLE, {k, k});
+    ok(nc_enddef(h.id));
+    const double three[] = {1, 2, 3};
+    ok(nc_put_var_double(h.id, w, three));
+    (void)p;
+    h.close();
+    REFUSED(read_spectrum(h.path, "mm"), "spectrum: psd over one dimension was expected, not psd(k = 3, k = 3)");
+    for (const auto& [unit, words] : {std::pair("s", "spectrum: the units of wavenumber: 's' where a unit like (mm)-1 is expected"),
+                                      std::pair("um-1", "spectrum: there is no variable psd; wavenumber and psd were expected")}) {
+        NcFile s("spectrum");
+        const int n = s.dimension("k", 3), v = s.variable("wavenumber", NC_DOUBLE, {n});
+        ok(nc_put_att_text(s.id, v, "units", std::strlen(unit), unit));
+        ok(nc_enddef(s.id));
+        ok(nc_put_var_double(s.id, v, three));
+        s.close();
+        REFUSED(read_spectrum(s.path, "mm"), words);
+    }
 }
 
 // The libraries are not made for it: without turns this breaks within some readings.
@@ -450,6 +614,7 @@ int main() {
     triples();
     units();
     asperities();
+    more_words();
     several_threads();
     std::filesystem::remove_all(folder);
     return check::summary();

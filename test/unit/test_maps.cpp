@@ -2,14 +2,17 @@
 // of them itself.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "check.hpp"
 #include "error.hpp"
+#include "read/input_sdf.hpp"
 #include "read/inputs.hpp"
 #include "unit/map_files.hpp"
 
@@ -25,7 +28,8 @@ std::string write(const std::string& name, const std::string& content) {
     return (folder / name).string();
 }
 
-void refused(const std::function<void()>& what, const char* words, int line) {
+void refused(const std::function<void()>& what, const std::string& expected, int line) {
+    const char* const words = expected.c_str();
     try {
         what();
         std::printf("line %d: accepted, though '%s' was expected\n", line, words);
@@ -63,6 +67,49 @@ HeightMap in_micrometres(const std::string& path, const std::string& channel = "
     return read_heights(path, std::nullopt, "um", channel, missing);
 }
 
+// The container's size is as if all were there, so that what is cut inside of it is named. Numbers are left out.
+void cut_inside(const std::string& components) {
+    const std::string whole = gwy_file(components);
+    std::set<std::string> said;
+    for (std::size_t size = 4; size < whole.size(); ++size) {
+        std::string cut = whole.substr(0, size);
+        const std::uint32_t inside = static_cast<std::uint32_t>(size) - 21;  // GWYP, the container's name and its size come before
+        if (size > 21) std::memcpy(cut.data() + 17, &inside, sizeof inside);
+        try {
+            in_micrometres(write("cut.gwy", cut));
+        } catch (const Error& e) {
+            std::string text = std::string(e.what()).substr((folder / "cut.gwy").string().size());
+            text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }), text.end());
+            said.insert(text);
+        }
+    }
+    const std::string left = " of  x  bytes, but  are left; is the file whole?", no_end = " has no end; is the file whole?";
+    const std::set<std::string> expected = {": at byte : //base/range-type" + left,
+                                            ": at byte : /filename" + no_end,
+                                            ": at byte : /flag" + left,
+                                            ": at byte : /letters" + left,
+                                            ": at byte : /long" + left,
+                                            ": at byte : /words" + no_end,
+                                            ": at byte : GwyContainer of  bytes, but  are left; is the file whole?",
+                                            ": at byte : the length of /letters" + left,
+                                            ": at byte : the length of /objects" + left,
+                                            ": at byte : the length of /words" + left,
+                                            ": at byte : the name of a component of GwyContainer" + no_end,
+                                            ": at byte : the name of an object" + no_end,
+                                            ": at byte : the size of GwyContainer" + left,
+                                            ": at byte : the size of an object" + left,
+                                            ": at byte : the type of a component" + left,
+                                            ": holds no channel (image)"};
+    CHECK(said == expected);
+    for (const std::string& s : said)
+        if (!expected.contains(s)) std::printf("  not expected: %s\n", s.c_str());
+    // One with its numbers: of 4 + 13 + 4 + 10 bytes the last six are "/filen".
+    REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, 17) + bytes(std::uint32_t{6}) + whole.substr(21, 6))),
+            "cut.gwy: at byte 21: the name of a component of GwyContainer has no end; is the file whole?");
+    REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, 100))),
+            "cut.gwy: at byte 21: GwyContainer of " + std::to_string(whole.size() - 21) + " bytes, but 79 are left; is the file whole?");
+}
+
 void gwy() {
     const Map map = sample();
     Map in_own_units = map;
@@ -72,7 +119,8 @@ void gwy() {
     CHECK_RELATIVE(read_heights(write("one.gwy", gwy_file(gwy_channel(0, "T", map))), std::nullopt, "mm")(1, 3), 1e-6, 1e-12);
     check_sample(in_micrometres(write("own.gwy", gwy_file(gwy_channel(0, "T", in_own_units, "nm", "mm")))), -1);
     CHECK_RELATIVE(read_heights((folder / "one.gwy").string(), 12e-3).Lx(), 12e-3, 1e-12);  // L may be given, if it is the same
-    REFUSED(read_heights((folder / "one.gwy").string(), 11e-3), "but L = 0.011 was given");
+    REFUSED(read_heights((folder / "one.gwy").string(), 11e-3),
+            "one.gwy: its coordinate x spans 6 steps of 0.002 = 0.012, but L = 0.011 was given");
     // The first channel of heights, or the one that is named; other things lie between.
     Map other = map;
     for (double& z : other.z) z += 1e-6;
@@ -89,19 +137,23 @@ void gwy() {
         gwy_file(gwy_channel(2, "Height", other) + between + gwy_channel(0, "Amplitude", map, "V") + gwy_channel(1, "Topography", map));
     check_sample(in_micrometres(write("three.gwy", three)), -1);
     CHECK_RELATIVE(in_micrometres(write("three.gwy", three), "Height")(0, 3), 1.0, 1e-12);
-    REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"), "channel 'Amplitude': its values are in 'V', which is no length");
+    REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"),
+            "three.gwy: channel 'Amplitude': its values are in 'V', which is no length");
     REFUSED(in_micrometres(write("three.gwy", three), "Phase"),
-            "no channel 'Phase'; there are 'Amplitude' in 'V', 'Topography' in 'm', 'Height' in 'm'");
-    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))), "no channel holds heights; there are 'A' in 'V'");
-    REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "holds no channel");
-    REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))), "its sides are in 's', which is no length");
+            "three.gwy: there is no channel 'Phase'; there are 'Amplitude' in 'V', 'Topography' in 'm', 'Height' in 'm'");
+    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))),
+            "volt.gwy: no channel holds heights; there are 'A' in 'V'");
+    REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "none.gwy: holds no channel (image)");
+    REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))),
+            "xy.gwy: channel 'A': its sides are in 's', which is no length");
     // Missing points: NaN, or under the mask.
     Map hole = map;
     hole.z[6 + 4] = std::nan("");
     const std::string with_hole = write("hole.gwy", gwy_file(gwy_channel(0, "T", hole)));
     check_sample(in_micrometres(with_hole, "", Missing::fill), 4);
-    REFUSED(in_micrometres(with_hole),
-            "1 of 24 points are missing or masked, the first in column 4 of row 2, counted from 0 with y upwards; surface%missing");
+    REFUSED(
+        in_micrometres(with_hole),
+        "1 of 24 points are missing or masked, the first in column 4 of row 2, counted from 0 with y upwards; surface%missing = 'fill' fills them");
     Map mask = map;
     for (double& z : mask.z) z = 0;
     mask.z[6 + 4] = 1;
@@ -113,21 +165,33 @@ void gwy() {
     // A file that is cut anywhere is refused, with the place.
     const std::string whole = gwy_file(gwy_channel(0, "T", map));
     for (std::size_t size = 5; size < whole.size(); ++size) REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, size))), "at byte ");
+    cut_inside(between);
     Map wrong = map;
     wrong.nx = 7;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "24 values for 7 x 4 points");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "w.gwy: channel 'T': 24 values for 7 x 4 points");
     wrong.nx = 2000000000, wrong.ny = 2000000000;
     REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "GB; this machine has");
     wrong = map, wrong.ny = -4;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "yres = -4: must be positive");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), ": /0/data yres = -4: must be positive");
     wrong = map, wrong.nx = 24, wrong.ny = 1;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "24 x 1 points; at least 3 x 3");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
+            "w.gwy: a height map of 24 x 1 points; at least 3 x 3 are needed");
     wrong = map, wrong.dx = -1;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "must be positive");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
+            "w.gwy: channel 'T': sides of -6 and 1.2e-05 must be positive");
+    wrong = map, wrong.dy = -1;
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
+            "w.gwy: channel 'T': sides of 1.2e-05 and -4 must be positive");
+    Map small = map;
+    small.ny = 3, small.z.resize(18);
+    std::string badly = gwy_channel(0, "T", map);
+    gwy_component(badly, "/0/mask", 'o', gwy_field(small, "m", ""));
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(badly))), "w.gwy: channel 'T': its mask is not of the channel's size");
     std::string strange;
     gwy_component(strange, "/x", 'x', "");
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(strange))), "of a type that is not known, 'x'");
-    REFUSED(in_micrometres(write("w.gwy", "GWYO" + whole.substr(4))), "another version of Gwyddion");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(strange))), "/x is of a type that is not known, 'x'");
+    REFUSED(in_micrometres(write("w.gwy", "GWYO" + whole.substr(4))),
+            "w.gwy: a file of another version of Gwyddion (it begins with 'GWYO', not 'GWYP'): open it in Gwyddion 2 and save it again");
     REFUSED(in_micrometres(write("w.gwy", "GWYP" + gwy_object("GwyBrick", ""))), "an object GwyContainer was expected, not 'GwyBrick'");
 }
 
@@ -189,16 +253,16 @@ void sdf() {
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "t.sdf:17: '1O4' is not a number");
     words.pop_back();
     words[6 + 4] = "104";
-    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "23 heights where 6 x 4 were expected");
+    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), ": 23 heights where 6 x 4 were expected; is the file whole?");
     words.resize(25, "0");
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "'0' after the last of 6 x 4 heights");
     words.resize(24);
     const std::string text = sdf_text(map, 1e-9, words);
-    REFUSED(in_micrometres(write("t.sdf", text.substr(0, 60))), "the line '*' that ends the header is missing");
-    REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = 4\n*\n")), "the header has no NumProfiles");
+    REFUSED(in_micrometres(write("t.sdf", text.substr(0, 60))), "t.sdf: the line '*' that ends the header is missing; is the file whole?");
+    REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = 4\n*\n")), "t.sdf: the header has no NumProfiles");
     REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = four\n*\n")), "t.sdf:2: NumPoints: a number was expected, not 'four'");
     REFUSED(in_micrometres(write("t.sdf", "aISO-1.0\nNumPoints = 4000000\nNumProfiles=4000000\nXscale=1\nYscale=1\nZscale=1\n*\n1 1 1")),
-            "4000000 x 4000000 heights in a file of");
+            "t.sdf: 4000000 x 4000000 heights in a file of 83 bytes; is the file whole?");
     const std::string header = text.substr(0, text.find('*') + 1);  // the file ends with the mark before the heights
     REFUSED(in_micrometres(write("t.sdf", header)), "0 heights where 6 x 4 were expected");
     // Cut anywhere, and absurd headers.
@@ -207,19 +271,36 @@ void sdf() {
     Map wrong = map;
     wrong.nx = wrong.ny = 65535;
     REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))),
-            "65535 x 65535 heights of 2 bytes each, but 48 bytes are left");
+            "65535 x 65535 heights of 2 bytes each, but 48 bytes are left; is the file whole?");
     wrong = map, wrong.nx = 24, wrong.ny = 1;
-    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "24 x 1 points; at least 3 x 3");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))),
+            "t.sdf: a height map of 24 x 1 points; at least 3 x 3 are needed");
     wrong = map, wrong.dy = 0;
-    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "Yscale = 0: must be positive");
-    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 5, 0.0, i16))), "Zscale = 0: must be finite and not 0");
-    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 9, 1e-9, i16))), "DataType = 9: 0 to 7 was expected");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "t.sdf: Yscale = 0: must be positive");
+    wrong = map, wrong.dx = -2e-6;
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "t.sdf: Xscale = -2e-06: must be positive");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 5, 0.0, i16))), "t.sdf: Zscale = 0: must be finite and not 0");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 9, 1e-9, i16))), "t.sdf: DataType = 9: 0 to 7 was expected");
     std::string packed = binary;
     packed[78] = 1;
-    REFUSED(in_micrometres(write("t.sdf", packed)), "Compression = 1");
-    REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channels to choose 'Height' from");
+    REFUSED(in_micrometres(write("t.sdf", packed)), "t.sdf: Compression = 1: only 0 (none) is known");
+    packed = binary;
+    packed[80] = 2;
+    REFUSED(in_micrometres(write("t.sdf", packed)), "t.sdf: CheckType = 2: only 0 (none) is known");
+    REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "mm"), "t.sdf: is no surface data file (ISO 25178-71)");
+    for (const auto& [line, said] : {std::pair("DataType = x", "t.sdf:7: DataType: a number was expected, not 'x'"),
+                                     {"CheckType = 1", "t.sdf: CheckType = 1: only 0 (none) is known"},
+                                     {"Compression = 3", "t.sdf: Compression = 3: only 0 (none) is known"}})
+        REFUSED(
+            in_micrometres(write("t.sdf", std::string("aISO-1.0\nNumPoints = 3\nNumProfiles = 3\nXscale = 1\nYscale = 2\nZscale = 1\n") +
+                                              line + "\n*\n1 2 3\n4 5 6\n7 8 9\n*\n")),
+            said);
+    REFUSED(in_micrometres(write("t.sdf", binary), "Height"),
+            "t.sdf: has no channels to choose 'Height' from; only .gwy and NetCDF files have");
     // What nobody knows.
-    REFUSED(in_micrometres(write("t.plu", std::string("PLU\0\1\2", 6))), "gwyddion --convert-to-gwy=map.gwy '");
+    REFUSED(
+        in_micrometres(write("t.plu", std::string("PLU\0\1\2", 6))),
+        "t.plu: neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '");
 }
 
 void text_with_holes() {

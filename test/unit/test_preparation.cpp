@@ -272,6 +272,6 @@ int main() {
     refused("&surface source='asperities', file='" + at + "/nowhere.txt' /", make, "nowhere.txt");
     refused("&surface source='heights', L=1.0, file='" + at + "/nowhere.txt' /", make, "nowhere.txt");
     refused("&surface source='heights', L=1.0, file='" + at + "/nowhere.txt' /", synthesize, "nowhere.txt");
-    refused("&surface " + list + " /", synthesize, "no heights");
+    refused("&surface " + list + " /", synthesize, "&surface: source = 'asperities' has no heights, only summits");
     return check::summary();
 }

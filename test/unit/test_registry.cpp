@@ -87,7 +87,9 @@ void bounds() {
             const std::string name = std::string(key.group) + "%" + key.name + index, at_start = key.name + index + " = ";
             const auto text = [&](double v) { return whole ? std::to_string(static_cast<long long>(v)) : namelist::from_real(v); };
             const auto taken = [&](double v) { expect(name, text(v), ""); };
-            const auto refused = [&](double v, const std::string& must) { expect(name, text(v), at_start + text(v) + ": must be " + must); };
+            const auto refused = [&](double v, const std::string& must) {
+                expect(name, text(v), at_start + text(v) + ": must be " + must);
+            };
             const auto next = [&](double v, double to) { return whole ? v + (to > v ? 1 : -1) : std::nextafter(v, to); };
             const std::string must = b.text().empty() ? "finite" : b.text(), magnitude = "of a magnitude from 1e-50 to 1e50";
             if (std::isfinite(b.low)) {
@@ -139,7 +141,8 @@ void bounds() {
             CHECK(said(size + "*1.5").empty());
             CHECK(said(size + "*1.5, 2.5") == key.name + (": too many values: " + size) + " values at most, found '2.5'");
         } else if (key.size == 2) {
-            CHECK(said("0.25, 0.125").empty() && said("0.25, 0.125, 1") == key.name + std::string(": too many values: 2 values at most, found '1'"));
+            CHECK(said("0.25, 0.125").empty() &&
+                  said("0.25, 0.125, 1") == key.name + std::string(": too many values: 2 values at most, found '1'"));
         }
         if (key.type == Type::string && std::string(key.name).find("unit") == std::string::npos) {
             const auto length = static_cast<std::size_t>(key.length);
