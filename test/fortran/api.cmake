@@ -23,6 +23,21 @@ if(Python3_FOUND)
   add_test(NAME fortran.interface COMMAND ${check_interface} ${interface})
   add_test(NAME fortran.interface_check_itself COMMAND ${check_interface} --self-test ${interface})
   set_tests_properties(fortran.interface fortran.interface_check_itself PROPERTIES LABELS fortran)
+
+  # Every argument of every routine in three languages (test/python: a fourth): the values of rsc.h, bit by bit.
+  add_executable(calls_c calls.cpp)
+  target_link_libraries(calls_c PRIVATE rsc::rsc rsc_warnings)
+  add_executable(calls_fortran calls.f90)
+  target_link_libraries(calls_fortran PRIVATE rsc::fortran)
+  add_executable(calls_77 calls77.f90)
+  target_link_libraries(calls_77 PRIVATE rsc::rsc77)
+  foreach(program calls_fortran calls_77)
+    target_compile_options(${program} PRIVATE -fcheck=all,no-array-temps -Wall)
+  endforeach()
+  add_test(NAME fortran.calls
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/compare_calls.py ${PROJECT_SOURCE_DIR} fortran $<TARGET_FILE:calls_c>
+                   $<TARGET_FILE:calls_fortran> $<TARGET_FILE:calls_77>)
+  set_tests_properties(fortran.calls PROPERTIES LABELS fortran TIMEOUT 60)
 endif()
 
 # Objects inside types and threads, optimised: there a compiler uses every freedom it has.

@@ -1,5 +1,5 @@
-! rsc_results reads what rsc wrote: `test_results ONE MANY OTHER`, results of one and of three realizations made from known numbers,
-! and a file that is none.
+! rsc_results reads what rsc wrote: `test_results ONE MANY OTHER CASE...`, results of one and of three realizations made from known numbers,
+! a file that is none, and results of the program.
 program test_results
   use, intrinsic :: iso_fortran_env, only: real64
   use netcdf
@@ -7,13 +7,16 @@ program test_results
   implicit none
   integer, parameter :: asperities = 6000, steps = 12, points = 64
   real(real64), parameter :: pi = acos(-1.0_real64), sigma = 0.01_real64
-  integer :: failures = 0
+  integer :: failures = 0, i
 
   call test_one(argument(1))
   call test_many(argument(2))
   call every_variable(argument(1))
   call every_variable(argument(2))
   call test_refusals(argument(3))
+  do i = 4, command_argument_count()
+    call every_variable(argument(i))
+  end do
   if (failures > 0) error stop 1
   print '(a)', 'rsc_results: everything read as written'
 
@@ -109,92 +112,121 @@ contains
   subroutine every_variable(file)
     character(*), intent(in) :: file
     type(rsc_result) :: r
-    integer :: id
+    integer :: id, kind, number
+    character(24) :: seed
     call rsc_read_result(file, r)
     call check(nf90_open(file, nf90_nowrite, id) == nf90_noerr, 'open')
-    call same(id, 'separation', [r%separation])
-    call same(id, 'separation_sigma', [r%separation_sigma])
-    call same(id, 'force', [r%force])
-    call same(id, 'contact_area', [r%contact_area])
-    call same(id, 'residual', [r%residual])
-    call same(id, 'force_mean', [r%force_mean])
-    call same(id, 'force_std', [r%force_std])
-    call same(id, 'contact_area_mean', [r%contact_area_mean])
-    call same(id, 'contact_area_std', [r%contact_area_std])
-    call same(id, 'area_I', [r%area_I])
-    call same(id, 'area_II', [r%area_II])
-    call same(id, 'area_hertz', [r%area_hertz])
-    call same(id, 'sigma', [r%sigma])
-    call same(id, 'm2', [r%m2])
-    call same(id, 'm4', [r%m4])
-    call same(id, 'rms_slope', [r%rms_slope])
-    call same(id, 'mean_kappa_g', [r%mean_kappa_g])
-    call same(id, 'x', [r%x])
-    call same(id, 'y', [r%y])
-    call same(id, 'map_area_fraction', [r%map_area_fraction])
-    call same(id, 'map_pressure', [r%map_pressure])
-    call same(id, 'radius', [r%radius])
-    call same(id, 'radial_area_fraction', [r%radial_area_fraction])
-    call same(id, 'radial_pressure', [r%radial_pressure])
-    call same(id, 'hertz_pressure', [r%hertz_pressure])
-    call same(id, 'pdf_level', [r%pdf_level])
-    call same(id, 'pdf_separation_sigma', [r%pdf_separation_sigma])
-    call same(id, 'pressure_mean_bin', [r%pressure_mean_bin])
-    call same(id, 'pressure_bin', [r%pressure_bin])
-    call same(id, 'spot_area_bin', [r%spot_area_bin])
-    call same(id, 'pressure_mean_pdf', [r%pressure_mean_pdf])
-    call same(id, 'pressure_pdf', [r%pressure_pdf])
-    call same(id, 'spot_area_pdf', [r%spot_area_pdf])
-    call same(id, 'asperity_x', [r%asperity_x])
-    call same(id, 'asperity_y', [r%asperity_y])
-    call same(id, 'asperity_z', [r%asperity_z])
-    call same(id, 'asperity_radius', [r%asperity_radius])
-    call same(id, 'asperity_kappa1', [r%asperity_kappa1])
-    call same(id, 'asperity_kappa2', [r%asperity_kappa2])
-    call same(id, 'asperity_angle', [r%asperity_angle])
-    call same(id, 'asperity_biharmonic', [r%asperity_biharmonic])
-    call same(id, 'contact_force', [r%contact_force])
-    call same(id, 'contact_radius', [r%contact_radius])
-    call same(id, 'height', [r%height])
-    call same(id, 'height_x', [r%height_x])
-    call same(id, 'height_y', [r%height_y])
-    call same(id, 'm0_theory', [r%m0_theory])
-    call same(id, 'm2_theory', [r%m2_theory])
-    call same(id, 'm4_theory', [r%m4_theory])
-    call same(id, 'nayak_theory', [r%nayak_theory])
-    call same(id, 'density_theory', [r%density_theory])
-    call same(id, 'e_star', [r%e_star])
-    call same(id, 'r_star', [r%r_star])
-    call same(id, 'transition_force', [r%transition_force])
-    call same(id, 'tip_x', [r%tip_x])
-    call same(id, 'tip_y', [r%tip_y])
-    call same(id, 'realization', real([r%realization], real64))
-    call same(id, 'contacts', real([r%contacts], real64))
-    call same(id, 'candidates', real([r%candidates], real64))
-    call same(id, 'iterations', real([r%iterations], real64))
-    call same(id, 'status', real([r%status], real64))
-    call same(id, 'method', real([r%method], real64))
-    call same(id, 'products', real([r%products], real64))
-    call same(id, 'overlapping_pairs', real([r%overlapping_pairs], real64))
-    call same(id, 'large_contacts', real([r%large_contacts], real64))
-    call same(id, 'crowded_cells', real([r%crowded_cells], real64))
-    call same(id, 'beyond_law', real([r%beyond_law], real64))
-    call same(id, 'summits', real([r%summits], real64))
-    call same(id, 'saddles', real([r%saddles], real64))
-    call same(id, 'contact_start', real([r%contact_start], real64))
-    call same(id, 'contact_count', real([r%contact_count], real64))
-    call same(id, 'contact_asperity', real([r%contact_asperity], real64))
+    call same(id, 'separation', [r%separation], shape(r%separation))
+    call same(id, 'separation_sigma', [r%separation_sigma], shape(r%separation_sigma))
+    call same(id, 'force', [r%force], shape(r%force))
+    call same(id, 'contact_area', [r%contact_area], shape(r%contact_area))
+    call same(id, 'residual', [r%residual], shape(r%residual))
+    call same(id, 'stiffness', [r%stiffness], shape(r%stiffness))
+    call same(id, 'force_mean', [r%force_mean], shape(r%force_mean))
+    call same(id, 'force_std', [r%force_std], shape(r%force_std))
+    call same(id, 'contact_area_mean', [r%contact_area_mean], shape(r%contact_area_mean))
+    call same(id, 'contact_area_std', [r%contact_area_std], shape(r%contact_area_std))
+    call same(id, 'area_I', [r%area_I], shape(r%area_I))
+    call same(id, 'area_II', [r%area_II], shape(r%area_II))
+    call same(id, 'area_hertz', [r%area_hertz], shape(r%area_hertz))
+    call same(id, 'sigma', [r%sigma], shape(r%sigma))
+    call same(id, 'm2', [r%m2], shape(r%m2))
+    call same(id, 'm4', [r%m4], shape(r%m4))
+    call same(id, 'rms_slope', [r%rms_slope], shape(r%rms_slope))
+    call same(id, 'mean_kappa_g', [r%mean_kappa_g], shape(r%mean_kappa_g))
+    call same(id, 'x', [r%x], shape(r%x))
+    call same(id, 'y', [r%y], shape(r%y))
+    call same(id, 'map_area_fraction', [r%map_area_fraction], shape(r%map_area_fraction))
+    call same(id, 'map_pressure', [r%map_pressure], shape(r%map_pressure))
+    call same(id, 'radius', [r%radius], shape(r%radius))
+    call same(id, 'radial_area_fraction', [r%radial_area_fraction], shape(r%radial_area_fraction))
+    call same(id, 'radial_pressure', [r%radial_pressure], shape(r%radial_pressure))
+    call same(id, 'hertz_pressure', [r%hertz_pressure], shape(r%hertz_pressure))
+    call same(id, 'pdf_level', [r%pdf_level], shape(r%pdf_level))
+    call same(id, 'pdf_separation_sigma', [r%pdf_separation_sigma], shape(r%pdf_separation_sigma))
+    call same(id, 'pressure_mean_bin', [r%pressure_mean_bin], shape(r%pressure_mean_bin))
+    call same(id, 'pressure_bin', [r%pressure_bin], shape(r%pressure_bin))
+    call same(id, 'spot_area_bin', [r%spot_area_bin], shape(r%spot_area_bin))
+    call same(id, 'pressure_mean_pdf', [r%pressure_mean_pdf], shape(r%pressure_mean_pdf))
+    call same(id, 'pressure_pdf', [r%pressure_pdf], shape(r%pressure_pdf))
+    call same(id, 'spot_area_pdf', [r%spot_area_pdf], shape(r%spot_area_pdf))
+    call same(id, 'asperity_x', [r%asperity_x], shape(r%asperity_x))
+    call same(id, 'asperity_y', [r%asperity_y], shape(r%asperity_y))
+    call same(id, 'asperity_z', [r%asperity_z], shape(r%asperity_z))
+    call same(id, 'asperity_radius', [r%asperity_radius], shape(r%asperity_radius))
+    call same(id, 'asperity_kappa1', [r%asperity_kappa1], shape(r%asperity_kappa1))
+    call same(id, 'asperity_kappa2', [r%asperity_kappa2], shape(r%asperity_kappa2))
+    call same(id, 'asperity_angle', [r%asperity_angle], shape(r%asperity_angle))
+    call same(id, 'asperity_biharmonic', [r%asperity_biharmonic], shape(r%asperity_biharmonic))
+    call same(id, 'contact_force', [r%contact_force], shape(r%contact_force))
+    call same(id, 'contact_radius', [r%contact_radius], shape(r%contact_radius))
+    call same(id, 'height', [r%height], shape(r%height))
+    call same(id, 'height_x', [r%height_x], shape(r%height_x))
+    call same(id, 'height_y', [r%height_y], shape(r%height_y))
+    call same(id, 'm0_theory', [r%m0_theory], shape(r%m0_theory))
+    call same(id, 'm2_theory', [r%m2_theory], shape(r%m2_theory))
+    call same(id, 'm4_theory', [r%m4_theory], shape(r%m4_theory))
+    call same(id, 'nayak_theory', [r%nayak_theory], shape(r%nayak_theory))
+    call same(id, 'density_theory', [r%density_theory], shape(r%density_theory))
+    call same(id, 'e_star', [r%e_star], shape(r%e_star))
+    call same(id, 'r_star', [r%r_star], shape(r%r_star))
+    call same(id, 'transition_force', [r%transition_force], shape(r%transition_force))
+    call same(id, 'tip_x', [r%tip_x], shape(r%tip_x))
+    call same(id, 'tip_y', [r%tip_y], shape(r%tip_y))
+    call same(id, 'realization', real([r%realization], real64), shape(r%realization))
+    call same(id, 'contacts', real([r%contacts], real64), shape(r%contacts))
+    call same(id, 'candidates', real([r%candidates], real64), shape(r%candidates))
+    call same(id, 'iterations', real([r%iterations], real64), shape(r%iterations))
+    call same(id, 'status', real([r%status], real64), shape(r%status))
+    call same(id, 'method', real([r%method], real64), shape(r%method))
+    call same(id, 'products', real([r%products], real64), shape(r%products))
+    call same(id, 'overlapping_pairs', real([r%overlapping_pairs], real64), shape(r%overlapping_pairs))
+    call same(id, 'large_contacts', real([r%large_contacts], real64), shape(r%large_contacts))
+    call same(id, 'crowded_cells', real([r%crowded_cells], real64), shape(r%crowded_cells))
+    call same(id, 'beyond_law', real([r%beyond_law], real64), shape(r%beyond_law))
+    call same(id, 'summits', real([r%summits], real64), shape(r%summits))
+    call same(id, 'saddles', real([r%saddles], real64), shape(r%saddles))
+    call same(id, 'contact_start', real([r%contact_start], real64), shape(r%contact_start))
+    call same(id, 'contact_count', real([r%contact_count], real64), shape(r%contact_count))
+    call same(id, 'contact_asperity', real([r%contact_asperity], real64), shape(r%contact_asperity))
+    call same_text(id, 'title', r%title)
+    call same_text(id, 'source', r%source)
+    call same_text(id, 'history', r%history)
+    call same_text(id, 'references', r%references)
+    call same_text(id, 'case', r%case)
+    if (nf90_inquire_attribute(id, nf90_global, 'seed', xtype=kind) == nf90_noerr .and. kind == nf90_char) then
+      write (seed, '(i0)') r%seed
+      call same_text(id, 'seed', trim(seed))  ! beyond 32 bits
+    else
+      call check(nf90_get_att(id, nf90_global, 'seed', number) == nf90_noerr .and. r%seed == number, 'seed')
+    end if
     call check(nf90_close(id) == nf90_noerr, 'close')
   end subroutine every_variable
 
-  subroutine same(id, name, values)
+  subroutine same_text(id, name, text)
+    integer, intent(in) :: id
+    character(*), intent(in) :: name, text
+    integer :: length
+    character(:), allocatable :: there
+    call check(nf90_inquire_attribute(id, nf90_global, name, len=length) == nf90_noerr, name // ' is there')
+    allocate (character(length) :: there)
+    call check(nf90_get_att(id, nf90_global, name, there) == nf90_noerr, name)
+    call check(len(text) > 0 .and. len(text) == length .and. text == there, name // ' is that of the file')
+  end subroutine same_text
+
+  ! The values of the variable, and its extents, the last dimension of the file first; missing ones are 1.
+  subroutine same(id, name, values, extent)
     integer, intent(in) :: id
     character(*), intent(in) :: name
     real(real64), intent(in) :: values(:)
+    integer, intent(in) :: extent(:)
     real(real64), allocatable :: there(:)
+    logical :: absent
     integer :: variable, dimensions, ids(nf90_max_var_dims), lengths(nf90_max_var_dims), total, k
     if (nf90_inq_varid(id, name, variable) /= nf90_noerr) then
-      call check(size(values) == 0, name // ' is not in the file')
+      absent = size(values) == 0
+      if (size(extent) == 0) absent = all(rsc_is_absent(values))  ! scalars
+      call check(absent, name // ' is not in the file')
       return
     end if
     call check(nf90_inquire_variable(id, variable, ndims=dimensions, dimids=ids) == nf90_noerr, name)
@@ -206,6 +238,9 @@ contains
     allocate (there(total))
     call check(nf90_get_var(id, variable, there, count=lengths(:dimensions)) == nf90_noerr, name)
     call check(size(values) == total, name // ': number of values')
+    do k = 1, size(extent)
+      call check(extent(k) == merge(lengths(k), 1, k <= dimensions), name // ': extents')
+    end do
     if (size(values) == total) call check(all(values >= there .and. values <= there), name // ': values')
   end subroutine same
 
