@@ -1,10 +1,14 @@
-// A whole case run through the library: the values of its result file are those the library gives step by step, to the last bit.
-#include <netcdf.h>
-
+// A whole case run through the library: every value of its result file that the library has a call for is what that call gives, step by
+// step, to the last bit; and every quantity that can be asked for by name is in some file.
+#include <cmath>
+#include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "check.hpp"
+#include "map_files.hpp"
+#include "result_reader.hpp"
 #include "rsc.h"
 #include "temporary_folder.hpp"
 
@@ -12,68 +16,270 @@ namespace {
 
 #define OK(call) CHECK((call) == RSC_SUCCESS)
 
-std::vector<double> read(int file, const char* name, std::size_t n) {
-    std::vector<double> values(n, -1);
-    int id = -1;
-    CHECK(nc_inq_varid(file, name, &id) == NC_NOERR);
-    CHECK(nc_get_var_double(file, id, values.data()) == NC_NOERR);
-    return values;
+using Values = std::vector<double>;
+
+std::string message() {
+    char text[3000] = "";
+    OK(rsc_message(text, sizeof text, nullptr));
+    return text;
 }
 
-void compare(const std::string& folder, bool force_control) {
+void same(const char* what, const Values& by_file, const Values& by_call) {
+    bool equal = by_file.size() == by_call.size();
+    for (std::size_t k = 0; equal && k < by_file.size(); ++k) equal = by_file[k] == by_call[k];
+    if (!equal) std::printf("%s differs\n", what);
+    CHECK(equal);
+}
+
+struct Run {
+    const char* name;
+    std::string namelist;
+    bool force = false;  // levels are forces
+};
+
+std::set<std::string> compared;  // quantities of levels, by name
+
+// What a level's calls give against row s of the file. Quantities by name: whatever the file has of them.
+void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, const std::vector<std::string>& names) {
+    double Z = 0, N = 0, A = 0, S = 0, W = 0, x = 0, y = 0, residual = 0, value = 0;
+    std::int32_t status = -1;
+    std::int64_t n = 0, candidates = 0, iterations = 0, pairs = 0, large = 0, beyond = 0, edge = 0;
+    for (const std::string& name : names) {
+        const bool vector = name.ends_with("_x") || name.ends_with("_y");
+        const std::string variable = vector ? name.substr(0, name.size() - 2) : name;
+        if (!file.has(variable)) continue;
+        const Values of_file = file.values(variable);
+        const double wanted = vector ? of_file[2 * s + (name.ends_with("_y") ? 1 : 0)] : of_file[s];
+        if (wanted > 1e36) continue;  // absent, as the resistance without contact
+        OK(rsc_contact_value(contact, name.c_str(), &value));
+        if (value != wanted) std::printf("%s: %.17g in the file, %.17g by name\n", name.c_str(), wanted, value);
+        CHECK(value == wanted);
+        if (value != 0 || name == "fallback" || name == "edge_contacts" || name == "extreme_area_fraction") compared.insert(name);
+    }
+    OK(rsc_contact_answer(contact, &Z, &N, &S, &A, &W, &x, &y, &status, &n, &pairs, &large, &beyond, &edge));
+    const auto of = [&](const char* name) { return file.has(name) ? file.values(name)[s] : 0; };
+    CHECK(Z == of("separation") && N == of("force") && A == of("contact_area") && status == of("status"));
+    CHECK(!file.has("stiffness") || (S == of("stiffness") && W == of("energy")));
+    CHECK(static_cast<double>(n) == of("contacts") && static_cast<double>(pairs) == of("overlapping_pairs"));
+    CHECK(!file.has("large_contacts") ||
+          (static_cast<double>(large) == of("large_contacts") && static_cast<double>(edge) == of("edge_contacts") &&
+           static_cast<double>(beyond) == of("beyond_law")));
+    OK(rsc_contact_level(contact, &status, &candidates, &iterations, &pairs, &residual));
+    CHECK(status == of("status") && static_cast<double>(pairs) == of("overlapping_pairs") && residual == of("residual"));
+    CHECK(static_cast<double>(candidates) == of("candidates") && static_cast<double>(iterations) == of("iterations"));
+    // Spots: the file's contacts of this level, counted from 1 there.
+    const auto first = static_cast<std::size_t>(of("contact_start")) - 1, size = static_cast<std::size_t>(n);
+    CHECK(static_cast<double>(n) == of("contact_count"));
+    std::vector<std::int32_t> which(size);
+    Values force(size), radius(size), penetration(size);
+    OK(rsc_contact_spots(contact, n, which.data(), force.data(), radius.data(), penetration.data()));
+    const auto part = [&](const char* name) {
+        const Values all = file.values(name);
+        return Values(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(first + size));
+    };
+    same("contact_force", part("contact_force"), force);
+    same("contact_radius", part("contact_radius"), radius);
+    if (!file.has("contact_asperity")) return;
+    Values from_1(which.begin(), which.end());
+    for (double& k : from_1) k += 1;
+    same("contact_asperity", part("contact_asperity"), from_1);
+}
+
+void asperities_by_calls(const Reader& file, const rsc_asperities* asperities) {
+    std::int64_t n = 0;
+    OK(rsc_asperities_count(asperities, &n));
+    if (!file.has("asperity_x")) return CHECK(n == 0);
+    Values a(static_cast<std::size_t>(n)), b(a), c(a), d(a);
+    OK(rsc_asperities_get(asperities, n, a.data(), b.data(), c.data(), d.data()));
+    same("asperity_x", file.values("asperity_x"), a);
+    same("asperity_y", file.values("asperity_y"), b);
+    same("asperity_z", file.values("asperity_z"), c);
+    same("asperity_radius", file.values("asperity_radius"), d);
+    OK(rsc_asperities_curvatures(asperities, n, a.data(), b.data(), c.data()));
+    same("asperity_kappa1", file.values("asperity_kappa1"), a);
+    same("asperity_kappa2", file.values("asperity_kappa2"), b);
+    same("asperity_angle", file.values("asperity_angle"), c);
+}
+
+void surface_by_calls(const Reader& file, const rsc_case* a_case) {
+    rsc_surface* surface = nullptr;
+    std::int64_t nx = 0, ny = 0;
+    double dx = 0, dy = 0, x0 = 0, y0 = 0, m0 = 0, m2 = 0, m4 = 0;
+    OK(rsc_surface_synthesize(&surface, a_case, 1));
+    OK(rsc_surface_grid(surface, &nx, &ny, &dx, &dy, &x0, &y0, nullptr));
+    Values z(static_cast<std::size_t>(nx * ny));
+    OK(rsc_surface_heights(surface, nx * ny, z.data()));
+    same("height", file.values("height"), z);
+    const Values x = file.values("height_x"), y = file.values("height_y");
+    CHECK(static_cast<std::int64_t>(x.size()) == nx && static_cast<std::int64_t>(y.size()) == ny);
+    for (std::size_t i = 0; i < x.size(); ++i) CHECK_CLOSE(x[i], x0 + static_cast<double>(i) * dx, 1e-14 * x.back());
+    for (std::size_t j = 0; j < y.size(); ++j) CHECK_CLOSE(y[j], y0 + static_cast<double>(j) * dy, 1e-14 * y.back());
+    OK(rsc_surface_moments(surface, &m0, &m2, &m4));
+    CHECK_RELATIVE(m0, std::pow(file.values("sigma")[0], 2), 1e-12);
+    // The file's own moments of a synthetic surface come from its spectrum; those on the grid are beside them.
+    CHECK_RELATIVE(m2, file.values(file.has("m2_grid") ? "m2_grid" : "m2")[0], 1e-12);
+    CHECK_RELATIVE(m4, file.values(file.has("m4_grid") ? "m4_grid" : "m4")[0], 1e-12);
+    OK(rsc_surface_destroy(&surface));
+}
+
+// The loops of friction at each level: a slide along x nearly to full slip, back and forth again. The file has first loading to full slip,
+// 41 points, and then the loop from 9/10 of that on.
+void friction_by_calls(const Reader& file, rsc_contact* contact, const rsc_case* a_case) {
+    const Values separation = file.values("separation"), slide = file.values("tangential_displacement"),
+                 force = file.values("tangential_force");
+    const std::size_t points = slide.size() / separation.size();
+    for (std::size_t s = 0; s < separation.size(); ++s) {
+        rsc_friction* friction = nullptr;
+        OK(rsc_friction_create_from_case(&friction, contact, a_case));
+        double N = 0, Q = 0, across = 0, lost = 0, most = 0, full = 0, k[4] = {}, of_cycle = 0, worst = 0;
+        OK(rsc_friction_update(friction, separation[s], 0, 0, &N, nullptr, nullptr, nullptr));
+        CHECK_RELATIVE(N, file.values("force")[s], 1e-9);
+        OK(rsc_friction_stiffness(friction, &k[0], &k[1], &k[2], &k[3]));
+        CHECK_RELATIVE(k[0], file.values("tangential_stiffness")[s], 1e-9);
+        CHECK_RELATIVE(k[3], file.values("tangential_stiffness")[s], 1e-9);
+        CHECK(k[1] == 0 && k[2] == 0);
+        OK(rsc_friction_full_slip(friction, &full, &most));
+        for (std::size_t p = 0; p < points; ++p) {
+            if (p > 36 && p < 41) continue;
+            OK(rsc_friction_update(friction, separation[s], slide[s * points + p], 0, nullptr, &Q, &across, &lost));
+            worst = check::worse(worst, std::abs(Q - force[s * points + p]) / most);
+            CHECK(across == 0 && lost >= 0);
+            if (p > 41)
+                of_cycle += 0.5 * (force[s * points + p] + force[s * points + p - 1]) * (slide[s * points + p] - slide[s * points + p - 1]);
+        }
+        CHECK_CLOSE(worst, 0, 1e-6);                                   // to the tolerance of levels
+        CHECK_RELATIVE(of_cycle, file.values("cycle_work")[s], 0.01);  // trapezia
+        OK(rsc_friction_destroy(&friction));
+    }
+}
+
+void every_value(const Folder& folder, const Run& run) {
+    const int before = check::failures;
     rsc_case* c = nullptr;
+    rsc_asperities* a = nullptr;
+    rsc_contact* k = nullptr;
     OK(rsc_case_create(&c));
-    OK(rsc_case_read(c, "&surface n=256, L_lambda_l=4, L_lambda_s=64, sigma=0.01 / &run seed=7 /"));
-    const std::string file = folder + (force_control ? "/force.nc" : "/separation.nc");
-    OK(rsc_case_set(c, "output%file", ("'" + file + "'").c_str()));
-    const std::vector<double> levels = force_control ? std::vector<double>{0.5, 2, 8, 32} : std::vector<double>{3, 2.5, 2, 1.5, 1};
-    OK(rsc_case_set(c, "indentation%levels", force_control ? "0.5, 2, 8, 32" : "3, 2.5, 2, 1.5, 1"));
-    if (force_control) OK(rsc_case_set(c, "indentation%control", "'force'"));
+    OK(rsc_case_read(c, run.namelist.c_str()));
+    const std::string path = folder / "run.nc";
+    OK(rsc_case_set(c, "output%file", ("'" + path + "'").c_str()));
     std::int64_t failed = -1;
     OK(rsc_case_run(c, &failed));
     CHECK(failed == 0);
-
-    int nc = -1;
-    CHECK(nc_open(file.c_str(), NC_NOWRITE, &nc) == NC_NOERR);
-    const auto separation = read(nc, "separation", levels.size()), force = read(nc, "force", levels.size());
-    const auto area = read(nc, "contact_area", levels.size()), contacts = read(nc, "contacts", levels.size());
-    nc_close(nc);
-
-    rsc_asperities* a = nullptr;
-    rsc_contact* k = nullptr;
+    const Reader file(path);
     OK(rsc_asperities_make(&a, c, 1));
     OK(rsc_contact_create_from_case(&k, a, c));
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        double N = 0, A = 0, Z = 0;
-        std::int64_t n = 0;
-        OK(force_control ? rsc_contact_press(k, levels[i], nullptr) : rsc_contact_indent(k, levels[i] * 0.01, nullptr));
-        OK(rsc_contact_result(k, &Z, &N, &A, &n));
-        CHECK(N == force[i] && A == area[i] && Z == separation[i] && static_cast<double>(n) == contacts[i]);
+    asperities_by_calls(file, a);
+    if (file.has("height")) surface_by_calls(file, c);
+    double x = 0, y = 0, value = 0;
+    OK(rsc_contact_tip(k, &x, &y));
+    if (file.has("tip_x")) CHECK(x == file.values("tip_x")[0] && y == file.values("tip_y")[0] && (x != y || file.has("pressure")));
+
+    const Values separation = file.values("separation"), force = file.values("force");
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < separation.size(); ++s) {
+        OK(run.force ? rsc_contact_press(k, std::round(force[s] * 1e4) / 1e4, nullptr) : rsc_contact_indent(k, separation[s], nullptr));
+        if (names.empty()) {  // all that can be asked for
+            CHECK(rsc_contact_value(k, "?", &value) == -2);
+            std::string list = message();
+            list = list.substr(list.find("one of ") + 7);
+            for (std::size_t at = 0; at != std::string::npos;) {
+                const std::size_t comma = list.find(", ", at);
+                names.push_back(list.substr(at, comma - at));
+                at = comma == std::string::npos ? comma : comma + 2;
+            }
+            CHECK(names.size() > 25);
+        }
+        level_by_calls(file, k, s, names);
     }
-    CHECK(force.back() > 1);
+    if (file.has("tangential_force")) friction_by_calls(file, k, c);
+    CHECK(force.back() > 0 && separation.size() > 1);
     OK(rsc_contact_destroy(&k));
     OK(rsc_asperities_destroy(&a));
     OK(rsc_case_destroy(&c));
+    if (check::failures > before) std::printf("in the case '%s'\n", run.name);
 }
 
 }  // namespace
 
 int main() {
     const Folder folder;
-    compare(folder.path.string(), false);
-    compare(folder.path.string(), true);
+    // An oblong measured map, its steps different along x and y.
+    map_files::Map map{24, 16, 2e-5, 3e-5, {}};  // in m: mm of the case are 1e3 of it
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) map.z.push_back(((7 * i * i + 11 * j * j + 5 * i * j) % 61) * 1e-7);
+    std::ofstream(folder / "map.gwy", std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "Topography", map));
+
+    const std::string surface = "&surface n=128, L=1.5, L_lambda_l=4, L_lambda_s=16, sigma=0.02 / &run seed=7 / ",
+                      output = "&output contacts='all', map_cells=9, radial_bins=7, pdf_bins=5 / ",
+                      solids = "&solids E=1e3, 3e3  nu=0.125, 0.375  R=3.0, 5.0";
+    const Run runs[] = {
+        {"off centre, with resistivity",
+         surface + solids +
+             "  resistivity=1e-5, 3e-5 / &asperities law='fourth_order' / &indentation levels=2.5, 1, -1  centre=0.625, 0.875 / "
+             "&output contacts='all', heights=.true. /"},
+        {"by force",
+         surface + solids + " / &asperities law='elliptic' / &indentation control='force', levels=0.5, 2, 8  centre=0.7, 0.8 / " + output,
+         true},
+        {"a measured map",
+         "&surface source='heights', file='" + (folder / "map.gwy") + "', detrend='mean' / " + solids +
+             " / &indentation unit='length', levels=2e-3, 1e-3, 0  centre=0.2, 0.3 / &output contacts='all', heights=.true. /"},
+        {"no interaction, at the border",
+         surface + solids + " / &solver interaction='none' / &indentation levels=1, 0  centre=0.125, 1.25 / " + output},
+        {"yielding", surface + solids + "  hardness=100.0 / &indentation levels=2, 0.5, 1  centre=0.7, 0.8 / " + output},
+        {"with friction",
+         surface + solids + "  friction=0.25 / &indentation levels=1, 0.25  centre=0.7, 0.8 / &solver tolerance=1e-10 / " + output},
+        {"two flats", surface +
+                          "&solids E=1e3, 3e3  nu=0.125, 0.375  R=Infinity, Infinity / "
+                          "&indentation boundary='periodic', levels=2, 1 / " +
+                          output},
+        {"elements",
+         surface + solids + "  hardness=300.0 / &solver model='elements' / &indentation levels=2, 1  centre=0.7, 0.8 / " + output},
+    };
+    for (const Run& run : runs) every_value(folder, run);
+    for (const char* name : {"separation",
+                             "stiffness",
+                             "energy",
+                             "conductance_length",
+                             "resistance",
+                             "lateral_force_x",
+                             "lateral_force_y",
+                             "moment_x",
+                             "moment_y",
+                             "force",
+                             "contact_area",
+                             "contact_area_pixels",
+                             "pressure",
+                             "area_fraction",
+                             "contacts",
+                             "candidates",
+                             "iterations",
+                             "residual",
+                             "status",
+                             "method",
+                             "fallback",
+                             "products",
+                             "overlapping_pairs",
+                             "large_contacts",
+                             "beyond_law",
+                             "edge_contacts",
+                             "nominal_area",
+                             "plastic_contacts",
+                             "plastic_work",
+                             "extreme_area_fraction"}) {
+        if (!compared.contains(name)) std::printf("%s: in no file, or 0 in all\n", name);
+        CHECK(compared.contains(name));
+    }
 
     // Levels that do not converge are told, and the file is there all the same; a folder that cannot be made leaves nothing.
     rsc_case* c = nullptr;
     OK(rsc_case_create(&c));
     OK(rsc_case_read(c, "&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver max_iterations=1 /"));
-    OK(rsc_case_set(c, "output%file", ("'" + folder.path.string() + "/unfinished.nc'").c_str()));
+    OK(rsc_case_set(c, "output%file", ("'" + (folder / "unfinished.nc") + "'").c_str()));
     std::int64_t failed = -1;
-    CHECK(rsc_case_run(c, &failed) == RSC_NOT_CONVERGED);
-    CHECK(failed > 0);
-    int nc = -1;
-    CHECK(nc_open((folder.path.string() + "/unfinished.nc").c_str(), NC_NOWRITE, &nc) == NC_NOERR);
-    nc_close(nc);
+    CHECK(rsc_case_run(c, &failed) == RSC_NOT_CONVERGED && message().find("status = 4") != std::string::npos);
+    std::int64_t with_4 = 0;
+    for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
+    CHECK(failed > 0 && failed == with_4);
     OK(rsc_case_set(c, "output%file", "'/proc/no/such/folder.nc'"));
     failed = -1;
     CHECK(rsc_case_run(c, &failed) == -1);
