@@ -112,7 +112,8 @@ def main():
             report.note("This is the SHORTENED version: few small surfaces. It shows that the command works; nobody has looked at its numbers.")
         nayak(folder, report)
         size(folder, report)
-        rows = [line.split() for line in open(os.path.join(folder, "times.txt"), encoding="utf-8")]
+        with open(os.path.join(folder, "times.txt"), encoding="utf-8") as times:
+            rows = [line.split() for line in times]
         report.heading("Time")
         report.note(f"{sum(int(row[1]) for row in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{row[0]} {row[1]} s" for row in rows) + ".")
         path = os.path.join(folder, "report.txt")

@@ -38,7 +38,8 @@ def times(report, folder):
     if not os.path.exists(path):
         return
     report.heading("Time")
-    rows = [line.split() for line in open(path, encoding="utf-8")]
+    with open(path, encoding="utf-8") as lines:
+        rows = [line.split() for line in lines]
     again = [row[0] for row in rows if "resumed" in row]
     report.note(f"Cases {sum(int(row[1]) for row in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{row[0]} {row[1]} s" for row in rows) + "."
                 + (f" Interrupted, the time is that of the last go: {', '.join(again)}." if again else ""))

@@ -65,6 +65,13 @@ def _band(poly):
     return {"x": np.sort(x), "low": np.array([ends[v][0] for v in np.sort(x)]), "high": np.array([ends[v][1] for v in np.sort(x)]), "colour": _colour(poly.get_facecolor()[0])}
 
 
+def bars(x, y, below, above, colour, along="y"):
+    """Error bars of points."""
+    x, y = np.asarray(x, float), np.asarray(y, float)
+    ends = np.array([[(a, b - lo), (a, b + hi)] if along == "y" else [(a - lo, b), (a + hi, b)] for a, b, lo, hi in zip(x, y, below + 0 * x, above + 0 * x)])
+    return {"ends": ends.reshape(-1, 2), "colour": _colour(colour)}
+
+
 def _ellipses(axis, found):
     assert found.get_offset_transform() is axis.transData
     faces, edges = found.get_facecolor(), found.get_edgecolor()
@@ -148,7 +155,9 @@ def _axis(axis, index):
             if len(child.get_offsets()):
                 found["ellipses"].append(_ellipses(axis, child))
         elif isinstance(child, collections.LineCollection):
-            found["segments"].append({"ends": np.array([s for s in child.get_segments() if len(s)]), "colour": _colour(child.get_edgecolor()[0])})
+            found["segments"].append({"ends": np.concatenate([s for s in child.get_segments() if len(s)] or [np.zeros((0, 2))]), "colour": _colour(child.get_edgecolor()[0])})
+        elif isinstance(child, collections.PathCollection):  # a contour
+            found["segments"].append({"ends": np.concatenate([path.vertices for path in child.get_paths()]), "colour": _colour(child.get_edgecolor()[0])})
         elif isinstance(child, collections.QuadMesh):
             found["meshes"].append({"values": np.ma.filled(child.get_array().astype(float), np.nan).ravel(), "corners": np.asarray(child.get_coordinates()), "range": np.array(child.get_clim()),
                                     "colours": child.get_cmap().name})
