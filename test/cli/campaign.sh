@@ -416,7 +416,7 @@ test_full_disk() {
     campaign 300
     expect 0 in_folder whole "$rsc" -q ../case.nml
     expect 1 in_folder disk "$rsc" -q ../case.nml
-    says "is full"
+    says "^cannot write 'out.nc.checkpoint': the disk is full (No space left on device); make room there$"
     says "^[0-9]* of 300 realizations are finished and kept in 'out.nc.checkpoint': the same command with --resume goes on from there$"
     [ "$(ls disk)" = out.nc.checkpoint ] || fail "found: $(ls disk)"
     expect 1 in_folder disk "$rsc" -q --resume ../case.nml

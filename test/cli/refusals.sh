@@ -171,15 +171,15 @@ test_sizes() {
 # The manifest of a study, and what of a study is in the way.
 test_study() {
     printf "&study surface%%sigma = 0.01, 0.02  solids%%R(2) = 2, Infinity /\n" >> case.nml
-    local left="it is left alone: let &output file have another name"
+    local left="; it is left alone: let &output file have another name"
     echo mine > out_manifest.txt
-    refused "the manifest of the study, 'out_manifest.txt': this file exists and is no manifest of rsc; $left"
+    refused "the manifest of the study, 'out_manifest.txt': this file exists and is no manifest of rsc$left"
     mv out_manifest.txt out_manifest.nc
-    refused "the manifest of the study, 'out_manifest.nc': this file exists and is no manifest of rsc; $left"
+    refused "the manifest of the study, 'out_manifest.nc': this file exists and is no manifest of rsc$left"
     rm out_manifest.nc
     cp case.nml out_manifest.txt
     "$rsc" out_manifest.txt 2> err && fail "the case was taken for a manifest"
-    [ "$(cat err)" = "the manifest of the study, 'out_manifest.txt': this is an input of the run; $left" ] || fail "an input: $(cat err)"
+    [ "$(cat err)" = "the manifest of the study, 'out_manifest.txt': this is an input of the run$left" ] || fail "an input: $(cat err)"
     rm out_manifest.txt
     mkdir out_003.nc
     refused "member 3 (surface%sigma=0.02 solids%R(2)=2): &output file='out_003.nc': this is a folder; name a file in it, such as 'out_003.nc/rsc.nc'"
@@ -224,21 +224,21 @@ test_study() {
 
 # Results that are no part of a campaign, told where --resume would go on with them; and parts that are not of one whole.
 test_parts() {
-    local other="is not the first part of this campaign" all="all realizations are computed, and it is replaced"
+    other() { echo "rsc: '$1' is not the first part of this campaign ($2): all realizations are computed, and it is replaced"; }
     sed -i "s/steps = 2/levels = 3, 2/" case.nml read.nml
     status 0 "" case.nml -q -s run%realizations=2 -s "output%format='classic'"
     sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' out.nc
-    status 0 "rsc: 'out.nc' $other (it is of another version of rsc): $all" case.nml -q --resume -s run%realizations=3 -s "output%format='classic'"
+    status 0 "$(other out.nc 'it is of another version of rsc')" case.nml -q --resume -s run%realizations=3 -s "output%format='classic'"
     cp case.nml study.nml
     printf "&study surface%%sigma = 0.01, 0.02 /\n" >> study.nml
     status 0 "" study.nml -q
-    status 0 "rsc: 'out_manifest.nc' $other (it is no campaign): $all" case.nml -q --resume -s run%realizations=2 -o out_manifest.nc
+    status 0 "$(other out_manifest.nc 'it is no campaign')" case.nml -q --resume -s run%realizations=2 -o out_manifest.nc
     for k in 1 2 3 4; do sed "s/5/$k.5/" map.txt > m$k.txt; done
     from heights 'm?.txt'
     maps=(-q -s surface%L=7)
     status 0 "" case.nml "${maps[@]}" -o a.nc -s run%realizations=2
     sleep 0.02; touch m2.txt
-    status 0 "rsc: 'a.nc' $other (an input has changed since): $all" case.nml "${maps[@]}" -o a.nc --resume -s run%realizations=2
+    status 0 "$(other a.nc 'an input has changed since')" case.nml "${maps[@]}" -o a.nc --resume -s run%realizations=2
     # The first map of each part says what sigma is, and where bins lie.
     status 0 "" case.nml "${maps[@]}" -o b.nc -s run%realizations=2 -s run%first_realization=3
     status 2 "'b.nc': pressure_mean_bin begins at another value than the case gives: the surfaces were not the same" -q --merge a.nc b.nc -o whole.nc
@@ -252,6 +252,20 @@ test_parts() {
     [ $? -eq 1 ] || fail "no room: status"
     [ "$(tail -n 1 err)" = "3 of 3 realizations are finished and kept in 'f.nc.checkpoint': the same command with --resume writes the file without computing them again" ] ||
         fail "no room: $(cat err)"
+}
+
+# A study that is stopped says how far it came: as many members as there are results.
+test_stopped() {
+    printf "&study run%%seed = 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 /\n" >> case.nml
+    "$rsc" -q case.nml -s surface%n=1024 -s surface%L_lambda_s=256 -s indentation%steps=60 -s run%threads=1 2> err &
+    until ls | grep -q 'out_002.nc$'; do kill -0 $! || break; sleep 0.01; done
+    kill -TERM $!
+    wait $!
+    [ $? -eq 143 ] || fail "status"
+    local finished
+    finished=$(ls | grep -c 'out_0[0-9]*.nc$')
+    [ $finished -lt 12 ] || exit 77
+    [ "$(cat err)" = "rsc: stopped by SIGTERM; $finished of 12 members are finished; the same command with --resume leaves them alone" ] || fail "$finished are there: $(cat err)"
 }
 
 "test_$test"

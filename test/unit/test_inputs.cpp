@@ -206,6 +206,14 @@ void bad_heights_from_netcdf() {
         REFUSED(read_heights(f.path, 1.0), ": a height map of 2000000000 x 2000000000 points needs 3.2e+10 GB; this machine has ");
     }
     {
+        NcFile f("wide");
+        const int d = f.dimension("y", 3), e = f.dimension("x", 3000000000U);
+        const std::size_t chunks[] = {3, 100};
+        ok(nc_def_var_chunking(f.id, f.variable("height", NC_DOUBLE, {d, e}), NC_CHUNKED, chunks));
+        f.close();
+        REFUSED(read_heights(f.path, 1.0), "wide: a height map of 3000000000 x 3 points; at most 2147483647 a side are possible");
+    }
+    {
         NcFile f("small");
         f.variable("height", NC_DOUBLE, {f.dimension("y", 2), f.dimension("x", 9)});
         f.close();
@@ -281,6 +289,9 @@ void cut_files() {
             }
         }
         CHECK(said == cuts && cuts > 50);
+        REFUSED(read_heights(write("cut", bytes.substr(0, 20)), std::nullopt),
+                format == NC_NETCDF4 ? "cut: looks like NetCDF but cannot be opened; is it whole? ("
+                                     : "cut: looks like NetCDF, but its header is cut off or damaged at byte " + std::to_string(format == NC_64BIT_DATA ? 16 : 20));
         REFUSED(read_heights(write("cut", bytes.substr(0, bytes.size() - 1)), std::nullopt), "whole");
     }
     // With a record dimension too.

@@ -2,6 +2,7 @@
 // and every status is the same, to the last bit, whatever &surface source says; what cannot be had one way is refused.
 #include <netcdf.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -254,6 +255,25 @@ int main() {
     CHECK(level == RSC_LEVEL_OUT_OF_VALIDITY);
     OK(rsc_contact_destroy(&k));
     rsc_case* c = nullptr;
+    // Asperities of one height have no sigma to scale by; given one, they are like others.
+    for (const auto& [key, value, back] :
+         {std::array{"solver%method", "'dgesv'", "'auto'"}, {"indentation%selection", "'paper'", "'overlap'"}}) {
+        OK(rsc_case_create(&c));
+        OK(rsc_case_set(c, key, value));
+        CHECK(rsc_contact_create_from_case(&k, a, c) == -3);
+        CHECK(message().find(
+                  "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the asperities, all of "
+                  "one height, give none") != std::string::npos);
+        OK(rsc_case_set(c, "surface%sigma", "0.01"));
+        OK(rsc_contact_create_from_case(&k, a, c));
+        OK(rsc_contact_destroy(&k));
+        OK(rsc_case_destroy(&c));
+        OK(rsc_case_create(&c));
+        OK(rsc_case_set(c, key, back));
+        OK(rsc_contact_create_from_case(&k, a, c));
+        OK(rsc_contact_destroy(&k));
+        OK(rsc_case_destroy(&c));
+    }
     OK(rsc_case_create(&c));
     OK(rsc_case_set(c, "surface%L", "1.0"));
     OK(rsc_contact_create_from_case(&k, a, c));
