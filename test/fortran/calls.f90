@@ -27,6 +27,7 @@ program calls
   call unfinished()
   call many()
   call frictions()
+  call sizes()
 
 contains
 
@@ -836,5 +837,92 @@ contains
     call friction%rollback(stat, msg)
     call told('rsc_friction_rollback')
     call update(friction, 0.00390625_dp, 0.5_dp, 0.2490234375_dp)
+  end subroutine
+
+  ! What this module refuses itself: each array of another size than the others, objects that hold nothing. The objects are as before.
+  subroutine sizes()
+    type(rsc_surface) :: surface
+    type(rsc_asperities) :: asperities, none
+    type(rsc_contact) :: contact, contacts(2)
+    type(rsc_friction) :: friction
+    real(dp), dimension(2) :: x = [0.0_dp, 1.0_dp], y = [0.0_dp, 2.0_dp], r = [1.0_dp, 2.0_dp], a, b
+    real(dp) :: one(1) = 1, three(3) = 1, z(4, 3), value
+    integer(c_int32_t) :: each(2), each_1(1)
+    integer :: k
+    scene = 'own'
+    z = 0
+    a = 7
+    b = 7
+    call surface%take(z, 1.0_dp)
+    call surface%heights(z(:, :2), stat, msg)
+    call told('surface%heights')
+    call surface%heights(z(:3, :), stat, msg)
+    call told('surface%heights')
+    call asperities%take(x, three, y, r, stat=stat, errmsg=msg)
+    call told('asperities%take')
+    call asperities%take(x, y, one, r, stat=stat, errmsg=msg)
+    call told('asperities%take')
+    call asperities%take(x, y, y, three, stat=stat, errmsg=msg)
+    call told('asperities%take')
+    call asperities%take(x, y, y, r, three, r, r, stat=stat, errmsg=msg)
+    call told('asperities%take')
+    call asperities%take(x, y, y, r, r, three, r, stat=stat, errmsg=msg)
+    call told('asperities%take')
+    call asperities%take(x, y, y, r, r, r, three, stat=stat, errmsg=msg)
+    call told('asperities%take')
+    call asperities%take(x, y, y, r, r, r, r, three, stat, msg)
+    call told('asperities%take')
+    k = asperities%count(stat, msg)  ! it holds nothing now
+    call told('asperities%count')
+    call put('asperities%count', k)
+    call asperities%take(x, y, [0.0_dp, 0.0_dp], r, stat=stat, errmsg=msg)
+    call contact%create(none, 1e3_dp, 4.0_dp, 0.0_dp, 0.0_dp, stat=stat, errmsg=msg)
+    call told('contact%create')
+    do k = 1, 2
+      call contacts(k)%create(asperities, 1e3_dp, 4.0_dp, x(k), y(k), stat=stat, errmsg=msg)
+      call told('contact%create')
+    end do
+    call contacts(1)%indent(-0.5_dp, stat=stat, errmsg=msg)
+    call contacts(1)%per_asperity(one, stat=stat, errmsg=msg)
+    call told('contact%per_asperity')
+    call contacts(1)%per_asperity(radius=three, stat=stat, errmsg=msg)
+    call told('contact%per_asperity')
+    call contacts(1)%per_asperity(penetration=one, stat=stat, errmsg=msg)
+    call told('contact%per_asperity')
+    call contacts(1)%deflection(x, three, a, stat, msg)
+    call told('contact%deflection')
+    call contacts(1)%deflection(x, y, three, stat, msg)
+    call told('contact%deflection')
+    call rsc_press_all(contacts, three, a, stat=stat, errmsg=msg)
+    call told('rsc_press_all')
+    call rsc_press_all(contacts, r, one, stat=stat, errmsg=msg)
+    call told('rsc_press_all')
+    call rsc_press_all(contacts, r, a, each=each_1, stat=stat, errmsg=msg)
+    call told('rsc_press_all')
+    call rsc_indent_all(contacts, one, a, stat=stat, errmsg=msg)
+    call told('rsc_indent_all')
+    call rsc_indent_all(contacts, r, three, stat=stat, errmsg=msg)
+    call told('rsc_indent_all')
+    call rsc_indent_all(contacts, r, a, each=each_1, stat=stat, errmsg=msg)
+    call told('rsc_indent_all')
+    call rsc_press_all(contacts, r, a, -1, each, stat, msg)
+    call told('rsc_press_all')
+    call friction%create(contacts(1), 0.25_dp, 0.75_dp, stat, msg)
+    call friction%update(-0.5_dp, 0.0_dp, 0.0_dp, stat=stat, errmsg=msg)
+    call told('friction%update')
+    call friction%first_loading([0.0_dp], a, stat=stat, errmsg=msg)
+    call told('friction%first_loading')
+    call friction%first_loading([0.0_dp, 1e-3_dp], a, three, stat, msg)
+    call told('friction%first_loading')
+    if (any(abs(a - 7) > 0)) call put('own', 'an array was written')
+    value = contacts(1)%force(stat, msg)
+    call told('contact%force')
+    if (.not. value > 0) call put('contact%force', 'lost')
+    value = contact%area(stat, msg)
+    call told('contact%area')
+    call put('contact%area', value)
+    call contacts(1)%create(asperities, -1.0_dp, 4.0_dp, 0.0_dp, 0.0_dp, stat=stat)
+    value = contacts(1)%force(stat, msg)  ! what was created before is gone
+    call told('contact%force')
   end subroutine
 end program

@@ -1,6 +1,10 @@
 """Bad input from Python: each of these is refused with a message that names the argument, and nothing crashes."""
+import copy
 import itertools
 import math
+import os
+import pickle
+import re
 import unittest
 
 import numpy as np
@@ -66,23 +70,44 @@ CASES = [
     (lambda: rsc.Case({"surface%file": "a\0b"}), "null"), (lambda: rsc.Case()["surface%simga"], "sigma"), (lambda: rsc.Case()[3], "name"),
     (lambda: rsc.Case().read(None), "text"), (lambda: rsc.Case("&study surface%sigma = 1.0, 2.0 /"), "study"), (lambda: rsc.study(rsc.Case(), {}, None, mode="sum"), "mode"),
     (lambda: rsc.study(rsc.Case(), {"surface%n": [64, 128], "run%seed": [1]}, None, mode="zip"), "over"),
+    (lambda: rsc.press_all([indented()] * 2, [1.0, 2.0]), "twice"), (lambda: rsc.indent_all([indented()], [1.0, 2.0]), "separations.*shape"),
+    (lambda: rsc.press_all([indented()], ["a"]), "forces"), (lambda: rsc.press_all([indented()], [1.0], -1), "threads"), (lambda: rsc.press_all([None], [1.0]), "contacts.*None"),
+    (lambda: rsc.press_all([closed(indented())], [1.0]), "closed"), (lambda: indented().curve(), "separations"), (lambda: indented().curve([1.0], [1.0]), "separations"),
+    (lambda: rsc.Friction(indented(), -1.0, 1.0), "mu"), (lambda: rsc.Friction(None, 1.0, 1.0), "contact"), (lambda: rsc.Friction.from_case(None), "contact"),
+    (lambda: rsc.Friction(indented(), 1.0, 1.0).update(0.5, NAN), "x"), (lambda: rsc.Friction(indented(), 1.0, 1.0).state(), "no path"),
+    (lambda: rsc.stiffness_ratio([1.0], [0.2, 0.3]), "E.*shape"), (lambda: rsc.stiffness_ratio([1.0, 1.0], [0.2, 0.6]), "nu"), (lambda: rsc.Contact.restore(None, "x"), "asperities"),
+    (lambda: rsc.Contact.restore(asperities(), "no/such/file"), "no/such/file"), (lambda: rsc.Friction.restore(None, "x"), "asperities"),
+    (lambda: rsc.read("no/such/file.nc", xarray=False), "no/such/file.nc"), (lambda: rsc.Contact(asperities(), 1.0, 1.0).spots(), "no result"),
+    (lambda: rsc.Case().read_file("no/such/file.nml"), "no/such/file.nml"), (lambda: rsc.Case().update(3), "source"), (lambda: take(kappa1=[1.0, 2.0]), "kappa1.*shape"),
 ]
+
+
+SAID = os.path.join(os.path.dirname(os.path.abspath(__file__)), "arguments_said.txt")
 
 
 class Arguments(unittest.TestCase):
     def test_refused(self):
+        said = []
         for k, (action, word) in enumerate(CASES):
             with self.subTest(number=k, word=word):
-                with self.assertRaisesRegex((ValueError, rsc.Error), word):
+                with self.assertRaisesRegex((ValueError, rsc.Error), word) as caught:
                     action()
+                said.append(f"{k} {type(caught.exception).__name__} {caught.exception}".replace("\n", "|"))
+        # Word for word, but for addresses in memory.
+        with open(SAID, encoding="utf-8") as file:
+            self.assertEqual([re.sub("0x[0-9a-f]+", "0x...", line) for line in said], file.read().splitlines())
 
     def test_state(self):
         with self.assertRaises(rsc.Error) as caught:
             rsc.Contact(asperities(), 1.0, 1.0).force
         self.assertEqual(caught.exception.status, rsc.NO_RESULT)
         for kind in (rsc.Surface, rsc.Asperities):
-            with self.assertRaises(TypeError):
+            with self.assertRaisesRegex(TypeError, f"^rsc.{kind.__name__}: use one of its class methods$"):
                 kind()
+        with self.assertRaisesRegex(TypeError, "^rsc.Case cannot be pickled: it lives in this process; pickle the text of its case or its arrays$"):
+            pickle.dumps(rsc.Case())
+        self.assertIsNot(copy.copy(indented()), copy.deepcopy(indented()))
+        self.assertEqual(copy.deepcopy(rsc.Case({"surface%n": 64}))["surface%n"], 64)
 
     def test_anything_anywhere(self):
         """Every method with values of the wrong kind in every place: an exception of Python's, never the end of the process."""
