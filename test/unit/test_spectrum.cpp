@@ -4,6 +4,7 @@
 #include <Random123/philox.h>
 
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -129,6 +130,125 @@ void bad_spectra() {
     names(spectrum(0.8, 1.5, 1.9, false), "no mode");  // between sqrt(2) and 2 there is none
 }
 
+// A table with unlike steps and slopes, rising and falling, and a gap: its integrals by Simpson's rule, its values by hand, and the
+// moments of the surfaces made from it by sums over all modes of the plane.
+void tables() {
+    const std::vector<double> k{2, 3.5, 5, 9, 10, 17}, psd{0.4, 0.9, 0.2, 0, 0.3, 0.05};
+    const auto table = std::make_shared<const SpectrumTable>(k, psd);
+    CHECK(table->lowest() == 2 && table->highest() == 17 && table->largest() == 0.9);
+    const auto slow = [&](double x) {
+        for (std::size_t i = 1; i < k.size(); ++i)
+            if (x >= k[i - 1] && x < k[i])
+                return psd[i] * psd[i - 1] > 0
+                           ? psd[i - 1] * std::pow(psd[i] / psd[i - 1], std::log(x / k[i - 1]) / std::log(k[i] / k[i - 1]))
+                           : 0.0;
+        return 0.0;
+    };
+    for (const double x : {1.999, 2.3, 3.4, 4.1, 4.999, 5.001, 7.0, 9.5, 9.999, 10.001, 12.0, 16.9, 17.001})
+        CHECK_CLOSE((*table)(x), slow(x), 1e-14);
+    for (std::size_t i = 0; i < 5; ++i) CHECK_CLOSE((*table)(k[i]), slow(k[i]), 1e-14);
+    CHECK_CLOSE((*table)(17), 0.05, 1e-15);
+    // Rounding of a cutoff does not cut off the entry at it.
+    CHECK_RELATIVE((*table)(2 * (1 - 1e-13)), 0.4, 1e-12);
+    CHECK_RELATIVE((*table)(17 * (1 + 1e-13)), 0.05, 1e-12);
+    const auto integral = [&](int power) {
+        double sum = 0;
+        for (std::size_t i = 1; i < k.size(); ++i) {
+            const int steps = 2000;
+            const double h = (k[i] - k[i - 1]) / steps;
+            for (int j = 0; j <= steps && psd[i] * psd[i - 1] > 0; ++j) {
+                const double x = k[i - 1] + j * h, value = j == steps ? psd[i] : slow(x);
+                sum += (j == 0 || j == steps ? 1 : j % 2 ? 4 : 2) * value * std::pow(x, power) * h / 3;
+            }
+        }
+        return sum;
+    };
+    for (const int power : {0, 1, 3, 5}) CHECK_RELATIVE(table->integral(power), integral(power), 1e-11);
+    CHECK_RELATIVE(table->sigma(), std::sqrt(2 * kPi * integral(1)), 1e-11);
+    const Spectrum s = tabulated_spectrum(table, 6, 0.07);
+    CHECK(s.L == 6 && s.sigma == 0.07 && s.table == table);
+    CHECK_RELATIVE(s.L_lambda_l, 6 / kPi, 1e-14);
+    CHECK_RELATIVE(s.L_lambda_s, 51 / kPi, 1e-14);
+    // m_p = T(p) times the integral of K^(p+1) Phi, T = 2 pi, pi, 3 pi/4, scaled to sigma.
+    const Moments m = theoretical_moments(s);
+    CHECK_RELATIVE(m.m0, 0.07 * 0.07, 1e-14);
+    CHECK_RELATIVE(m.m2, 0.5 * integral(3) / integral(1) * m.m0, 1e-11);
+    CHECK_RELATIVE(m.m4, 0.375 * integral(5) / integral(1) * m.m0, 1e-11);
+    Spectrum plateau = spectrum(0.7, 3, 8.5, true);
+    for (const Spectrum& of : {s, plateau, spectrum(0.4, 2.5, 9, false)}) {
+        double m0 = 0, m20 = 0, m40 = 0, m04 = 0, m22 = 0, m02 = 0;
+        for (int ky = -20; ky <= 20; ++ky)
+            for (int kx = -20; kx <= 20; ++kx) {
+                const double q2 = kx * kx + ky * ky, step = 2 * kPi / of.L, x = step * kx, y = step * ky;
+                const double power = q2 == 0                               ? 0
+                                     : of.table                            ? slow(step * std::sqrt(q2))
+                                     : q2 > of.L_lambda_s * of.L_lambda_s  ? 0
+                                     : q2 >= of.L_lambda_l * of.L_lambda_l ? std::pow(q2, -(1 + of.hurst))
+                                     : of.plateau                          ? std::pow(of.L_lambda_l, -2 * (1 + of.hurst))
+                                                                           : 0;
+                m0 += power, m20 += power * x * x, m02 += power * y * y;
+                m40 += power * x * x * x * x, m04 += power * y * y * y * y, m22 += power * x * x * y * y;
+            }
+        const Moments d = discrete_moments(of);
+        const double scale = of.sigma * of.sigma / m0;
+        CHECK_RELATIVE(d.m0, of.sigma * of.sigma, 1e-14);
+        CHECK_RELATIVE(d.m2, scale * (m20 + m02) / 2, 1e-12);
+        CHECK_RELATIVE(d.m4, scale * (m40 + m04 + 3 * m22) / 3, 1e-12);
+    }
+    const Moments named{2, 3, 5};
+    CHECK_RELATIVE(named.nayak(), 10.0 / 9, 1e-15);
+    CHECK_RELATIVE(named.rms_slope(), std::sqrt(6.0), 1e-15);
+    CHECK_RELATIVE(named.summit_density(), std::sqrt(3.0) * 5 / (54 * kPi), 1e-15);
+    CHECK_RELATIVE(named.mean_spacing(), std::sqrt(54 * kPi / (5 * std::sqrt(3.0))), 1e-15);
+    CHECK_RELATIVE(named.mean_radius(), 0.737 / std::sqrt(5.0), 1e-15);
+}
+
+// What is just allowed is accepted, and what is just beyond is not.
+void bounds() {
+    const auto accepted = [](const Spectrum& s) {
+        try {
+            validate(s);
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    };
+    CHECK(accepted(spectrum(0, 1, 3, false)) && accepted(spectrum(1, 1, 3, false)));
+    CHECK(!accepted(spectrum(-1e-9, 1, 3, false)) && !accepted(spectrum(1 + 1e-9, 1, 3, false)));
+    CHECK(!accepted(spectrum(0.5, 0.999999, 3, false)));
+    CHECK(accepted(spectrum(0.5, 2, 46340, false)) && !accepted(spectrum(0.5, 2, 46340.01, false)));
+    CHECK(!accepted(spectrum(0.5, 4, 4, false)) && accepted(spectrum(0.5, 4, 4.0001, false)) && accepted(spectrum(0.5, 4, 4, true)));
+    CHECK(!accepted(spectrum(0.5, 4, 3.999, true)));
+    // Modes at 3 and sqrt(10), none between; with a plateau those below 3.
+    CHECK(!accepted(spectrum(0.5, 3.01, 3.16, false)) && accepted(spectrum(0.5, 3.01, 3.163, false)) &&
+          accepted(spectrum(0.5, 3.01, 3.16, true)));
+    const auto of = [](double low, double high, double L, double sigma) {
+        return tabulated_spectrum(std::make_shared<const SpectrumTable>(std::vector{low, high}, std::vector{1.0, 2.0}), L, sigma);
+    };
+    CHECK(accepted(of(1, 4, 2 * kPi, 1)) && !accepted(of(1, 4, -2 * kPi, 1)) && !accepted(of(1, 4, 2 * kPi, 0)) &&
+          !accepted(of(1, 4, HUGE_VAL, 1)));
+    CHECK(accepted(of(1, 46339, 2 * kPi, 1)) && !accepted(of(1, 46341, 2 * kPi, 1)));
+    CHECK(!accepted(of(3.01, 3.16, 2 * kPi, 1)) && accepted(of(3.01, 3.163, 2 * kPi, 1)));
+    // Modes along the diagonal alone: (1, 1).
+    CHECK(accepted(of(1.4, 1.42, 2 * kPi, 1)));
+    // The first entries of a table, one by one.
+    const auto table = [](std::vector<double> k, std::vector<double> psd) {
+        return SpectrumTable(std::move(k), std::move(psd)).sigma() > 0;
+    };
+    CHECK(table({1, 2, 3}, {0, 1, 2}) && table({1, 2, 3}, {1, 2, 0}));
+    for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) CHECK_THROWS(table({bad, 5, 6}, {1, 1, 1}), Error);
+    for (const double bad : {-1e-9, std::nan(""), HUGE_VAL})
+        for (const std::size_t at : {0, 1, 2}) {
+            std::vector<double> psd{1, 1, 1};
+            psd[at] = bad;
+            CHECK_THROWS(table({1, 2, 3}, psd), Error);
+        }
+    CHECK_THROWS(table({1, 2, 2}, {1, 1, 1}), Error);
+    CHECK_THROWS(table({1, 2, 3}, {1, 1}), Error);
+    CHECK_THROWS(table({1, 2}, {1, 0}), Error);
+    CHECK_THROWS(table({1, 2, 3, 4}, {1, 0, 1, 0}), Error);
+}
+
 void elementary_functions() {
     double worst_log = 0, worst_exp = 0, worst_trig = 0;
     for (int i = 1; i < 200000; ++i) {
@@ -206,6 +326,8 @@ int main() {
     band_edges();
     discrete_tend_to_continuous();
     bad_spectra();
+    tables();
+    bounds();
     elementary_functions();
     noise_is_philox();
     noise_is_gaussian();

@@ -69,9 +69,19 @@ void against_cosines() {
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i) worst = check::worse(worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
             CHECK_CLOSE(worst, 0.0, 1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
-            CHECK(map.periodic && map.nx == n && map.ny == n);
+            CHECK(map.periodic && map.nx == n && map.ny == n && map.x0 == 0 && map.y0 == 0);
             CHECK_RELATIVE(map.dx * n, 2.0, 1e-15);
+            CHECK(map.dy == map.dx);
         }
+    // A table with a gap in it, on another square, at the grid's limit and not; and the smallest surface of all: one wave on two points.
+    const auto table = std::make_shared<const SpectrumTable>(std::vector{2.0, 3.1, 5.0, 6.0, 9.9}, std::vector{0.4, 0.9, 0.0, 0.3, 0.05});
+    const Spectrum tabulated = tabulated_spectrum(table, 7.0, 0.3), smallest{.L = 3, .L_lambda_l = 1, .L_lambda_s = 1, .plateau = true};
+    for (const auto& [s, n] : {std::pair{tabulated, 22}, {tabulated, 26}, {smallest, 2}}) {
+        const HeightMap map = synthesize(s, n, Normalise::ensemble, 4, 2, nullptr, 3);
+        const std::vector<double> z = by_cosines(s, n, {4, 2});
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) CHECK_CLOSE(map(i, j), z[static_cast<std::size_t>(j * n + i)], 1e-13);
+    }
 }
 
 void same_surface_on_finer_grid() {
