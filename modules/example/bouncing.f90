@@ -39,7 +39,7 @@ program bouncing
   steps = 0
   touching = .false.
   do while (done < bounces)
-    ! Free flight has no error; a contact lasts some 40 microseconds.
+    ! Free flight has no error; a contact lasts some 110 microseconds.
     dt = merge(2.0e-8_dp, 1.0e-6_dp, z < touch + 1.0e-4_dp)
     v = v + 0.5_dp * dt * a
     z = z + dt * v

@@ -1,0 +1,292 @@
+"""What the programs of modules/example print, against numbers computed here: asperities (from the program rsc) as point forces on a half-space, solved by Newton's method
+on dense matrices; motions by the same forces; conservation.
+
+usage: test_examples.py FOLDER_OF_EXAMPLES        (RSC_PROGRAM in the environment)
+"""
+import functools
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import netCDF4
+import numpy as np
+
+EXAMPLES = sys.argv.pop(1)
+FOLDER = tempfile.TemporaryDirectory()
+unittest.addModuleCleanup(FOLDER.cleanup)
+
+
+@functools.lru_cache(None)
+def result_of(case):
+    """Variables of a run of the program rsc."""
+    path = os.path.join(FOLDER.name, f"{abs(hash(case))}.nc")
+    done = subprocess.run([os.environ["RSC_PROGRAM"], "-q", "-o", path], input=case, text=True, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    with netCDF4.Dataset(path) as file:
+        return {name: np.ma.filled(np.ma.asarray(v[...]).astype(float), np.nan) for name, v in file.variables.items()}
+
+
+def asperities(case):
+    found = result_of(case + " &indentation levels=1.0 /")
+    return np.array([found["asperity_" + name] for name in ("x", "y", "z", "radius")])
+
+
+def printed(name, *words, command=()):
+    """Lines of numbers of an example; the words between them are left out."""
+    path = os.path.join(EXAMPLES, "example_" + name)
+    if not os.path.exists(path):
+        raise unittest.SkipTest(f"no {path}")
+    done = subprocess.run([*command, path, *words], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout.splitlines()
+
+
+def numbers(line):
+    return [float(word) for word in line.split()]
+
+
+class Spheres:
+    """Hertzian asperities that lower each other as point forces: f = (4/3) E* sqrt(r) <g0 - B f>^(3/2), g0 = z + sqrt(R^2 - rho^2) - R - Z0, B_ij = 1/(pi E* d_ij)."""
+
+    def __init__(self, found, E, R, tip):
+        x, y, z, self.r = found
+        rho2 = (x - tip[0]) ** 2 + (y - tip[1]) ** 2
+        inside = rho2 < R**2
+        self.x, self.y, self.r = x[inside], y[inside], self.r[inside]
+        self.top = z[inside] + (np.sqrt(R**2 - rho2[inside]) - R if np.isfinite(R) else 0)
+        self.E = E
+        self.touch = self.top.max()
+
+    def solve(self, Z0):
+        """Force, stiffness dN/dZ0, area, radii of the contacts."""
+        g0 = self.top - Z0
+        some = np.flatnonzero(g0 > 0)
+        if some.size == 0:
+            return 0.0, 0.0, 0.0, np.zeros(0)
+        g0, r = g0[some], self.r[some]
+        d = np.hypot(self.x[some][:, None] - self.x[some], self.y[some][:, None] - self.y[some])
+        B = 1 / (np.pi * self.E * (d + np.eye(some.size))) - np.eye(some.size) / (np.pi * self.E)
+        C = 4 / 3 * self.E * np.sqrt(r)
+        g = 0.5 * g0
+        for _ in range(100):
+            rest = g + B @ (C * np.maximum(g, 0) ** 1.5) - g0
+            if np.abs(rest).max() < 1e-15 * g0.max() + 1e-18:
+                break
+            step = np.linalg.solve(np.eye(some.size) + B * (1.5 * C * np.sqrt(np.maximum(g, 0))), rest)
+            size = 1.0
+            while size > 1e-4 and np.linalg.norm(g - size * step + B @ (C * np.maximum(g - size * step, 0) ** 1.5) - g0) > np.linalg.norm(rest):
+                size /= 2
+            g = g - size * step
+        f, k = C * np.maximum(g, 0) ** 1.5, 1.5 * C * np.sqrt(np.maximum(g, 0))
+        dg = np.linalg.solve(np.eye(some.size) + B * k, -np.ones(some.size))  # by Z0
+        return f.sum(), (k * dg).sum(), np.pi * (r * np.maximum(g, 0)).sum(), np.sqrt(r * np.maximum(g, 0))[g > 0]
+
+    def press(self, N):
+        """Z0 under the force N, and what solve gives there."""
+        low, high = self.touch - 1e-3, self.touch
+        while self.solve(low)[0] < N:
+            low -= 2 * (high - low)
+        Z0 = low
+        for _ in range(100):
+            found, slope, *_ = self.solve(Z0)
+            low, high = (Z0, high) if found > N else (low, Z0)
+            if abs(found - N) < 1e-11 * N:
+                break
+            Z0 = Z0 - (found - N) / slope
+            Z0 = Z0 if low < Z0 < high else (low + high) / 2
+        return (Z0, *self.solve(Z0))
+
+
+GOLD = 78.0e3 / (1 - 0.42**2)
+SMALL = "&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma={} /"
+
+
+def plane_strain(*bodies):
+    return 1 / sum((1 - nu**2) / E for E, nu in bodies)
+
+
+class Presses(unittest.TestCase):
+    def close(self, found, expected, digits):
+        """A printed number with so many digits behind its leading one."""
+        self.assertAlmostEqual(found / expected, 1, delta=0.6 * 10.0**-digits, msg=f"{found}, {expected}")
+
+    def test_press(self):
+        lines = printed("press")
+        case = "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / &solids E=70d3, 210d3, nu=0.33, 0.3 /"
+        found = asperities(case)
+        version = subprocess.run([os.environ["RSC_PROGRAM"], "--version"], capture_output=True, text=True).stdout.strip()
+        self.assertEqual(lines[:2], [version, f"{found.shape[1]} asperities"])
+        spheres = Spheres(found, plane_strain((70e3, 0.33), (210e3, 0.3)), 2.5, (0.5, 0.5))
+        self.assertEqual(len(lines), 9)
+        for k, line in enumerate(lines[3:8]):
+            N, Z0, A, contacts, stiffness = numbers(line)
+            self.assertEqual(N, 0.125 * 4**k)
+            Z, _, slope, area, a = spheres.press(N)
+            self.assertAlmostEqual(Z0, Z, delta=1e-6)
+            self.close(A, area, 3)
+            self.assertEqual(contacts, a.size)
+            self.close(stiffness, slope, 3)
+        self.assertAlmostEqual(float(lines[8].split()[-1]), 32, delta=1e-4)
+
+    def test_switch(self):
+        lines = printed("switch")
+        E = 78e3 / (2 * (1 - 0.42**2))
+        spheres = Spheres(asperities("&surface n = 512, L_lambda_l = 8, L_lambda_s = 128, sigma = 1.0e-3 /"), E, 2.5, (0.5, 0.5))
+        self.assertEqual(len(lines), 9)
+        for k, line in enumerate(lines[1:]):
+            N, spots, resistance, alone, one = numbers(line)
+            self.assertAlmostEqual(N, 0.01 * 3**k)
+            _, _, slope, area, a = spheres.press(N)
+            self.assertEqual(spots, a.size)
+            for found, expected in ((resistance, 2 * 2.2e-5 * E / (-2 * slope)), (alone, 2.2e-5 / (2 * a.sum())), (one, 2.2e-5 / (2 * np.sqrt(area / np.pi)))):
+                self.assertAlmostEqual(found, 1e3 * expected, delta=6e-6 + 3e-6 * found)
+
+    def test_fixed(self):
+        lines = printed("fixed")
+        found = asperities(SMALL.format(0.01))
+        self.assertEqual(len(lines), 6)
+        for k, line in enumerate(lines[1:]):
+            x, Z0, A, contacts = numbers(line)
+            self.assertAlmostEqual(x, 0.44 + 0.04 * k)
+            Z, _, _, area, a = Spheres(found, GOLD, 2.5, (x, 0.5)).press(20.0)
+            self.close(Z0, Z, 4)
+            self.close(A, area, 4)
+            self.assertEqual(contacts, a.size)
+
+    def test_threads(self):
+        lines = printed("threads")
+        found = asperities("&surface n=512, L_lambda_l=16, L_lambda_s=128, sigma=0.005 / &solids R=Infinity, 0.5 /")
+        each = [Spheres(found, GOLD, 0.5, (0.2 + 0.6 * (k % 8) / 7, 0.2 + 0.6 * (k // 8) / 7)).press(1.0) for k in range(64)]
+        match = re.fullmatch(r"mean separation under 1 N at 64 places: (\S+) mm, mean area (\S+) mm2", lines[0])
+        self.assertTrue(match, lines[0])
+        self.assertAlmostEqual(float(match[1]), np.mean([e[0] for e in each]), delta=1e-6)
+        self.assertAlmostEqual(float(match[2]), np.mean([e[3] for e in each]), delta=1e-6)
+        self.assertLess(float(lines[1].split()[-1]), 1e-8)
+
+    def test_ranks(self):
+        command = os.environ.get("RSC_MPIEXEC", "").split()
+        if not command:
+            raise unittest.SkipTest("no MPI")
+        lines = sorted(printed("ranks", command=command))
+        patches = [Spheres(asperities(SMALL.format(0.005) + f" &solids R=2*Infinity / &run first_realization={k} /"), GOLD, np.inf, (0.5, 0.5)) for k in (1, 2)]
+        low, high = min(p.touch for p in patches) - 0.05, max(p.touch for p in patches)
+        for _ in range(60):
+            Z0 = (low + high) / 2
+            low, high = (Z0, high) if sum(p.solve(Z0)[0] for p in patches) > 40 else (low, Z0)
+        for k, patch in enumerate(patches):
+            N, _, area, a = patch.solve(Z0)
+            words = re.fullmatch(r"rank (\d): force +(\S+) N, area +(\S+) mm2, contacts (\d+)", lines[k])
+            self.assertEqual((words[1], words[4]), (str(k), str(a.size)))
+            self.assertAlmostEqual(float(words[2]), N, delta=1e-4)
+            self.assertAlmostEqual(float(words[3]), area, delta=6e-6)
+        words = re.fullmatch(r"together at +(\S+) mm: +(\S+) N", lines[2])
+        self.assertAlmostEqual(float(words[1]), Z0, delta=2e-8)
+        self.assertAlmostEqual(float(words[2]), 40, delta=1e-5)
+
+
+STEEL = plane_strain((210e3, 0.3), (210e3, 0.3))
+MASS = 7.8e-9 * 4 / 3 * np.pi * 2.5**3
+
+
+@functools.lru_cache(None)
+def ball():
+    return Spheres(asperities(SMALL.format("1.0e-3") + " &solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5 /"), STEEL, 2.5, (0.5, 0.5))
+
+
+class Motions(unittest.TestCase):
+    def depth_of(self, energy, gravity=0.0):
+        """Depth below the first touch where the work of the contact force, less that of gravity, is this; and the force there."""
+        depth = np.linspace(0, 1, 400) ** 1.5 * 4e-4
+        force = np.array([ball().solve(ball().touch - d)[0] for d in depth])
+        work = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(depth))) - gravity * depth
+        at = np.interp(energy, work, depth)
+        return at, np.interp(at, depth, force)
+
+    def test_bouncing(self):
+        lines = printed("bouncing", "12")
+        self.assertRegex(lines[0], r"^12 bounces in \d+ steps$")
+        weight = MASS * 9.81e3
+        depth, _ = self.depth_of(weight * 1e-3, weight)
+        self.assertAlmostEqual(float(lines[1].split()[-2]) / depth, 1, delta=2e-3)
+        self.assertEqual(lines[1].split()[-1], "mm")
+        self.assertLess(float(re.search(r"energy +(\S+) of", lines[2])[1]), 1e-6)
+        # Twelve contacts and eleven and a half flights of 2 sqrt(2 h/g), in steps of 1e-6 s, within 1e-4 mm of the surface of 2e-8 s.
+        g = 9.81e3
+        fast = 2 * np.sqrt(2 * 0.9e-3 / g)  # of a flight above 1e-4 mm
+        near = 2 * np.sqrt(2 * 1e-3 / g) - fast
+        z, v, dt, count = 0.0, -np.sqrt(2 * g * 1e-3), 2e-7, 0
+        table = np.linspace(-2e-4, 0, 800)
+        forces = np.array([ball().solve(ball().touch + t)[0] for t in table])
+        while z <= 0:
+            v += 0.5 * dt * (np.interp(z, table, forces) / MASS - g)
+            z += dt * v
+            v += 0.5 * dt * (np.interp(z, table, forces) / MASS - g)
+            count += 1
+        expected = 11.5 * (fast / 1e-6 + near / 2e-8) + 12 * count * dt / 2e-8
+        self.assertAlmostEqual(int(lines[0].split()[3]) / expected, 1, delta=5e-3, msg=f"a contact lasts {count * dt} s")
+
+    def test_impact(self):
+        lines = printed("impact")
+        rows = np.array([numbers(line) for line in lines[1:]])
+        self.assertTrue(np.array_equal(rows[:, 0], [1, 3, 10, 30, 100, 300]))
+        coming = 0.5 * MASS * rows[:, 0] ** 2
+        # What is left is what the ball came with, less the plastic work.
+        self.assertTrue(np.allclose(rows[:, 1] ** 2, 1 - rows[:, 4], atol=2e-4))
+        self.assertTrue(np.all(rows[:2, 1] == 1) and np.all(rows[2:, 1] < 0.95) and np.all(rows[:, 5] < 1e-5))
+        depth, force = self.depth_of(coming[0])  # elastic
+        self.assertAlmostEqual(rows[0, 2] / (1e3 * depth), 1, delta=2e-3)
+        self.assertAlmostEqual(rows[0, 3] / force, 1, delta=5e-3)  # printed with three figures
+        # What yields: the loading curve of the program rsc up to where its work is the ball's energy, and the plastic work there.
+        touch = ball().touch
+        levels = touch - np.linspace(0, 1, 160) ** 1.5 * 4.2e-3
+        found = result_of(SMALL.format("1.0e-3") + " &solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5, hardness=2.0d3 / &indentation unit='length' levels=" + ",".join(f"{z:.17g}" for z in levels) + " /")
+        force, depth = found["force"][0], touch - found["separation"]
+        work = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(depth)))
+        for k in (1, 2, 3, 4, 5):
+            at = np.interp(coming[k], work, depth)
+            self.assertAlmostEqual(rows[k, 2] / (1e3 * at), 1, delta=5e-3)  # the ball goes by other levels
+            self.assertAlmostEqual(rows[k, 3] / np.interp(at, depth, force), 1, delta=8e-3)
+            self.assertAlmostEqual(rows[k, 4], np.interp(at, depth, found["plastic_work"][0]) / coming[k], delta=2e-3)
+
+    def test_rolling(self):
+        """Sliding: Q = mu N, the velocity falls by the impulse of it, the spin by two and a half times as much; what is lost is the work of Q."""
+        lines = printed("rolling")
+        rows = np.array([numbers(line) for line in lines[1:-1]])
+        self.assertEqual(rows.shape, (10, 6))
+        self.assertTrue(np.allclose(rows[:, 0], (1000 * 5e-9 + (3000 * np.arange(1, 11) - 1000) * 2.5e-7) * 1e3, atol=6e-4))
+        self.assertTrue(np.allclose(rows[:, 2], -2.5 * rows[:, 1], atol=3e-6))  # momentum about the place of contact is kept: it began as nothing
+        self.assertTrue(np.allclose(rows[:4, 4], 0.3 * rows[:4, 3], atol=1e-5))
+        self.assertTrue(np.all(abs(rows[4:, 4]) <= 0.3 * rows[4:, 3] + 1e-5))
+        # Up and down: the ball on the force of the contact, from where one and a half times its weight press it.
+        weight, g = MASS * 9.81e3, 9.81e3
+        z = np.linspace(ball().touch - 2.5e-4, ball().touch + 1e-5, 600)
+        N = np.array([ball().solve(v)[0] for v in z])
+        W = np.append(np.cumsum((0.5 * (N[1:] + N[:-1]) * np.diff(z))[::-1])[::-1], 0)
+        force = lambda v: np.interp(v, z, N)
+        at, v, u, lost, time = ball().press(1.5 * weight)[0], 0.0, 10.0, 0.0, 0.0
+        start = 0.5 * MASS * 100 * 3.5 + weight * at + np.interp(at, z, W)
+        dt, expected = 1e-6, []
+        for k in range(1, 2761):
+            a = force(at) / MASS - g
+            v += 0.5 * dt * a
+            at += dt * v
+            n = force(at)
+            v += 0.5 * dt * (n / MASS - g)
+            lost += dt * 0.3 * n * 3.5 * u
+            u -= dt * 0.3 * n / MASS
+            time += dt
+            if k in (505, 1255, 2005, 2755):
+                expected.append((u, 1e3 * n, lost / start))
+        for row, (u, n, share) in zip(rows, expected):
+            self.assertAlmostEqual(row[1], u, delta=0.03)  # before it slides as a whole, for some microseconds, it sticks
+            self.assertAlmostEqual(row[3] / n, 1, delta=0.01)
+            self.assertAlmostEqual(row[5], share, delta=0.004)
+        self.assertTrue(np.all(np.diff(rows[:, 5]) > 0) and np.all(abs(rows[5:, 1]) < 0.2))
+        self.assertLess(float(re.search(r"kept to +(\S+) of", lines[-1])[1]), 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
