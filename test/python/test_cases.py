@@ -1,0 +1,123 @@
+"""The cases of input/ set what the paper, their comments and the READMEs say; what the READMEs of input/ and output/ say of a run and of the pictures is so.
+
+usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)
+"""
+import contextlib
+import filecmp
+import glob
+import io
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+PROJECT = os.path.abspath(sys.argv.pop(1))
+RSC = os.path.abspath(os.environ["RSC_PROGRAM"])
+sys.path[:0] = [os.path.join(PROJECT, "output", "plot"), os.path.join(PROJECT, "output", "export")]
+import law  # noqa: E402
+import plot  # noqa: E402
+
+
+def read(*names):
+    with open(os.path.join(PROJECT, *names), encoding="utf-8") as file:
+        return file.read()
+
+
+def effective(text):
+    """{group%key: value} that rsc --check tells of a case."""
+    done = subprocess.run([RSC, "--check", "-q"], input=text, text=True, capture_output=True, cwd=PROJECT)
+    assert done.returncode == 0, done.stderr
+    keys, group = {}, ""
+    for line in done.stdout.splitlines():
+        if line.startswith("&"):
+            group = line[1:].strip()
+        elif "=" in line:
+            key, value = line.split("=", 1)
+            keys[f"{group}%{key.strip()}"] = value.split("!")[0].strip().rstrip(",")
+    return keys
+
+
+class Cases(unittest.TestCase):
+    maxDiff = None
+
+    def test_keys(self):
+        expected, name = {}, ""
+        for line in read("test", "data", "cases.txt").splitlines():
+            if line.startswith("    "):
+                key, value = line.strip().split(" = ", 1)
+                expected[name][key] = value
+            elif not line.startswith("#"):
+                name = line
+                expected[name] = {}
+        default = effective("&run /")
+        said = lambda text: {key: value for key, value in effective(text).items() if default.get(key) != value and key != "run%title"}
+        files = sorted(glob.glob(os.path.join(PROJECT, "input", "**", "*.nml"), recursive=True))
+        found = {os.path.relpath(file, os.path.join(PROJECT, "input")): said(read(file)) for file in files}
+        for study in ("paper", "flat"):
+            script = read("input", study, "run.sh")
+            shorten = script[script.index("shorten() {") : script.index("\n}\n") + 3]
+            names = re.search(r"^cases='(.*)'$", script, re.M)[1].split()
+            self.assertEqual(sorted(names), sorted(os.path.basename(f)[:-4] for f in files if os.path.basename(os.path.dirname(f)) == study))
+            for case in names:
+                short = subprocess.run(["sh", "-c", f"{shorten}shorten {case}"], input=read("input", study, case + ".nml"), text=True, capture_output=True, check=True).stdout
+                found[f"{study}/{case} --short"] = said(short)
+        self.assertEqual(set(found), set(expected))
+        for name in found:
+            self.assertEqual(found[name], expected[name], name)
+
+    def test_map(self):
+        """make_map.py makes the files that stand beside it, and their run tells what input/README says, whichever of the two is read."""
+        block = [line[4:] for line in re.search(r"The run tells:\n\n((?:    .*\n)+)", read("input", "README"))[1].splitlines()]
+        self.assertEqual(len(block), 6)
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(os.path.join(folder, "map"))
+            shutil.copy(os.path.join(PROJECT, "input", "map", "make_map.py"), os.path.join(folder, "map"))
+            subprocess.run([sys.executable, os.path.join(folder, "map", "make_map.py")], check=True, capture_output=True)
+            for kind in ("sdf", "gwy"):
+                self.assertTrue(filecmp.cmp(os.path.join(folder, "map", "map." + kind), os.path.join(PROJECT, "input", "map", "map." + kind), shallow=False), kind)
+                words = [RSC, "-o", os.path.join(folder, "map.nc"), "-s", f"surface%file='input/map/map.{kind}'", "-s", "indentation%steps=2", os.path.join("input", "map", "map.nml")]
+                done = subprocess.run(words, text=True, capture_output=True, cwd=PROJECT)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                lines = done.stdout.splitlines()
+                first = next(k for k, line in enumerate(lines) if line.startswith("map: "))
+                self.assertEqual(lines[first : first + 6], block, kind)
+
+
+class Readme(unittest.TestCase):
+    def test_pictures(self):
+        """output/README has every picture of plot.py once, and no other."""
+        text = read("output", "README")
+        block = re.search(r"--step 60 .*\n\n((?:    .*\n)+)", text)[1]
+        named = [name for line in block.splitlines() for name in re.findall(r"^    ([a-z]+(?:, [a-z]+)*)  |;  ([a-z]+)  ", line)]
+        named = [word for pair in named for part in pair if part for word in part.split(", ")]
+        self.assertEqual(sorted(named), sorted(plot.PICTURES))
+        self.assertIn("single (85 mm), onehalf (130), double (175)", text)
+
+    def test_commands(self):
+        """The commands of output/README are ones that plot.py and law.py take, and their option names are explained by --help."""
+        commands = re.findall(r"^    python3 output/(plot/plot|export/law)\.py ((?:\S+ )*\S+)", read("output", "README"), re.M)
+        self.assertEqual(len(commands), 8)
+        for script, words in commands:
+            words = words.split()
+            if script == "plot/plot":
+                plot.parse(words)
+            else:
+                with unittest.mock.patch.object(law, "Law", side_effect=law.Refused("reached")), self.assertRaises(SystemExit) as stop:
+                    law.main(words)
+                self.assertEqual(str(stop.exception.code), "law.py: reached")
+        for main, options in ((plot.main, ("--output FOLDER", "--name NAME", "--only PICTURE", "--step N", "--format {png,pdf,svg}", "--width MM", "default 150")),
+                              (law.main, ("--calculix", "--abaqus", "--table", "--output FILE", "--name NAME", "default ROUGH"))):
+            out = io.StringIO()
+            with contextlib.redirect_stdout(out), self.assertRaises(SystemExit) as stop:
+                main(["--help"])
+            self.assertEqual(stop.exception.code, 0)
+            for option in options:
+                self.assertIn(option, " ".join(out.getvalue().split()))
+
+
+if __name__ == "__main__":
+    unittest.main()
