@@ -14,6 +14,7 @@
 
 #include "case/read_case.hpp"
 #include "check.hpp"
+#include "error.hpp"
 #include "physics/values/checked_file.hpp"
 #include "physics/values/distributions.hpp"
 #include "physics/values/levels.hpp"
@@ -147,7 +148,7 @@ void write_map(const HeightMap& map, const std::string& path) {
 }
 
 std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
-    const std::string micro = "&run length_unit = 'um', force_unit = 'mN', seed = 7 /\n";
+    const std::string micro = "&run length_unit = 'um', force_unit = 'mN', seed = 2147483647 /\n";
     const std::string bodies = "&solids E = 80, 200  nu = 0.35, 0.3  R = 900, 2500  resistivity = 2.0e-5, 3.0e-5";
     const std::string flats = "&solids E = 80, 200  nu = 0.35, 0.3  R = Infinity, Infinity  resistivity = 2.0e-5, 3.0e-5";
     const std::string surface = "&surface n = 128, L = 100, L_lambda_l = 2, L_lambda_s = 16, hurst = 0.7, sigma = 0.5";
@@ -177,7 +178,7 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     all.push_back({"flats", micro + flats + " /\n" + surface +
                                 " /\n&indentation boundary = 'periodic', control = 'pressure', unit = 'relative', " +
                                 "levels = 0.003, 0.01 /\n&output map_cells = 6, pdf_levels = 1.9, 2.2, pdf_bins = 20 /\n"});
-    all.push_back({"flats_apart", micro + flats + " /\n" + surface + " /\n&indentation boundary = 'periodic', levels = 2.2, 1.7 /\n" +
+    all.push_back({"flats_apart", micro + flats + " /\n" + surface + " /\n&indentation boundary = 'periodic', levels = 9, 2.2, 1.7 /\n" +
                                       "&output map_cells = 6, pdf_levels = 1.9, pdf_bins = 20 /\n&compare levels = 2 /\n"});
     all.push_back(
         {"flats_elements", micro + flats + " /\n" + surface + " /\n&solver model = 'elements' /\n" +
@@ -192,14 +193,27 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                    {{1}, {0.2, 3}}});
     all.push_back({"yielding_elements", micro + bodies + ", hardness = 2 /\n" + surface + " /\n&solver model = 'elements' /\n" +
                                             "&indentation levels = 1.5, 0.6, 0.2, 0.5, centre = 57, 38 /\n" + out + " /\n"});
-    const std::string on_map =
-        "&solids E = 3000, 9000  R(2) = 80 /\n&indentation levels = 0.8, 0.2, centre = 5.3, 1.6 /\n&output map_cells = 11, " +
-        std::string("radial_bins = 6, heights = .true., pdf_levels = 0.3, pdf_bins = 25 /\n");
-    all.push_back({"map", of_map + "detrend = 'quadratic' /\n" + on_map + "&compare levels = 0.2 /\n", {}, &map});
-    all.push_back(
-        {"map_elements", of_map + "detrend = 'sphere', filter_cutoff = 0.5 /\n&solver model = 'elements' /\n" + on_map, {}, &map});
-    all.push_back({"list", micro + bodies + " /\n&surface source = 'asperities', file = '" + folder / "list.txt" + "', L = 90 /\n" +
-                               "&indentation levels = 0.5, -0.4, centre = 41, 55 /\n" + out + " /\n"});
+    const std::string on_map = "/\n&output map_cells = 11, radial_bins = 6, heights = .true., pdf_levels = 0.3, pdf_bins = 25 /\n";
+    all.push_back({"map",
+                   of_map + "detrend = 'quadratic' /\n&solids E = 3000, 9000  R(2) = 80 /\n&compare levels = 0.2 /\n" +
+                       "&indentation levels = 0.8, 0.2, centre = 5.3, 1.6 " + on_map,
+                   {},
+                   &map});
+    // Near the border, on pixels that are no squares.
+    all.push_back({"map_elements",
+                   of_map + "detrend = 'sphere', filter_cutoff = 0.5 /\n&solids E = 3000, 9000  R(2) = 80  hardness = 30 /\n" +
+                       "&solver model = 'elements' /\n&indentation levels = 0.8, 0.2, centre = 5.3, 1.88 " + on_map,
+                   {},
+                   &map});
+    all.push_back({"map_flats",
+                   of_map + "detrend = 'plane' /\n" + flats + " /\n" +
+                       "&indentation boundary = 'periodic', control = 'pressure', unit = 'relative', levels = 0.005 " + on_map,
+                   {},
+                   &map});
+    // A short length for sigma makes short ranges: values beyond the last bin, and in it.
+    all.push_back({"list", micro + bodies + " /\n&surface source = 'asperities', file = '" + folder / "list.txt" +
+                               "', L = 90, sigma = 0.03 /\n" + "&indentation levels = 0.25, -0.2, unit = 'length', centre = 41, 55 /\n" +
+                               "&output map_cells = 9, radial_bins = 7, pdf_levels = 8, -7, pdf_bins = 3 /\n"});
     all.push_back({"spectrum", micro + bodies + " /\n&surface source = 'spectrum', file = '" + folder / "psd.txt" +
                                    "', n = 128, L = 100 /\n" + "&indentation levels = 0.5, -0.4, centre = 41, 55 /\n" + out + " /\n"});
     // Campaigns.
@@ -207,14 +221,57 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                                    surface + " /\n&indentation levels = 9.0, 1.2, 0.3, centre = 57, 38 /\n" + out +
                                    " /\n&compare levels = 0.3 /\n"});
     all.push_back({"campaign_force", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
-                                         " /\n&indentation control = 'force', levels = 200, 900 /\n" + out + " /\n"});
+                                         " /\n&indentation control = 'force', levels = 200, 900 /\n" + out + ", format = 'classic' /\n"});
     all.push_back(
         {"campaign_flats", "&run realizations = 4 /\n" + flats + " /\n" + surface +
                                " /\n&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', levels = 0.1 /\n" +
-                               "&output map_cells = 6, pdf_levels = 2.0, pdf_bins = 20 /\n"});
+                               "&output map_cells = 6, pdf_levels = 2.0, pdf_bins = 20, format = 'classic' /\n"});
     all.push_back({"campaign_elements", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
-                                            " /\n&solver model = 'elements' /\n&indentation levels = 0.5 /\n" + out + " /\n"});
+                                            " /\n&solver model = 'elements' /\n&indentation levels = 0.5 /\n" + out +
+                                            ", format = 'classic' /\n"});
     return all;
+}
+
+// What was read has changed between two parts of a campaign: they are not put together.
+void changed_inputs(const Folder& folder) {
+    const std::string psd = folder / "changing.txt";
+    const auto write = [&](double most) { std::ofstream(psd) << "0.15 " << most << "\n0.4 0.3\n0.9 0.01\n"; };
+    Case c = settings_of("&surface source = 'spectrum', file = '" + psd + "', n = 64, L = 100 /\n&run realizations = 2 /\n" +
+                             "&indentation levels = 0.5 /\n",
+                         folder / "before.nc");
+    write(0.9);
+    CHECK(run_case(c, kOptions) == 0);
+    write(1.1);
+    Case later = c;
+    later.run.first_realization = 3, later.output.file = folder / "after.nc";
+    CHECK(run_case(later, kOptions) == 0);
+    std::string why;
+    try {
+        merge_campaigns({c.output.file, later.output.file}, folder / "both.nc", kOptions);
+    } catch (const Error& error) {
+        why = error.what();
+    }
+    CHECK(why.find("begins at another value than the case gives: the surfaces were not the same") != std::string::npos);
+    std::ostringstream messages;
+    RunOptions resume = kOptions;
+    resume.resume = true, resume.messages = &messages;
+    c.run.realizations = 4;
+    CHECK(run_case(c, resume) == 0);
+    CHECK(messages.str().find("an input has changed since): all realizations are computed") != std::string::npos);
+}
+
+// Levels that did not converge say so, and are compared with nothing.
+void unconverged(const Folder& folder) {
+    const std::string path = folder / "unconverged.nc";
+    const Case c = settings_of(
+        "&surface n = 128, L_lambda_l = 2, L_lambda_s = 16 /\n&solver max_iterations = 1 /\n"
+        "&indentation levels = 0.5, 0.0 /\n&compare levels = 0.5 /\n",
+        path);
+    CHECK(run_case(c, kOptions) == 3);
+    const Reader file(path);
+    CHECK(file.values("status") == (Vector{4, 4}) && file.values("compare_residual")[0] > c.solver.tolerance);
+    for (const char* name : {"force_error", "area_error", "contacts_error"}) CHECK(file.values(name) == Vector{NC_FILL_DOUBLE});
+    CHECK(file.values("compare_force")[0] > 0);
 }
 
 }  // namespace
@@ -231,6 +288,8 @@ int main() {
         run_and_check(scene, folder, descriptions);
         if (scene.name.starts_with("campaign")) put_together(scene, folder, descriptions);
     }
+    changed_inputs(folder);
+    unconverged(folder);
     descriptions.finish();
     CHECK(gammas_fitted > 0);
     return check::summary();

@@ -76,6 +76,11 @@ void nominal() {
     options.mean_spacing = 0.039;
     judge_range(level, indenter, options);
     CHECK(level.large_contacts == 2);
+    // A contact past the law's range alone.
+    options = {};
+    level.status = LevelStatus::converged, level.area = 0, level.beyond_law = 1;
+    judge_range(level, indenter, options);
+    CHECK(level.status == LevelStatus::out_of_validity);
     // Two flats have the area of their period, wherever the tip is.
     Indenter flat{1.0, __builtin_huge_val(), 0.5, 0.4};
     flat.period = {0.3, 0.2};

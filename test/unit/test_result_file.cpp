@@ -19,6 +19,7 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
+#include "file/result_sums.hpp"
 #include "result_reader.hpp"
 #include "sample_result.hpp"
 #include "temporary_folder.hpp"
@@ -255,6 +256,50 @@ void test_same_case_same_file(const Folder& folder) {
     ::unsetenv("SOURCE_DATE_EPOCH");
 }
 
+// Why read_sums refuses; "" if it does not.
+std::string refusal(const std::string& path, const ObserveOptions& options, std::size_t steps) {
+    try {
+        read_sums(path, options, steps);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Sums read back are those that were written; a file whose axes are others is not taken for one of the case.
+void test_sums(const Folder& folder) {
+    const Result r = sample::result(3);
+    const std::string path = folder / "sums.nc", one = folder / "one.nc";
+    write_result(r, path, {});
+    write_result(sample::result(1), one, {});
+    const ObserveOptions options = r.observations.options;
+    const Observations again = read_sums(path, options, sample::kSteps).finish();
+    CHECK(again.map_pressure == r.observations.map_pressure && again.map_force_rest == r.observations.map_force_rest);
+    CHECK(again.distributions[1].pressure_pdf == r.observations.distributions[1].pressure_pdf);
+    CHECK(again.realization == (std::vector<std::int64_t>{1, 2, 3}) && again.surface[2].m2 == r.observations.surface[2].m2);
+    const auto with = [&](auto change) {
+        ObserveOptions other = options;
+        change(other);
+        return refusal(path, other, sample::kSteps);
+    };
+    const std::string begins = " begins at another value than the case gives";
+    CHECK(with([](auto& o) { o.map.x0 += 1e-9; }).find("x" + begins) != std::string::npos);
+    CHECK(with([](auto& o) { o.map.y0 += 1e-9; }).find("y" + begins) != std::string::npos);
+    CHECK(with([](auto& o) { o.pdf.pressure_max *= 1.01; }).find("pressure_mean_bin" + begins) != std::string::npos);
+    CHECK(with([](auto& o) { o.pdf.area_max *= 1.01; }).find("spot_area_bin" + begins) != std::string::npos);
+    CHECK(with([](auto& o) { o.map.nx += 1; }).find("has not the shape that its case gives it") != std::string::npos);
+    CHECK(refusal(path, options, sample::kSteps + 1).find("has not the shape that its case gives it") != std::string::npos);
+    CHECK(refusal(one, options, sample::kSteps).find("it has no variable map_area_fraction_rest") != std::string::npos);
+
+    Result bad = sample::result(1);
+    bad.observations.rows[2].status = LevelStatus::not_converged;
+    bad.observations.rows[3].status = LevelStatus::not_unique;
+    bad.observations.rows[4].status = LevelStatus::not_unique;
+    write_result(bad, one, {});
+    const std::optional<LevelCount> count = count_levels(one);
+    CHECK(count && count->levels == sample::kSteps && count->failed == 1);
+}
+
 void test_edges(const Folder& folder) {
     // No contact anywhere, no distributions, a flat punch beside the map: the file is still one.
     Case c = sample::make_case(1);
@@ -317,6 +362,7 @@ int main(int argc, char** argv) {
     test_many_realizations(Folder());
     test_ncdump(Folder());
     test_same_case_same_file(Folder());
+    test_sums(Folder());
     test_edges(Folder());
     test_units_and_contacts();
     return check::summary();

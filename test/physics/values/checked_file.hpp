@@ -45,9 +45,9 @@ public:
             found->second = true;
         }
     }
-    // Whether a variable has a value in the file that is neither 0 nor absent.
+    // Whether a variable or an attribute has a value in the file that is neither 0 nor absent.
     void meet_value(const std::string& variable, bool any) { has_value_[variable] = has_value_[variable] || any; }
-    // Every line was met in some file, and so was a value of every variable.
+    // Every line was met in some file, and so was a value of everything.
     void finish() const {
         for (const auto& [variable, any] : has_value_) {
             if (!any) std::printf("%s\n", variable.c_str());
@@ -166,6 +166,10 @@ private:
             nc_inq_attname(file_.id(), v, a, name);
             nc_inq_atttype(file_.id(), v, name, &type);
             const std::string both = variable + ":" + name;
+            if (type == NC_DOUBLE && std::string(name) != "_FillValue") {
+                const Vector v = file_.numbers(variable, name);
+                descriptions.meet_value(both, std::any_of(v.begin(), v.end(), [](double x) { return x != 0 && x != NC_FILL_DOUBLE; }));
+            }
             if (checked_.count(both)) continue;
             if (type == NC_CHAR) {
                 const std::string text = file_.text(variable, name);

@@ -164,6 +164,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
     if (t.periodic) return CHECK(!f.has("radius") && !f.has("radial_pressure"));
     const double height = static_cast<double>(g.ny) * g.side,
                  largest = std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + height - t.tip_y});
+    if (!(largest > 0)) return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
     const auto bins = at(t.c.output.radial_bins);
     Vector radius;
     for (std::size_t b = 0; b < bins; ++b) radius.push_back((number(b) + 0.5) * largest / number(bins));

@@ -143,7 +143,8 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
         for (int i = 0; i < map.nx; ++i) map.row(j)[i] = (*as_read)(i, j), missing += std::isnan((*as_read)(i, j));
     const auto& keys = t.c.surface;
     const Measured m = measure(map, {keys.missing, keys.detrend, keys.filter_cutoff});
-    const Grid& g = t.heights[0];
+    Grid g = t.heights[0];
+    g.periodic = false;  // as it was measured
     const double points = number(g.z.size());
     f.same("filled_points", {static_cast<double>(missing)});
     f.attribute("filled_points", "share", {static_cast<double>(missing) / points}, kRounding);
