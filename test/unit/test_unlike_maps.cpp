@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "check.hpp"
@@ -108,6 +109,11 @@ void moments() {
         const Moments m = grid_moments(rough(nx, ny));
         CHECK(m.m0 > 0 && m.m2 == 0 && m.m4 == 0);
     }
+    for (const auto [nx, ny] : {std::array{2, 9}, {9, 2}}) {
+        HeightMap narrow = rough(nx, ny);
+        narrow.periodic = true;
+        CHECK(grid_moments(narrow).m2 == 0 && grid_moments(narrow).m4 == 0);
+    }
     const HeightMap three = like(rough(3, 3), 3, 3, [](int i, int) { return i == 1 ? 1.0 : 0.0; });
     CHECK_RELATIVE(grid_moments(three).m2, 0.5 * std::pow(1 / 0.3, 2), 1e-13);
 }
@@ -144,15 +150,17 @@ void heights() {
     for (int k = 0; k < 2000; ++k) least = std::min(least, slope(kPi * k / 2000)), most = std::max(most, slope(kPi * k / 2000));
     CHECK(least < 0.9 * most);
     CHECK_RELATIVE(isotropy_ratio(map), least / most, 1e-5);  // directions in steps of 0.09 degrees
-    // Heights of mean 0 and one point far out: bins from -5 to 5 Sq, what lies beyond is left out.
+    // Bins from -5 to 5 Sq about the mean; what lies beyond, here one point, is left out.
     map.row(3)[4] += 40;
-    const Measured m = measure(map, {Missing::refuse, Detrend::mean, 0});
+    const Measured m = measure(map, {Missing::refuse, Detrend::none, 0});
+    mean += 40.0 / points;
     CHECK(m.height_pdf.size() == 60);
     CHECK_RELATIVE(m.height_bin, m.parameters.sq / 6, 1e-14);
     for (int b = 0; b < 60; ++b) {
         int inside = 0;
         for (int j = 0; j < 14; ++j)
-            for (int i = 0; i < 21; ++i) inside += map(i, j) >= (b - 30) * m.height_bin && map(i, j) < (b - 29) * m.height_bin;
+            for (int i = 0; i < 21; ++i)
+                inside += map(i, j) - mean >= (b - 30) * m.height_bin && map(i, j) - mean < (b - 29) * m.height_bin;
         CHECK_CLOSE(m.height_pdf[static_cast<std::size_t>(b)], inside / (points * m.height_bin), 1e-12);
     }
 }
@@ -410,24 +418,26 @@ void symmetries() {
                     worst = check::worse(worst, {std::abs(turned(j, i) - map(i, j)), std::abs(mirror(40 - i, j) - map(i, j)),
                                                  std::abs(1e-3 * large(i, j) - map(i, j))});
             CHECK_CLOSE(worst, 0, 1e-9);
+            CHECK(m.filter_cutoff == cutoff && m.form.how == how);
+            CHECK_RELATIVE(m.missing_share, 4.0 / (41 * 30), 1e-14);
             CHECK(m.missing == 4 && m.filled.size() == 41 * 30 && std::count(m.filled.begin(), m.filled.end(), 1) == 4);
             CHECK(m.filled[3 * 41 + 21] == 1 && m.filled[29 * 41 + 40] == 1);
         }
 }
 
-void filled_points() {
-    const HeightMap map = rough(31, 22);
+void filled_points(int nx, int ny) {
+    const HeightMap map = rough(nx, ny);
     std::mt19937 random(5);
     const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-    std::vector<std::uint8_t> filled(31 * 22, 0);
+    std::vector<std::uint8_t> filled(static_cast<std::size_t>(nx * ny), 0);
     for (int k = 0; k < 9; ++k) filled[random() % filled.size()] = 1;
-    filled[5 * 31] = filled[8 * 31 + 30] = 1;  // at the ends of rows
+    filled[static_cast<std::size_t>(5 * nx)] = filled[static_cast<std::size_t>(9 * nx - 1)] = 1;  // at the ends of rows
     for (const bool biharmonic : {false, true})
         for (const double distance : {0.15, 0.5, 1.3}) {
             Asperities a;
             for (int k = 0; k < 400; ++k) {  // on grid points, where distances are exact
-                a.x.push_back(map.x0 + map.dx * static_cast<double>(random() % 31)),
-                    a.y.push_back(map.y0 + map.dy * static_cast<double>(random() % 22));
+                a.x.push_back(map.x0 + map.dx * static_cast<double>(random() % static_cast<unsigned>(nx))),
+                    a.y.push_back(map.y0 + map.dy * static_cast<double>(random() % static_cast<unsigned>(ny)));
                 a.z.push_back(uniform()), a.kappa2.push_back(0.1 + uniform()), a.kappa1.push_back(a.kappa2.back() + uniform());
                 a.radius.push_back(uniform()), a.angle.push_back(uniform());
                 if (biharmonic) a.biharmonic.push_back(uniform());
@@ -439,9 +449,9 @@ void filled_points() {
             double g = 0, mean = 0;
             for (std::size_t k = 0; k < 400; ++k) {
                 double nearest = HUGE_VAL;
-                for (int j = 0; j < 22; ++j)
-                    for (int i = 0; i < 31; ++i)
-                        if (filled[static_cast<std::size_t>(j * 31 + i)])
+                for (int j = 0; j < ny; ++j)
+                    for (int i = 0; i < nx; ++i)
+                        if (filled[static_cast<std::size_t>(j * nx + i)])
                             nearest = std::min(nearest, std::hypot(map.x0 + i * map.dx - all.x[k], map.y0 + j * map.dy - all.y[k]));
                 if (nearest < distance - 1e-9) continue;
                 kept.push_back(k);
@@ -460,6 +470,112 @@ void filled_points() {
             CHECK_RELATIVE(count.mean_kappa_g, g / n, kRounding);
             CHECK_RELATIVE(count.mean_kappa_a, mean / n, kRounding);
         }
+}
+
+// What is refused just beyond its bound, and not at it; what is said of a flat map.
+void bounds() {
+    for (const bool wide : {false, true})
+        for (const double ratio : {0.9999e4, 1.0001e4}) {
+            HeightMap map = rough(21, 14);
+            (wide ? map.dx : map.dy) = ratio * (wide ? map.dy : map.dx);
+            if (ratio < 1e4)
+                CHECK(measure(map, {}).nx == 21);
+            else
+                CHECK_THROWS(measure(map, {}), Error);
+        }
+    HeightMap flat = like(rough(21, 14), 21, 14, [](int, int) { return 0.25; });
+    CHECK(isotropy_ratio(flat) == 1);
+    const Measured m = measure(flat, {Missing::refuse, Detrend::none, 0});
+    CHECK(m.isotropy == 1 && m.parameters.sq == 0 && m.height_bin == 0 && !m.fit && m.height_pdf == std::vector<double>(60, 0.0));
+    CHECK(m.shortest_wave() == 2 * 0.3 && m.points_per_wave() == 2);
+    // All points missing, all but one.
+    for (const Missing how : {Missing::refuse, Missing::fill}) {
+        HeightMap none = like(flat, 21, 14, [](int, int) { return std::nan(""); });
+        CHECK_THROWS(measure(none, {how, Detrend::none, 0}), Error);
+        HeightMap one = like(flat, 21, 14, [](int i, int j) { return i == 3 && j == 4 ? 0.5 : std::nan(""); });
+        if (how == Missing::refuse) {
+            CHECK_THROWS(measure(one, {how, Detrend::none, 0}), Error);
+        } else {
+            CHECK(measure(one, {how, Detrend::none, 0}).missing == 21 * 14 - 1);
+            for (int j = 0; j < 14; ++j)
+                for (int i = 0; i < 21; ++i) CHECK_CLOSE(one(i, j), 0.5, 1e-12);
+        }
+    }
+    HeightMap map;
+    map.allocate(1, 1, 1);
+    map.allocate(3, 2, 3);
+    CHECK(map.nx == 3 && map.ny == 2 && map.stride == 3);
+    CHECK_THROWS(map.allocate(0, 1, 1), Error);
+    CHECK_THROWS(map.allocate(1, 0, 1), Error);
+    CHECK_THROWS(map.allocate(3, 2, 2), Error);
+}
+
+// What is told of a map whose numbers all differ, word by word.
+void told_lines() {
+    Measured m;
+    m.nx = 31, m.ny = 47, m.dx = 0.5, m.dy = 0.25, m.missing = 12, m.missing_share = 0.0123, m.filter_cutoff = 0.75;
+    m.form = {Detrend::plane, 9, 0.11, -0.22, 1, 2, 3, 0, 4};
+    m.as_read = {1.5, 0.31, 7.5}, m.without_form = {1.25, 0.29, 7.25}, m.filtered = {1.125, 0.27, 6.5};
+    m.parameters = {1.0625, 0.125, 3.25, 0.26};
+    m.isotropy = 0.875;
+    const double two_pi = 2 * kPi;
+    m.fit = SelfAffineFit{{1, 2}, {two_pi / 16, 3}, {two_pi / 3, 4}, {0.812, 0.034}, true, true};
+    using Lines = std::vector<std::string>;
+    const std::string heights = "heights: Sq 1.0625 um, Ssk 0.125, Sku 3.250, Sdq 0.26; isotropy ratio of slopes 0.88",
+                      change = "rms height 1.5 -> 1.25 um, rms slope 0.31 -> 0.29, rms curvature 7.5 -> 7.25 1/um",
+                      spectrum =
+                          "spectrum: hurst 0.812 +- 0.034, lambda_l 16 um (plateau above), lambda_s 3 um, 6.0 points in the shortest wave",
+                      size = "map: 31 x 47 points of 0.5 x 0.25 um, 15.5 x 11.75 um";
+    const auto is = [&](const Lines& wanted) {
+        const Lines lines = told(m, "um");
+        CHECK(lines == wanted);
+        if (lines != wanted)
+            for (const std::string& line : lines) std::printf("  told: %s\n", line.c_str());
+    };
+    is({size, "missing points: 12 (1.23 %) filled; summits nearer to them than the shortest wave are left out",
+        "form 'plane': slopes 0.11, -0.22; " + change,
+        "filter (Gaussian, 0.75 um): rms height 1.25 -> 1.125 um, rms slope 0.29 -> 0.27, rms curvature 7.25 -> 6.5 1/um", heights,
+        spectrum});
+    m.missing = 0, m.filter_cutoff = 0, m.fit->plateau = m.fit->ks_seen = false;
+    const std::string other =
+        "spectrum: hurst 0.812 +- 0.034, lambda_l 16 um, lambda_s 3 um (the grid's: no end seen), 6.0 points in the shortest wave";
+    for (const auto& [how, words] : {std::pair{Detrend::none, "form 'none': "},
+                                     {Detrend::mean, "form 'mean': "},
+                                     {Detrend::quadratic, "form 'quadratic': slopes 0.11, -0.22; "}}) {
+        m.form.how = how;
+        is({size, words + change, heights, other});
+    }
+    m.form.how = Detrend::sphere;
+    for (const double radius : {-321.0, 321.0}) {
+        m.form.radius = radius;
+        is({size, std::string("form 'sphere': radius 321 um (") + (radius > 0 ? "dome); " : "bowl); ") + change, heights, other});
+    }
+    // Warnings: four points in the shortest wave are enough; the map's numbers, each just within and just beyond its bound.
+    const auto warned = [&] {
+        const Lines lines = told(m, "um");
+        return std::array{
+            std::any_of(lines.begin(), lines.end(), [](const std::string& l) { return l.starts_with("warning: fewer than 4 points"); }),
+            std::any_of(lines.begin(), lines.end(),
+                        [](const std::string& l) { return l.starts_with("warning: the map is not isotropic"); })};
+    };
+    for (const double points : {3.99, 4.01}) {
+        m.fit->ks.value = two_pi / (points * 0.5);
+        CHECK((warned() == std::array{points < 4, false}));
+    }
+    const auto second = [&](double& of, double within, double beyond) {
+        const double before = of;
+        of = within;
+        CHECK(!warned()[1]);
+        of = beyond;
+        CHECK(warned()[1]);
+        of = before;
+    };
+    second(m.isotropy, 0.801, 0.799);
+    second(m.parameters.ssk, 0.299, 0.301), second(m.parameters.ssk, -0.299, -0.301);
+    second(m.parameters.sku, 3.599, 3.601), second(m.parameters.sku, 2.401, 2.399);
+    m.fit.reset();
+    CHECK(told(m, "um").size() >= 4 && told(m, "um")[3] == "spectrum: none, the map is too small or flat");
+    CHECK(warned()[0]);  // without a fit the shortest wave is two steps
 }
 
 // Summits of the map as they are after a change of it.
@@ -516,6 +632,49 @@ void summits() {
             }
 }
 
+// Four points in the shortest wave: a summit is reached from several points of the grid, also across the seams of a period whose sides
+// differ, and is there once; rolling the map round its periods changes nothing.
+void rolled() {
+    constexpr int nx = 36, ny = 16;
+    long repeated = 0, seams = 0, summits = 0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937 random(seed);
+        const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+        HeightMap map = blank(nx, ny, 0.3, 0.2);
+        map.periodic = true;
+        std::vector<std::array<double, 4>> waves;
+        for (int p = 0; p <= 9; ++p)
+            for (int q = p > 0 ? -4 : 1; q <= 4; ++q)
+                if (std::hypot(p / 9.0, q / 4.0) <= 1)
+                    waves.push_back({static_cast<double>(p), static_cast<double>(q), uniform(), 2 * kPi * uniform()});
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) {
+                map.row(j)[i] = 0;
+                for (const auto& [p, q, height, phase] : waves)
+                    map.row(j)[i] += height * std::cos(2 * kPi * (p * i / nx + q * j / ny) + phase);
+            }
+        const HeightMap shifted = like(map, nx, ny, [&](int i, int j) { return map((i + 17) % nx, (j + 7) % ny); });
+        SummitCount one, two;
+        const Asperities a = find_asperities(map, Curvature::geometric, &one, 1, Detail::subgrid, 4),
+                         b = find_asperities(shifted, Curvature::geometric, &two, 1, Detail::subgrid, 4);
+        CHECK(a.size() == b.size() && one.summits == two.summits && one.saddles == two.saddles && one.repeated == two.repeated);
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            double nearest = HUGE_VAL, other = HUGE_VAL;
+            for (std::size_t l = 0; l < b.size(); ++l)
+                nearest = std::min(nearest, std::hypot(std::remainder(b.x[l] - a.x[k] + 17 * map.dx, map.Lx()),
+                                                       std::remainder(b.y[l] - a.y[k] + 7 * map.dy, map.Ly())));
+            for (std::size_t l = 0; l < k; ++l)
+                other = std::min(other, std::hypot(std::remainder(a.x[l] - a.x[k], map.Lx()), std::remainder(a.y[l] - a.y[k], map.Ly())));
+            CHECK_CLOSE(nearest, 0, 1e-6);
+            CHECK(other > 1e-3);
+            seams += a.x[k] - map.x0 < 2 * map.dx || map.x0 + map.Lx() - a.x[k] < 2 * map.dx;
+        }
+        repeated += one.repeated, summits += one.summits;
+    }
+    std::printf("rolled: %ld summits, %ld maxima repeated, %ld at seams\n", summits, repeated, seams);
+    CHECK(summits > 500 && seams > 20);
+}
+
 }  // namespace
 
 int main() {
@@ -524,7 +683,11 @@ int main() {
     spectra();
     fits();
     symmetries();
-    filled_points();
+    filled_points(31, 22);
+    filled_points(22, 31);
+    bounds();
+    told_lines();
     summits();
+    rolled();
     return check::summary();
 }
