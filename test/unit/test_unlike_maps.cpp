@@ -675,6 +675,48 @@ void rolled() {
     CHECK(summits > 500 && seams > 20);
 }
 
+// Maps that end: what is found beside their borders is the same however the map is turned. Coarse, so that summits are far from where
+// they are looked for.
+void borders() {
+    long summits = 0, beside[4] = {};
+    for (unsigned seed = 1; seed <= 30; ++seed) {
+        std::mt19937 random(seed);
+        const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+        const int nx = 44, ny = 25;
+        HeightMap map = blank(nx, ny, 0.3, 0.2);
+        std::vector<std::array<double, 4>> waves;
+        for (int k = 0; k < 40; ++k) waves.push_back({3.4 * uniform() - 1.7, 3.4 * uniform() - 1.7, uniform(), 2 * kPi * uniform()});
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) {
+                map.row(j)[i] = 0;
+                for (const auto& [p, q, height, phase] : waves) map.row(j)[i] += height * std::cos(p * i + q * j + phase);
+            }
+        const auto found = [](const HeightMap& m, SummitCount& count) {
+            return find_asperities(m, Curvature::geometric, &count, 1, Detail::subgrid);
+        };
+        SummitCount one, two, three;
+        const Asperities a = found(map, one), t = found(transposed(map), two), m = found(mirrored(map), three);
+        CHECK(a.size() == t.size() && a.size() == m.size() && one.saddles == two.saddles && one.saddles == three.saddles);
+        CHECK(one.repeated == two.repeated && one.repeated == three.repeated);
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            double in_t = HUGE_VAL, in_m = HUGE_VAL;
+            for (std::size_t l = 0; l < t.size(); ++l) in_t = std::min(in_t, std::hypot(t.x[l] - a.y[k], t.y[l] - a.x[k]));
+            for (std::size_t l = 0; l < m.size(); ++l) in_m = std::min(in_m, std::hypot(m.x[l] + a.x[k], m.y[l] - a.y[k]));
+            CHECK_CLOSE(in_t, 0, 1e-6);
+            CHECK_CLOSE(in_m, 0, 1e-6);
+            // The stencil of the point nearest to a summit lies in the map.
+            const double u = (a.x[k] - map.x0) / map.dx, v = (a.y[k] - map.y0) / map.dy;
+            const long i = std::lround(u), j = std::lround(v);
+            CHECK(i >= kMeasuredReach && j >= kMeasuredReach && i < nx - kMeasuredReach && j < ny - kMeasuredReach);
+            beside[0] += i == kMeasuredReach, beside[1] += i == nx - 1 - kMeasuredReach;
+            beside[2] += j == kMeasuredReach, beside[3] += j == ny - 1 - kMeasuredReach;
+        }
+        summits += one.summits;
+    }
+    std::printf("borders: %ld summits, %ld %ld %ld %ld beside them\n", summits, beside[0], beside[1], beside[2], beside[3]);
+    for (const long n : beside) CHECK(n > 5);
+}
+
 }  // namespace
 
 int main() {
@@ -689,5 +731,6 @@ int main() {
     told_lines();
     summits();
     rolled();
+    borders();
     return check::summary();
 }
