@@ -130,6 +130,77 @@ void calculus() {
     }
 }
 
+// Every function of every law against the others: force and work are integrals of the slope and of the force, the slope is 2 E* a/(F1 F2) of
+// the equivalent radius, a^2 pi the area; the spread is that area and goes on straight; the penetration where a mean pressure is reached is
+// the first. Nothing before touching. Of two summits, so that each is asked for its own.
+void everything_of_every_law() {
+    Asperities s = summit(9000, 4000, 0);
+    for (auto* v : {&s.x, &s.y, &s.z}) v->push_back(1);
+    s.radius.push_back(1 / 300.0), s.kappa1.push_back(900), s.kappa2.push_back(100), s.angle.push_back(1), s.biharmonic.push_back(0);
+    const std::vector<int> both = {0, 1};
+    for (LawKind kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
+        for (double flattening : {-4e11, -1e7, 0.0, 1e7, 2e11, 3e12}) {
+            s.biharmonic = {flattening, flattening * 1e-4};
+            const auto law = make_law(kind, s, kE);
+            law->prepare(both);
+            law->prepare(both);  // once more changes nothing
+            CHECK(law->convex() && !law->path_dependent() && law->work_lost() == 0);
+            for (const int i : both) {
+                const auto k = static_cast<std::size_t>(i);
+                const EllipseFactors f = kind == LawKind::hertz ? EllipseFactors{} : ellipse_factors(s.kappa1[k] / s.kappa2[k]);
+                CHECK(law->axes(i) == f.axes);
+                const double kappa = 1 / s.radius[k];
+                const double q2 = kind == LawKind::fourth_order ? s.biharmonic[k] / (s.kappa1[k] + s.kappa2[k]) : 0;
+                const double last = q2 > 0 ? 4 * kappa / q2 * f.F2 : 1e300, flattest = 0.7444 * last;
+                const auto respond = [&](double u) {
+                    const int which[2] = {1 - i, i};
+                    const double at[2] = {0.3 * u, u};
+                    double force[2], slope[2], work[2];
+                    law->respond(2, which, at, force, slope, work);
+                    return Answer{force[1], slope[1], work[1], law->area(i, u)};
+                };
+                for (double u : {0.0, -1e-3}) {
+                    const Answer r = respond(u);
+                    CHECK(r.force == 0 && r.slope == 0 && r.work == 0 && r.area == 0 && law->force(i, u) == 0 && !law->beyond(i, u));
+                }
+                CHECK(!law->yields(i, 1) && law->residual_depth(i) == 0);
+                const double most = q2 > 0 ? 2.5 * last : 1e-2;
+                double work = 0, force = 0, before = 0;
+                for (double u = 1e-4 * most; u < most; u *= 1.31) {
+                    const Answer r = respond(u);
+                    CHECK_RELATIVE(law->force(i, u), r.force, 1e-14);
+                    CHECK_RELATIVE(r.slope, 2 * kE * std::sqrt(r.area / std::numbers::pi) / (f.F1 * f.F2), 1e-12);
+                    CHECK(law->beyond(i, u) == (u > last));
+                    // From the last penetration to this one, in the root of it, and up to the end of the law's own range apart.
+                    for (const auto& [from, to] :
+                         {std::pair{before, std::min(u, std::max(before, last))}, {std::max(before, std::min(u, last)), u}}) {
+                        const double low = std::sqrt(from), high = std::sqrt(to);
+                        force += integrate(low, high, [&](double t) { return 2 * t * respond(t * t).slope; });
+                        work += integrate(low, high, [&](double t) { return 2 * t * law->force(i, t * t); });
+                    }
+                    CHECK_RELATIVE(r.force, force, 1e-6);  // the slope ends like a root at `last`
+                    CHECK_RELATIVE(r.work, work, 1e-7);
+                    before = u;
+                    const Spread now = law->spread(i, u);
+                    const double h = 1e-4 * u;
+                    if (u < flattest) CHECK_RELATIVE(now.area, r.area, 1e-12);
+                    if (u > flattest) CHECK_RELATIVE(now.slope, law->spread(i, flattest).slope, 1e-12);
+                    const Spread low = law->spread(i, u - h), high = law->spread(i, u + h);
+                    CHECK_RELATIVE(now.slope, (high.area - low.area) / (2 * h), 1e-6);
+                    CHECK_RELATIVE(now.area, (high.integral - low.integral) / (2 * h), 1e-6);
+                    CHECK(now.integral > 0 && now.integral < u * now.area);
+                    // Asked for the mean pressure here: the same place or, where it was reached before, that one.
+                    const double pressure = r.force / r.area, first = law->yield_penetration(i, pressure);
+                    CHECK_RELATIVE(law->force(i, first), pressure * law->area(i, first), 1e-11);
+                    if (u < flattest) CHECK_RELATIVE(first, u, 1e-8);
+                    CHECK(first <= u * (1 + 1e-8));
+                    for (double part : {0.1, 0.3, 0.6, 0.9, 0.99})
+                        CHECK(law->force(i, part * first) < pressure * law->area(i, part * first) * (1 + 1e-9));
+                }
+            }
+        }
+}
+
 // The axisymmetric law from Sneddon's integrals, by quadrature of the profile w(r) = A (1 - J0(q r)):
 // delta = a int_0^1 w'(a s)/sqrt(1 - s^2) ds, P = 2 E* int_0^a (delta - delta(t)) dt.
 void fourth_order_against_sneddon() {
@@ -254,6 +325,7 @@ int main() {
     ellipse_limits();
     limits_are_hertz();
     calculus();
+    everything_of_every_law();
     fourth_order_against_sneddon();
     fourth_order_to_the_last_digits();
     fourth_order_in_powers();
