@@ -83,6 +83,8 @@ void spots_against_slip_problem() {
                 Q += q[i];
                 CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]), 1e-8 * kFriction.coefficient * level.force);
                 CHECK(spots[i].force.x == 0 && spots[i].stick_radius < spots[i].radius);
+                CHECK(spots[i].asperity == level.asperity[i]);
+                CHECK_RELATIVE(spots[i].radius, level.a[i], 1e-10);
                 // c = a (1 - q/(mu f))^(1/3), Mindlin's stick radius of a spot of its own.
                 const double left = 1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
                 CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)), 1e-5 * level.a[i]);

@@ -76,11 +76,6 @@ void nominal() {
     options.mean_spacing = 0.039;
     judge_range(level, indenter, options);
     CHECK(level.large_contacts == 2);
-    // A contact past the law's range alone.
-    options = {};
-    level.status = LevelStatus::converged, level.area = 0, level.beyond_law = 1;
-    judge_range(level, indenter, options);
-    CHECK(level.status == LevelStatus::out_of_validity);
     // Two flats have the area of their period, wherever the tip is.
     Indenter flat{1.0, __builtin_huge_val(), 0.5, 0.4};
     flat.period = {0.3, 0.2};
@@ -90,6 +85,54 @@ void nominal() {
     const Level one = level_at(0.5, 0.4);
     CHECK(one.status == LevelStatus::converged);
     CHECK_RELATIVE(one.nominal_area, one.area, 1e-12);
+}
+
+// Just at a bound is within it, of asperities and of elements; what is not known is not judged.
+void at_the_bounds() {
+    const Indenter indenter{1.0, 2.5, 0.5, 0.5};
+    SolverOptions options;
+    options.mean_spacing = 0.125, options.sigma = 0.5, options.surface = {0, 0, 1, 1};
+    for (const bool pixels : {false, true})
+        for (const auto& [x, y, a, large, edge] : {std::tuple{0.5, 0.5, 0.03125, 0, 0},
+                                                   {0.5, 0.5, 0.031251, 1, 0},
+                                                   {0.125, 0.5, 0.01, 0, 0},
+                                                   {0.124999, 0.5, 0.01, 0, 1},
+                                                   {0.875, 0.875, 0.01, 0, 0},
+                                                   {0.5, 0.875001, 0.01, 0, 1},
+                                                   {0.75, 0.5, 0.3, 1, 2}}) {
+            Level level;
+            level.add_contact(0, x, y, 1.0, a, 0.001);
+            (pixels ? judge_edges : judge_range)(level, indenter, options);
+            const int at_border = edge == 2 ? pixels : edge;  // a contact of elements counts when it itself reaches so far
+            CHECK(level.large_contacts == large && level.edge_contacts == at_border);
+            CHECK((level.status == LevelStatus::out_of_validity) == (at_border > 0 || (large > 0 && !pixels)));
+            SolverOptions unknown;
+            Level other;
+            other.add_contact(0, x, y, 1.0, a, 0.001);
+            other.separation = -1e9;
+            (pixels ? judge_edges : judge_range)(other, indenter, unknown);
+            CHECK(other.large_contacts == 0 && other.edge_contacts == 0 && other.status == LevelStatus::converged);
+            unknown.surface = options.surface;  // no mean distance: asperities are not judged, of elements those that reach the border
+            (pixels ? judge_edges : judge_range)(other, indenter, unknown);
+            CHECK(other.large_contacts == 0 && other.edge_contacts == (pixels && edge == 2));
+        }
+    for (const auto& [Z0, deep] : {std::pair{-1.5, false}, {-1.5000001, true}}) {
+        Level level;
+        level.separation = Z0;
+        judge_range(level, indenter, options);
+        CHECK((level.status == LevelStatus::out_of_validity) == deep && level.nominal_area == 0);
+    }
+    Level beyond;
+    beyond.beyond_law = 1;
+    judge_range(beyond, indenter, options);
+    CHECK(beyond.status == LevelStatus::out_of_validity);
+    LevelValues area;
+    for (const auto& [share, more] : {std::pair{1.0, false}, {1 + 9e-10, false}, {1 + 2e-9, true}}) {
+        area.nominal_area = 2, area.area = 2 * share;
+        CHECK(exceeds_nominal_area(area) == more);
+    }
+    area.nominal_area = 0;
+    CHECK(!exceeds_nominal_area(area));
 }
 
 // A small surface, as the program and the library prepare it.
@@ -170,6 +213,7 @@ int main() {
     borders();
     depth();
     nominal();
+    at_the_bounds();
     prepared();
     elements();
     return check::summary();

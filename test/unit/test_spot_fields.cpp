@@ -9,6 +9,7 @@
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/deflection.hpp"
+#include "contact/interaction/lattice.hpp"
 #include "contact/interaction/love.hpp"
 #include "contact/lateral.hpp"
 
@@ -92,7 +93,21 @@ void test_fields() {
     }
     Level level;
     level.add_contact(0, 0.3, 0.9, 2.0, 0.02, 1e-3), level.add_contact(1, 1.9, 0.05, 1.0, 0.01, 1e-3);
+    const auto free = make_kernel(Interaction::point, E_star, {});
     const auto kernel = make_kernel(Interaction::point, E_star, Period{2, 1});
+    const Lattice lattice({2, 1});
+    for (const auto& [x, y] : {std::pair{0.3, 0.9}, {0.31, 0.89}, {0.5, 0.2}, {1.8, 0.1}}) {
+        // What each spot does, and with images what they do as points: all of them less the nearest.
+        const double one = std::hypot(x - 0.3, y - 0.9), other = std::hypot(x - 1.9, y - 0.05);
+        const double alone = spot_deflection(2.0, 0.02, one, E_star) + spot_deflection(1.0, 0.01, other, E_star);
+        CHECK_RELATIVE(deflection(level, *free, x, y), alone, 1e-14);
+        const double xn = std::remainder(x - 0.3, 2.0), yn = std::remainder(y - 0.9, 1.0), xm = std::remainder(x - 1.9, 2.0),
+                     ym = std::remainder(y - 0.05, 1.0), near = std::hypot(xn, yn), beside = std::hypot(xm, ym);
+        const double images = 2.0 * (near > 0 ? lattice.at(xn, yn) - 1 / near : lattice.self()) + (lattice.at(xm, ym) - 1 / beside);
+        CHECK_RELATIVE(deflection(level, *kernel, x, y),
+                       spot_deflection(2.0, 0.02, near, E_star) + spot_deflection(1.0, 0.01, beside, E_star) + images / (pi * E_star),
+                       1e-10);
+    }
     for (const auto& [x, y] : {std::pair{0.3, 0.9}, {0.31, 0.02}, {1.2, 0.5}, {0.1, 0.04}}) {
         const double here = deflection(level, *kernel, x, y);
         for (const auto& [m, n] : {std::pair{1, 0}, {0, 1}, {0, -1}, {-2, 3}})
@@ -113,9 +128,20 @@ void test_moment() {
     CHECK_RELATIVE(sphere.y, both.y, 1e-12);
 }
 
+// Constriction: the resistivities add, either may be 0; without contact, or of two perfect conductors, there is none to tell.
+void test_resistance() {
+    CHECK_RELATIVE(conductance_length(-6.0, 4.0), 3.0, 1e-15);
+    CHECK(conductance_length(0, 4.0) == 0 && !std::signbit(conductance_length(0, 4.0)));
+    CHECK_RELATIVE(constriction_resistance(4.0, {2, 3}), 1.25, 1e-15);
+    CHECK_RELATIVE(constriction_resistance(4.0, {0, 3}), 0.75, 1e-15);
+    CHECK_RELATIVE(constriction_resistance(4.0, {2, 0}), 0.5, 1e-15);
+    CHECK(std::isnan(constriction_resistance(4.0, {0, 0})) && std::isnan(constriction_resistance(0, {2, 3})));
+}
+
 }  // namespace
 
 int main() {
+    test_resistance();
     test_fields();
     test_moment();
     test_one_spot();

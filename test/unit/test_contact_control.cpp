@@ -1,0 +1,186 @@
+// What every contact does around its model's solutions: force control and separations between planes count all their work, accept one level
+// and no trial, and none that failed; the curve of two contacts counts its levels; forgetting is starting anew, bit by bit.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "../physics/random_asperities.hpp"
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/contact_curve.hpp"
+#include "contact/element_contact.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kTop = 1.5;
+
+// N = (1.5 - z)^(3/2) of the separation z as the model counts it; solutions that are passed are wrong by `passed` of the load until settled.
+class Known final : public Contact {
+public:
+    explicit Known(double shift = 0, double passed = 0) : shift_(shift), passed_(passed) {}
+
+    double stiffness() override { return slope_ / (1 + shift_ * slope_); }
+    double energy() const override { return 0.4 * std::pow(std::max(kTop - z_, 0.0), 2.5); }
+    void move_tip(double, double) override {}
+    double first_touch() const override { return kTop; }
+    const Indenter& indenter() const override { return indenter_; }
+
+    long solves = 0, passes = 0, settled = 0, accepted = 0;
+    bool fails = false;
+    long iterations() const { return 3 * solves + 2 * passes + 7 * settled; }
+    long products() const { return 30 * solves + 50 * passes + 11 * settled; }
+    void put_period(const Period& period) { indenter_.period = period; }
+
+protected:
+    void forget_levels() override {}
+    Level at(double z, double factor) {
+        z_ = z;
+        Level level;
+        level.separation = z;
+        level.force = factor * std::pow(std::max(kTop - z, 0.0), 1.5);
+        level.area = 2 * level.force;
+        slope_ = z < kTop ? -1.5 * factor * std::sqrt(kTop - z) : 0;
+        if (fails) level.status = LevelStatus::not_converged;
+        return level;
+    }
+    Level solve(double z) override {
+        ++solves;
+        Level level = at(z, 1);
+        level.iterations = 3, level.products = 30;
+        return level;
+    }
+    Level pass(double z) override {
+        if (passed_ == 0) return solve(z);
+        ++passes;
+        Level level = at(z, 1 + passed_);
+        level.iterations = 2, level.products = 50;
+        return level;
+    }
+    Level settle(const Level& passed) override {
+        if (passed_ == 0) return Contact::settle(passed);
+        ++settled;
+        Level level = at(passed.separation, 1);
+        level.iterations = 7, level.products = 11;
+        return level;
+    }
+    double slope() override { return slope_; }
+    void accept(Level& level) override { ++accepted, level.plastic_work = 42; }
+    double shift() const override { return shift_; }
+    double tolerance() const override { return 1e-9; }
+    double force_at_most(double depth) override { return std::pow(depth, 1.5); }
+    std::optional<double> likely_separation() const override { return {}; }
+    std::size_t levels_since_move() const override { return 2; }
+
+private:
+    double shift_, passed_, z_ = kTop, slope_ = 0;
+    Indenter indenter_{1, 1, 0, 0, {}};
+};
+
+void control() {
+    for (const double shift : {0.0, 0.3})
+        for (const double passed : {0.0, 0.02}) {
+            Known contact(shift, passed);
+            if (shift > 0) contact.put_period({2, 4});
+            long levels = 0, iterations = 0, products = 0;
+            const auto check = [&](const Level& level, double z, double N) {
+                CHECK_CLOSE(level.separation, z + shift * N, 1e-8 * std::max(1.0, N));
+                CHECK_RELATIVE(level.force, N, 1e-8);
+                CHECK(level.status == LevelStatus::converged && contact.accepted == ++levels && level.plastic_work == 42);
+                CHECK(level.iterations == contact.iterations() - iterations && level.products == contact.products() - products);
+                iterations = contact.iterations(), products = contact.products();
+                CHECK((shift > 0) == std::isfinite(level.pressure) && (shift > 0) == std::isfinite(level.area_fraction));
+                if (shift > 0) CHECK_RELATIVE(level.pressure, level.force / 8, 1e-15);
+                if (shift > 0) CHECK_RELATIVE(level.area_fraction, level.area / 8, 1e-15);
+            };
+            for (const double N : {1e-6, 0.3, 20.0, 0.31, 1e5, 1e-3}) {
+                const double z = kTop - std::cbrt(N * N);
+                check(contact.at_force(N), z, N);
+                // Deeper, z + shift N is the same at two depths.
+                if (shift == 0 || N < 5) check(contact.at_separation(z + shift * N), z, N);
+            }
+            const Level none = contact.at_separation(kTop);
+            CHECK(none.force == 0 && none.separation == kTop && contact.accepted == ++levels);
+            CHECK(none.iterations == 3 && none.products == 30);
+            // What failed is told and not accepted.
+            contact.fails = true;
+            CHECK(contact.at_force(2.0).status == LevelStatus::not_converged && contact.accepted == levels);
+            CHECK(contact.at_separation(0.5).status == LevelStatus::not_converged && contact.accepted == levels);
+        }
+}
+
+// Two contacts take turns; a level that one of them holds is not computed again.
+void curves() {
+    Known one, other;
+    ContactCurve curve(one, other);
+    const auto N = [](double delta) { return std::pow(kTop + delta, 1.5); };
+    CHECK(curve.first_touch() == -kTop && curve.levels() == 0 && curve.failed() == 0);
+    CHECK(curve.load(-kTop).force == 0 && curve.load(-2).energy == 0 && curve.stiffness(-kTop) == 0 && curve.levels() == 0);
+    CHECK_RELATIVE(curve.load(0.5).force, N(0.5), 1e-14);
+    CHECK_RELATIVE(curve.load(0.5).energy, 0.4 * std::pow(2.0, 2.5), 1e-14);
+    CHECK(curve.levels() == 1 && one.solves == 1 && other.solves == 0);
+    CHECK_RELATIVE(curve.load(-1).force, N(-1), 1e-14);
+    CHECK(curve.levels() == 2 && other.solves == 1);
+    CHECK_RELATIVE(curve.stiffness(0.5), 1.5 * std::sqrt(2.0), 1e-14);
+    CHECK_RELATIVE(curve.stiffness(-1), 1.5 * std::sqrt(0.5), 1e-14);
+    CHECK_RELATIVE(curve.load(-1).energy, 0.4 * std::pow(0.5, 2.5), 1e-14);
+    CHECK(curve.levels() == 2);
+    CHECK_RELATIVE(curve.stiffness(0.4), 1.5 * std::sqrt(1.9), 1e-14);  // nearer to the first
+    CHECK(curve.levels() == 3 && one.solves == 2);
+    CHECK_RELATIVE(curve.load(-0.9).force, N(-0.9), 1e-14);
+    CHECK(curve.levels() == 4 && other.solves == 2);
+    CHECK_RELATIVE(curve.approach(8.0), 2.5, 1e-8);
+    CHECK(curve.levels() == 5 && other.solves > 2 && curve.failed() == 0);
+    CHECK(curve.level(2.5).force == 0 || std::abs(curve.level(2.5).force - 8) < 1e-6);
+    other.fails = one.fails = true;
+    const long before = curve.levels();
+    curve.load(-0.2), curve.approach(3.0);
+    CHECK(curve.levels() == before + 2 && curve.failed() == 2);
+    curve.forget();
+    curve.load(-0.2);
+    CHECK(curve.levels() == before + 3 && curve.failed() == 3);
+}
+
+// Of the models themselves.
+void forgetting() {
+    const Asperities a = random_asperities(200, 0.01, 0.01, 5e-4, 0.5, 3);
+    HeightMap map;
+    map.allocate(24, 20, 24);
+    map.dx = 0.04, map.dy = 0.05;
+    for (int j = 0; j < 20; ++j)
+        for (int i = 0; i < 24; ++i) map.row(j)[i] = 0.01 * std::cos(1.3 * i + 0.2 * j) * std::sin(0.9 * j);
+    SolverOptions options;
+    options.max_iterations = 300;
+    for (int model = 0; model < 4; ++model) {
+        const auto made = [&]() -> std::unique_ptr<Contact> {
+            const double flat = __builtin_huge_val();
+            if (model == 0) return std::make_unique<AsperityContact>(a, Indenter{2, 3, 0.5, 0.4, {}}, options);
+            if (model == 1) return std::make_unique<AsperityContact>(a, Indenter{2, flat, 0.5, 0.4, {1, 1}}, options);
+            return make_element_contact(map, model == 2 ? Indenter{2, 9, 0.5, 0.4, {}} : Indenter{2, flat, 0, 0, {map.Lx(), map.Ly()}},
+                                        options);
+        };
+        const auto used = made(), fresh = made();
+        for (const double Z0 : {0.008, 0.001, 0.006}) used->at_separation(Z0);
+        used->at_force(1e-5);
+        used->forget();
+        const auto same = [](const Level& p, const Level& q) {
+            CHECK(p.force > 0 && p.force == q.force && p.separation == q.separation && p.f == q.f && p.a == q.a && p.u == q.u);
+            CHECK(p.iterations == q.iterations && p.products == q.products && p.pixels.pressure == q.pixels.pressure);
+        };
+        same(used->at_separation(0.004), fresh->at_separation(0.004));
+        CHECK(used->stiffness() == fresh->stiffness() && used->energy() == fresh->energy());
+        same(used->at_force(3e-5), fresh->at_force(3e-5));
+    }
+}
+
+}  // namespace
+
+int main() {
+    control();
+    curves();
+    forgetting();
+    return check::summary();
+}
