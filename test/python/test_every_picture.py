@@ -5,6 +5,7 @@ usage: test_every_picture.py FOLDER_OF_PLOT        (RSC_PROGRAM in the environme
 """
 import functools
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -40,6 +41,7 @@ CASES = {
     "light": SURFACE + BALL + f"&run {UNITS} / &indentation start=3.2 stop=2.5 steps=3 /",
     "listed": "&surface source='asperities' file='LIST' L=1000.0 / &solids R=Infinity,3000.0 / &indentation unit='length' start=14.0 stop=2.0 steps=7 / &output map_cells=20 /"
               f"&run {UNITS} /",
+    "middle": SURFACE + BALL + f"&run {UNITS} / &indentation start=2.0 stop=1.7 steps=3 /",
     "failed": SURFACE + BALL + f"&run {UNITS} / &indentation start=2.0 stop=0.0 steps=5 / &solver tolerance=1.0e-14 max_iterations=1 /",
     "yielding": SURFACE + BALL.replace("resistivity", "hardness=50.0 resistivity") + f"&run {UNITS} / &indentation {PLACE} levels=2.5,1.0 / &output heights=.true. /",
     "pressed": "&surface n=128 L=700.0 L_lambda_l=4 L_lambda_s=32 sigma=0.9 / &solids R=Infinity,Infinity / &indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /"
@@ -276,12 +278,14 @@ class Pictures(unittest.TestCase):
         what = "Contact area against force"
         axis = {"xscale": "log", "yscale": "log", "xlabel": "force $N$ [mN]", "ylabel": "contact area $A$ [um$^{2}$]"}
         crossings = []
-        for name, note, many in (("one", "", None), ("many", "; band: two thirds of the realizations", 5), ("flat", "", None), ("failed", "", None), ("light", "", None), ("map", "", None), ("listed", "", None), ("stripped", "", None)):
+        for name, note, many in (("one", "", None), ("many", "; band: two thirds of the realizations", 5), ("flat", "", None), ("failed", "", None), ("light", "", None), ("middle", "", None), ("map", "", None), ("listed", "", None), ("stripped", "", None)):
             raw = Raw(name)
             drawn, force, status = self.area_line(raw, 0, "rsc")
             drawn += self.laws(raw, force)
             bands = {"bands": [self.area_band(raw, force, STYLES[0][2])]} if many else {}
             crossings.append("*" in [d.get("marker") for d in drawn])
+            if name == "middle":  # the crossing lies beyond the levels, and is drawn as it is within a factor of 30
+                self.assertTrue(crossings[-1] and force.max() < float(raw.transition_force) / 3)
             entries = [d for d in drawn if "label" in d] + marks_of_legend(status)
             expected = {"title": heading(what + note, raw, many), "axes": [{**axis, **bands, "lines": drawn, "legend": legend_of(*entries)}]}
             self.compare("area", [name], expected, tolerance=1e-5)  # 212.66 in the file has five figures
@@ -635,6 +639,16 @@ class Pictures(unittest.TestCase):
         self.compare("distributions", ["one"], {"title": heading("Distributions over contacts", one), "axes": expected([(one, k) for k in levels], words)}, tolerance=1e-6)
         both = [(raw, int(np.argmax(raw.spot_area_count.sum(axis=1)))) for raw in (one, many)]
         self.compare("distributions", ["one", "many"], {"title": "Distributions over contacts", "axes": expected(both, MANY_ONE[::-1])}, tolerance=1e-6)
+        # A fit that failed: no line, and the level by its name.
+        shutil.copy(path("one"), path("unfitted"))
+        with netCDF4.Dataset(path("unfitted"), "a") as file:
+            file["pressure_pdf"].alpha = np.full(counts.size, 9.96920996838687e36)
+        axes = expected([(one, k) for k in levels], words)
+        for entry, word in zip(axes[1]["lines"][::2], words):
+            entry["label"] = word
+        axes[1]["lines"] = axes[1]["lines"][::2]
+        axes[1]["legend"] = legend_of(*axes[1]["lines"])
+        self.compare("distributions", ["unfitted"], {"title": heading("Distributions over contacts", one), "axes": axes}, tolerance=1e-6)
         yielding = Raw("yielding")
         wide = [(one, both[0][1]), (yielding, int(np.argmax(yielding.spot_area_count.sum(axis=1))))]
         self.compare("distributions", ["one", "yielding"], {"title": "Distributions over contacts", "axes": ANYTHING}, tolerance=1e-6)

@@ -229,6 +229,12 @@ class WholeText(unittest.TestCase):
         self.assertTrue(np.array_equal(rows[:, 1], [0, 1, 3, 4, 10, 14, 40]) and np.array_equal(rows[:, 0], [0, 1, 2.5, 3, 4, 5, 7]))
         self.assertTrue(np.array_equal(rows[:, [2, 4, 5]], np.zeros((7, 3))))
 
+    def test_the_same_load_twice(self):
+        """A load that does not grow is no point: the curve would be flat there. Nor is one that grows at the same separation."""
+        z, n = np.array([5.0, 4.0, 3.0, 2.0, 2.0, 1.0]), np.array([[0, 1, 1, 2.0, 2.5, 3]])
+        rows = np.array([[float(v) for v in line.split()] for line in run(made("twice", z, n, 10 * n, 0 * n), "--table").splitlines() if line[0] != "#"])
+        self.assertTrue(np.array_equal(rows[:, :2], [[0, 0], [1, 1], [3, 2], [4, 3]]), rows)
+
     def test_refused(self):
         none = np.zeros((3, 8))
         single = np.where(self.Z == 2, 5.0, none)
