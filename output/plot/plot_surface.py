@@ -50,7 +50,7 @@ def draw_spectrum(axis, result, twins):
         axis.set_ylim(max(psd[psd > 0].min(), power.min() * 1e-4), psd.max() * 5)
     for path, twin in twins:
         slope = np.asarray(twin["rms_slope"][:])
-        axis.plot([], [], " ", label=f"{path.name}: rms slope {slope.mean():.3g} ± {slope.std():.1g} ({slope.size})")
+        axis.plot([], [], " ", label=f"{path.name}: rms slope {slope.mean():.3g}" + (f" ± {slope.std(ddof=1):.2g} ({slope.size})" if slope.size > 1 else ""))
     axis.plot([], [], " ", label=f"map: rms slope {float(result['sdq'][...]):.3g}, {float(result['points_per_wave'][...]):.1f} points a wave")
     axis.set_xlabel(f"wavenumber k [{result['wavenumber'].units}]")
     axis.set_ylabel(f"power spectral density [{result['psd'].units}]")

@@ -712,7 +712,7 @@ class Surface(unittest.TestCase):
         inside = fit > 0
         spectrum = [line(k, psd, "None", "#0b3c5d", "measured", "."),
                     line(k[inside], fit[inside], "-", "#c1440e", f"fit: H = {of['hurst']:.2f} ± {of['hurst_error']:.2f}, $\\lambda_s$ = {2 * np.pi / of['ks']:.3g}, $\\lambda_l$ = {2 * np.pi / of['kl']:.3g}")]
-        words = [f"many.nc: rms slope {twin.rms_slope.mean():.3g} ± {twin.rms_slope.std():.1g} (5)", f"map: rms slope {float(raw.sdq):.3g}, {float(raw.points_per_wave):.1f} points a wave"]
+        words = [f"many.nc: rms slope {twin.rms_slope.mean():.3g} ± {np.sqrt(((twin.rms_slope - twin.rms_slope.mean()) ** 2).sum() / 4):.2g} (5)", f"map: rms slope {float(raw.sdq):.3g}, {float(raw.points_per_wave):.1f} points a wave"]
         sq, bins, density = float(raw.sq), raw.height_bin, raw.height_pdf
         self.assertAlmostEqual(sq / z.std(), 1, delta=1e-9)
         width = bins[1] - bins[0]

@@ -3,6 +3,7 @@ compared in test_every_picture.py.
 
 usage: test_pictures.py FOLDER_OF_PLOT        (RSC_PROGRAM in the environment: the program that makes the results)
 """
+import argparse
 import contextlib
 import io
 import os
@@ -258,6 +259,24 @@ class Command(unittest.TestCase):
         self.assertFalse(any("map" in w or "spots" in w for w in text.split()))
         status, text = run(path("far"), "-o", FOLDER)
         self.assertEqual((status, "no level has contact" in text), (1, True))
+
+    def test_bounds(self):
+        """What is refused begins right behind what is taken."""
+        for text, value in (("40", 40.0), ("1000", 1000.0), ("single", 85.0), ("onehalf", 130.0), ("double", 175.0), ("62.5", 62.5)):
+            self.assertEqual(plot.width(text), value)
+        for text in ("39.9", "1000.1", "0", "-85", "nan", "wide", ""):
+            with self.assertRaises(argparse.ArgumentTypeError):
+                plot.width(text)
+        with unittest.mock.patch.object(plt.Figure, "savefig"):
+            self.assertEqual(run(path("one"), "-o", FOLDER, "--only", "load", "--step", "26")[0], 0)
+            for step in ("0", "27", "-1"):
+                self.assertEqual(run(path("one"), "-o", FOLDER, "--step", step)[0], f"plot.py: --step {step}: {path('one')} has levels 1 to 26")
+            # Names: of one file, of the first and the last of several, or one's own; in the folder of the first.
+            for files, words, name in ((["one"], [], "one"), (["one", "many", "flat"], [], "one_to_flat"), (["study_manifest", "one"], [], "study_to_one"), (["one"], ["--name", "mine"], "mine")):
+                self.assertEqual(run(*map(path, files), "--only", "load", *words), (0, os.path.join(FOLDER, name + "_load.png") + "\n"))
+        options = plot.parse(["x.nc"])
+        self.assertEqual((options.format, options.width, options.step, options.only, options.name, options.output), ("png", 150.0, None, None, None, None))
+        self.assertEqual((plt.rcParams["font.size"], plt.rcParams["svg.fonttype"], plt.rcParams["pdf.fonttype"], self.dots), (8.0, "none", 42, 300.0))
 
     def test_refused(self):
         for words, message in (([path("one"), "--step", "99"], "levels 1 to 26"), ([path("nothing")], "cannot read"), ([path("one"), "--width", "7"], "millimetres"),
