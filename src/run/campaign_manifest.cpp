@@ -45,6 +45,14 @@ std::string units_of(const Key& key, const Case& settings) {
     return unit == "1" ? "1" : "";
 }
 
+// None where the members have different ones.
+std::string units_of(const Key& key, const std::vector<Member>& members) {
+    const std::string first = units_of(key, members.front().settings);
+    for (const Member& member : members)
+        if (units_of(key, member.settings) != first) return "";
+    return first;
+}
+
 // The file as seen from the manifest's folder.
 std::string relative_name(const std::string& file, const std::string& manifest) {
     const fs::path folder = fs::path(manifest).parent_path();
@@ -75,8 +83,7 @@ void add_axis(NetcdfFile& file, const std::string& axis, const std::vector<Membe
             whole.push_back(static_cast<std::int32_t>(values.back()));
         }
         if (finite && key.type == Type::integer) return file.variable({name, {"member"}, "1", key.meaning, whole, attributes, false});
-        if (finite)
-            return file.variable({name, {"member"}, units_of(key, members.front().settings), key.meaning, values, attributes, false});
+        if (finite) return file.variable({name, {"member"}, units_of(key, members), key.meaning, values, attributes, false});
     }
     std::vector<std::string> values;
     for (const Member& member : members) values.push_back(member.values[number].second);

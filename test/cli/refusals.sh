@@ -98,6 +98,8 @@ test_program() {
     done
     printf "&study surface%%sigma = 0.01, 0.02  run%%seed = 7, 8 /\n" >> case.nml
     status 2 "--member 5: the study has 4 members (--list names them)" --member 5 case.nml
+    status 0 "" --list case.nml -o there/new.nc --member 2
+    [ "$(head -n 1 out)" = "1  there/new_001.nc  surface%sigma=0.01 run%seed=7" ] || fail "--list -o: $(cat out)"
     status 0 "" --list case.nml
     [ "$(cat out)" = "1  out_001.nc  surface%sigma=0.01 run%seed=7
 2  out_002.nc  surface%sigma=0.01 run%seed=8
@@ -128,6 +130,10 @@ test_surfaces() {
     from heights six.txt
     refused "indentation%centre: the tip at x = 3, y = 6.5 is not above the surface, which reaches from x = 0 to 7 and from y = 0 to 6" -s surface%L=7 -s indentation%centre=3,6.5
     taken -s surface%L=7 -s indentation%centre=6.5,3
+
+    printf '20 1e-9\n40 1e-10\n60 1e-11\n80 1e-12\n' > spectrum.txt
+    from spectrum spectrum.txt
+    refused "&output file='spectrum.txt': this is an input of the run ('spectrum.txt'), which the result would overwrite; name another file" -o spectrum.txt
 
     from asperities list.txt
     refused "surface%L = 0.490000 is less than the extent of the asperities in list.txt, 0.500000" -s surface%L=0.49
@@ -166,6 +172,14 @@ test_sizes() {
             case.nml -q -s surface%L=7 -s run%realizations=2 -s run%threads=1 -s "solver%model='$model'" -s "indentation%levels=4,3.5"
         rm -f out.nc.checkpoint
     done
+    # By less than a thousandth, in y alone: x y z of 7 x 7 points.
+    for k in 1 2; do
+        awk -v k=$k '{ for (i = 1; i <= NF; i++) printf "%g %.6f %g\n", i - 1, (NR - 1) * (k == 1 ? 1 : 1.0005), $i }' map.txt > t$k.txt
+    done
+    from heights 't?.txt'
+    status 1 "realization 2: the map of realization 2 is 7.000000 x 7.003500, the first is 7.000000 x 7.000000; maps of one size are expected
+1 of 2 realizations are finished and kept in 'out.nc.checkpoint': the same command with --resume goes on from there" \
+        case.nml -q -s run%realizations=2 -s run%threads=1 -s "indentation%levels=4,3.5"
 }
 
 # The manifest of a study, and what of a study is in the way.
@@ -219,6 +233,21 @@ test_study() {
     status 0 "rsc: member 2 (surface%sigma=0.01 solids%R(2)=Infinity): 'out_002.nc' is there and whole: nothing to do" \
         case.nml --resume --member 2 -s "run%length_unit='um'"
     command -v ncdump > /dev/null && { ncdump -h out_manifest.nc | grep -qF ':title = "Manifest of a study"' || fail "the title of the manifest"; }
+    cp read.nml case.nml
+    sed -i 's/&surface/\&surface n = 64 L_lambda_l = 2 L_lambda_s = 16/' case.nml
+    printf "&study solids%%%%E(1) = 1e4, 2e4  surface%%%%n = 64, 66  indentation%%%%start = 4, 3  mode = 'zip' /\n" | sed 's/%%/%/g' >> case.nml
+    status 0 "" case.nml -q -o other.nc -s "run%force_unit='kN'"
+    sed "s/&study/\&study run%force_unit = 'kN', 'N'/" case.nml > units.nml
+    status 0 "" units.nml -q -o units.nc
+    if command -v ncdump > /dev/null; then
+        ncdump other_manifest.nc > cdl
+        for words in 'solids_E_1:units = "kN mm-2"' 'solids_E_1 = 10000, 20000 ;' 'int surface_n(member)' 'surface_n:units = "1"' 'surface_n = 64, 66 ;' \
+            'indentation_start = 4, 3 ;' 'indentation_start:long_name = "first level"'; do
+            grep -qF -- "$words" cdl || fail "the other manifest lacks $words: $(cat cdl)"
+        done
+        # Numbers in different units have none.
+        ncdump -h units_manifest.nc | grep -q 'solids_E_1:units' && fail "one unit of E for kN and N"
+    fi
     return 0
 }
 
@@ -229,6 +258,11 @@ test_parts() {
     status 0 "" case.nml -q -s run%realizations=2 -s "output%format='classic'"
     sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' out.nc
     status 0 "$(other out.nc 'it is of another version of rsc')" case.nml -q --resume -s run%realizations=3 -s "output%format='classic'"
+    # A result of this very case is left alone, another one is not.
+    status 0 "" case.nml -q -o one.nc
+    status 0 "rsc: 'one.nc' is there and whole: nothing to do" case.nml -q --resume -o one.nc
+    status 0 "" case.nml -q --resume -o one.nc -s run%seed=5
+    status 0 "rsc: 'one.nc' is there and whole: nothing to do" case.nml -q --resume -o one.nc -s run%seed=5 -s run%threads=1
     cp case.nml study.nml
     printf "&study surface%%sigma = 0.01, 0.02 /\n" >> study.nml
     status 0 "" study.nml -q

@@ -286,6 +286,13 @@ void twins_of_an_oblong_map() {
     CHECK_RELATIVE(*twins.indentation.centre[1], 0.1 + 0.25, 1e-12);
     // Rings end at the Nyquist wavenumber, pi/dx: as many points as the longer side has.
     CHECK(twins.surface.n == 128 && twins.run.realizations == 100);
+    // A sigma that was given is a length that the levels are in; the twins' own is their rms height.
+    set_key(settings, "surface%sigma", "0.02");
+    set_key(settings, "indentation%levels", "3, 1.5");
+    const Case scaled = read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    CHECK(scaled.indentation.unit == LevelUnit::length && (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
+    CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 && *scaled.surface.sigma == *twins.surface.sigma);
+    CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 && twins.indentation.stop == 1);
 }
 
 // Maps by a pattern: realization k is the k-th file.

@@ -99,8 +99,8 @@ public:
         std::string text = c.run.title.empty() ? "" : c.run.title + "\n";
         if (flats)
             text += print("two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = %g %s\n",
-                          c.surface.L.value_or(1.0), c.surface.L.value_or(1.0), l.c_str(), one("e_star"), N.c_str(), l.c_str(), sigma,
-                          l.c_str());
+                          c.surface.L.value_or(1.0), c.surface.L.value_or(1.0) * (c.surface.source == Source::heights ? 0.8 : 1.0),
+                          l.c_str(), one("e_star"), N.c_str(), l.c_str(), sigma, l.c_str());
         else
             text +=
                 print("sphere R = %g %s on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n",
@@ -493,6 +493,7 @@ void runs(const Folder& folder) {
     add("&surface L=5.0 " + map + "/ &indentation steps=3 /", "map: 50 x 40 points of 0.1 x 0.1 mm, 5 x 4 mm");
     add("&surface L=10.0 detrend='quadratic' filter_cutoff=0.9 sigma=0.02 " + map + "/ &indentation levels=3,1 / &compare levels=1 /",
         "map: 50 x 40 points of 0.2 x 0.2 mm, 10 x 8 mm", "50 x 40");
+    add("&surface L=5.0 " + map + "/ " + flats + "levels=2 /", "map: 50 x 40 points of 0.1 x 0.1 mm, 5 x 4 mm");
     std::string holes = map_text(48, 40, 0.01, 2);
     holes.replace(holes.find(' ', 3000) + 1, 8, "nan     ");
     std::ofstream(folder / "holes.txt") << holes;
@@ -571,6 +572,9 @@ void twins(const Folder& folder) {
     run(text, file);
     const std::string mark = "! Written by rsc beside a measured map's result, and again with it: change a copy.\n&run\n";
     CHECK(bytes(twins).starts_with(mark + "  title             = 'Surfaces with the spectrum of map.txt'\n"));
+    CHECK(!Reader(file).has("height"));
+    run(text + " &output heights=.true. /", file);
+    CHECK(Reader(file).values("height").size() == 2000);
     std::ofstream(twins, std::ios::app) << "! and more";
     run(text, file);
     CHECK(bytes(twins).starts_with(mark) && bytes(twins).find("! and more") == std::string::npos);

@@ -223,7 +223,7 @@ void bad_heights_from_netcdf() {
 
 // Heights, x and y each in a unit of its own, converted to the run's.
 void units() {
-    const std::vector<double> x = ramp(5, 0.5, 1), y = ramp(3, 0, 2000);
+    const std::vector<double> x = ramp(5, 0.5, 1), y = ramp(3, 500, 2000);
     const auto file = [&](const char* height, const char* x_unit, const char* y_unit) {
         const auto tamper = [&](int id, int v) {
             for (const auto& [variable, unit] : {std::pair(v, height), {v + 1, x_unit}, {v + 2, y_unit}})
@@ -236,6 +236,7 @@ void units() {
     CHECK_CLOSE(m.dx, 1e-3, 1e-18);
     CHECK_CLOSE(m.x0, 0.5e-3, 1e-18);
     CHECK_CLOSE(m.dy, 2e-3, 1e-18);
+    CHECK_CLOSE(m.y0, 0.5e-3, 1e-18);
     CHECK(read_heights(file("nm", "um", "nm"), std::nullopt, "um")(3, 2) == 23e-3);
     CHECK(read_heights(file(nullptr, nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
     CHECK(read_heights(file("um", nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
@@ -291,7 +292,8 @@ void cut_files() {
         CHECK(said == cuts && cuts > 50);
         REFUSED(read_heights(write("cut", bytes.substr(0, 20)), std::nullopt),
                 format == NC_NETCDF4 ? "cut: looks like NetCDF but cannot be opened; is it whole? ("
-                                     : "cut: looks like NetCDF, but its header is cut off or damaged at byte " + std::to_string(format == NC_64BIT_DATA ? 16 : 20));
+                                     : "cut: looks like NetCDF, but its header is cut off or damaged at byte " +
+                                           std::to_string(format == NC_64BIT_DATA ? 16 : 20));
         REFUSED(read_heights(write("cut", bytes.substr(0, bytes.size() - 1)), std::nullopt), "whole");
     }
     // With a record dimension too.
@@ -513,6 +515,27 @@ void more_words() {
     };
     const HeightMap holes = read_heights(with(both, x, y), std::nullopt, "mm", "", Missing::fill);
     CHECK(std::isnan(holes(2, 1)) && std::isnan(holes(3, 0)) && holes(3, 1) == 13);
+    // What was never written is missing, whatever the type; units as a string of NetCDF-4 are units.
+    const std::pair<nc_type, double> fills[] = {{NC_FLOAT, static_cast<double>(NC_FILL_FLOAT)},
+                                                {NC_DOUBLE, NC_FILL_DOUBLE},
+                                                {NC_INT, static_cast<double>(NC_FILL_INT)},
+                                                {NC_SHORT, static_cast<double>(NC_FILL_SHORT)},
+                                                {NC_INT64, static_cast<double>(NC_FILL_INT64)}};
+    for (const auto& [type, fill] : fills) {
+        std::vector<double> z = ramp(15, 0, 1);
+        z[7] = fill;
+        const std::string file = heights_file("m", NC_NETCDF4, x, y, "height", type, {}, z);
+        REFUSED(read_heights(file, std::nullopt), "m: height(y = 1, x = 2), counted from 0, is missing (it holds the fill value ");
+        const HeightMap map = read_heights(file, std::nullopt, "mm", "", Missing::fill);
+        CHECK(std::isnan(map(2, 1)) && map(3, 1) == 8);
+    }
+    const auto strings = [](int id, int v) {
+        const char* const um = "um";
+        for (int k = 0; k < 3; ++k) ok(nc_put_att_string(id, v + k, "units", 1, const_cast<const char**>(&um)));
+    };
+    const HeightMap converted = read_heights(with(strings, x, y), std::nullopt, "mm");
+    CHECK_CLOSE(converted(3, 2), 23e-3, 1e-17);
+    CHECK_CLOSE(converted.dy, 0.25e-3, 1e-18);
     // Reversed in one of the two directions alone.
     const HeightMap left = read_heights(with({}, ramp(5, 0.4, -0.1), y), std::nullopt),
                     down = read_heights(with({}, x, ramp(3, 1.5, -0.25)), std::nullopt);

@@ -156,11 +156,24 @@ void gwy() {
         "1 of 24 points are missing or masked, the first in column 4 of row 2, counted from 0 with y upwards; surface%missing = 'fill' fills them");
     Map mask = map;
     for (double& z : mask.z) z = 0;
-    mask.z[6 + 4] = 1;
+    mask.z[6 + 4] = 0.25, mask.z[0] = -1;  // above 0 is masked
     std::string masked = gwy_channel(0, "T", map);
     gwy_component(masked, "/0/mask", 'o', gwy_field(mask, "m", ""));
     check_sample(in_micrometres(write("mask.gwy", gwy_file(masked)), "", Missing::fill), 4);
     REFUSED(in_micrometres(write("mask.gwy", gwy_file(masked))), "missing or masked");
+
+    // Sides that are not given are 1.
+    for (const bool x : {true, false}) {
+        std::string field = gwy_field(map, "m", "m");
+        const std::string name = x ? "yreal" : "xreal", part = name + std::string("\0d", 2);
+        field.erase(field.find(part), part.size() + 8);
+        field.replace(13, 4, bytes(static_cast<std::uint32_t>(field.size() - 17)));  // behind the name: what is left
+        std::string c;
+        gwy_component(c, "/0/data", 'o', field);
+        const HeightMap m = in_micrometres(write("one.gwy", gwy_file(c)));
+        CHECK_RELATIVE(m.dx, x ? 2.0 : 1e6 / 6, 1e-12);
+        CHECK_RELATIVE(m.dy, x ? 1e6 / 4 : 3.0, 1e-12);
+    }
 
     // A file that is cut anywhere is refused, with the place.
     const std::string whole = gwy_file(gwy_channel(0, "T", map));
@@ -249,6 +262,11 @@ void sdf() {
     words[6 + 4] = "-32768";
     check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 5)), "", Missing::fill), 4);
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 5))), "1 of 24 points are missing");
+    words[6 + 4] = "-2147483648";
+    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 6)), "", Missing::fill), 4);
+    CHECK_RELATIVE(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 7)))(4, 2), -2147483.648, 1e-12);  // a number like others
+    words[6 + 4] = "NaN";
+    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 6)), "", Missing::fill), 4);
     words[6 + 4] = "1O4";
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "t.sdf:17: '1O4' is not a number");
     words.pop_back();

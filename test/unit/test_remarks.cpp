@@ -1,4 +1,5 @@
 // What is told at the end of a run and on the way, on both sides of each threshold; and the forecast of --check.
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <fstream>
@@ -11,6 +12,8 @@
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "contact/ranking.hpp"
+#include "run/campaign_screen.hpp"
+#include "run/campaign_study.hpp"
 #include "run/forecast.hpp"
 #include "run/screen.hpp"
 #include "temporary_folder.hpp"
@@ -162,22 +165,49 @@ void forecast(const Folder& folder) {
     const double none = expected_candidates(job, 0);
     CHECK_RELATIVE(expected_seconds(job_of(text + "control='force' levels=1,2 / &solver method='direct' /"), 1),
                    2 * 6 * (1e-4 + 3e-6 * none + 40 * std::pow(0.4 * none, 2) / 6e9), 1e-12);
-    // A synthetic surface: as many candidates as there are, within their scatter; two flats have the whole of it.
-    for (const std::string more : {"", "&solids R=Infinity,Infinity / &indentation boundary='periodic' /"}) {
-        const std::string synthetic = "&surface n=512 L_lambda_l=8 L_lambda_s=128 sigma=0.004 L=1.3 / " + more;
-        const Job rough = job_of(synthetic);
-        double found = 0, expected = 0;
-        for (int k = 1; k <= 4; ++k) {
-            const Ground ground = make_ground(rough.settings, k, 1);
-            for (const double Z0 : {0.004, 0.0}) {
-                const auto& s = ground.asperities;
-                for (std::size_t i = 0; i < s.size(); ++i) found += height_under_sphere(rough.indenter, s.x[i], s.y[i], s.z[i]) > Z0;
-                expected += expected_candidates(rough, Z0);
-            }
+    // The members of a study, side by side on so many threads.
+    const ReadCase study =
+        read_case_text(text + "levels=0.5,0,-0.5 / &solver method='direct' / &study solids%nu(1)=0.1,0.2,0.3 /", "case.nml");
+    RunOptions options;
+    CHECK_RELATIVE(check_members(study, {}, options, 1), 3 * seconds, 1e-12);
+    CHECK_RELATIVE(check_members(study, {}, options, 2), 1.5 * seconds, 1e-12);
+    CHECK_RELATIVE(check_members(study, {}, options, 8), seconds, 1e-12);
+    CHECK_RELATIVE(check_members(study, 2, options, 8), seconds, 1e-12);
+    // A Gaussian surface: the share of it above Z0 between flats, 2 pi R times its mean excess over Z0 under a sphere, at most all.
+    for (const bool flats : {false, true}) {
+        const Job rough = job_of(std::string("&surface n=512 L_lambda_l=8 L_lambda_s=128 sigma=0.004 L=1.3 / ") +
+                                 (flats ? "&solids R=Infinity,Infinity / &indentation boundary='periodic' /" : "&solids R=2,2 /"));
+        const double d2 = std::pow(rough.site.mean_spacing, 2);
+        for (const double t : {2.0, 0.5, -1.0}) {
+            const double above = 0.5 * std::erfc(t / std::sqrt(2.0)), density = std::exp(-0.5 * t * t) / std::sqrt(2 * 3.14159265358979);
+            const double everywhere = 1.69 * above, under = 2 * 3.14159265358979 * 1.0 * 0.004 * (density - t * above);
+            CHECK_RELATIVE(expected_candidates(rough, 0.004 * t), (flats ? everywhere : std::min(everywhere, under)) / d2, 1e-3);
         }
-        // Summits are higher than the surface: more of them are candidates than area is above the sphere.
-        CHECK(found / expected > 1 && found / expected < 3);
     }
+    // Elements on a map: a microsecond a point and level between flats, five a point under the sphere.
+    std::ofstream map(folder / "map.txt");
+    for (int j = 0; j < 30; ++j, map << '\n')
+        for (int i = 0; i < 40; ++i) map << std::sin(1.9 * i + 0.3 * j * j) << ' ';
+    map.close();
+    const std::string elements = "&surface source='heights' L=4 sigma=1 file='" + folder / "map.txt" + "' / &solver model='elements' / ";
+    CHECK_RELATIVE(expected_seconds(job_of(elements + "&solids R=Infinity,Infinity / &indentation boundary='periodic' levels=1,2,3 /"), 1),
+                   3 * 1200e-6, 1e-12);
+    const double share = 0.5 * std::erfc(1 / std::sqrt(2.0));
+    CHECK_RELATIVE(expected_seconds(job_of(elements + "&solids R=Infinity,Infinity / &indentation levels=1 /"), 1), 5e-6 * 1200 * share,
+                   1e-3);
+}
+
+// A line of a campaign: means, scatter, time, and the rate of what this run has done.
+void batch() {
+    const Job job = prepare(read_case_text("&surface n=64 L_lambda_l=2 L_lambda_s=16 / &indentation levels=3,2 /", "case.nml").settings);
+    Accumulators sums(job.observe, 2);
+    sums.realization = {1, 2, 3};
+    sums.rows.resize(6);
+    for (std::size_t k = 0; k < 6; ++k) sums.rows[k].force = static_cast<double>(k * k), sums.rows[k].area = 0.5 * static_cast<double>(k);
+    std::ostringstream out;
+    print_batch(out, job, sums, 12.5, 2);
+    // Of the last levels: forces 1, 9, 25, areas 0.5, 1.5, 2.5.
+    CHECK(out.str() == "           3      11.666667       12.2            1.5          1       12.5 s       0.16\n");
 }
 
 }  // namespace
@@ -187,5 +217,6 @@ int main() {
     thresholds();
     progress();
     forecast(folder);
+    batch();
     return check::summary();
 }
