@@ -69,7 +69,7 @@ class Report:
 
     def row(self, what, paper, ours, error=np.nan, remark=None):
         difference = ""
-        if isinstance(paper, (int, float)) and isinstance(ours, (int, float, np.floating)) and np.isfinite(ours):
+        if isinstance(paper, (int, float)) and not isinstance(ours, str) and np.isfinite(ours):
             self.rows.append((what, paper, float(ours), float(error)))
             d = float(ours) - paper
             difference = f"{text(d, 3)} ({100 * d / paper:+.1f} %)" if paper else text(d, 3)

@@ -42,6 +42,7 @@ CASES = {
     "listed": "&surface source='asperities' file='LIST' L=1000.0 / &solids R=Infinity,3000.0 / &indentation unit='length' start=14.0 stop=2.0 steps=7 / &output map_cells=20 /"
               f"&run {UNITS} /",
     "middle": SURFACE + BALL + f"&run {UNITS} / &indentation start=2.0 stop=1.7 steps=3 /",
+    "deep": SURFACE + BALL + f"&run {UNITS} / &indentation levels=-3.0,-3.5 /",
     "failed": SURFACE + BALL + f"&run {UNITS} / &indentation start=2.0 stop=0.0 steps=5 / &solver tolerance=1.0e-14 max_iterations=1 /",
     "yielding": SURFACE + BALL.replace("resistivity", "hardness=50.0 resistivity") + f"&run {UNITS} / &indentation {PLACE} levels=2.5,1.0 / &output heights=.true. /",
     "soft": SURFACE + BALL.replace("resistivity", "hardness=0.4 resistivity") + f"&run {UNITS} / &indentation {PLACE} levels=2.5,0.5 / &output pdf_levels=0.5 /",
@@ -279,12 +280,14 @@ class Pictures(unittest.TestCase):
         what = "Contact area against force"
         axis = {"xscale": "log", "yscale": "log", "xlabel": "force $N$ [mN]", "ylabel": "contact area $A$ [um$^{2}$]"}
         crossings = []
-        for name, note, many in (("one", "", None), ("many", "; band: two thirds of the realizations", 5), ("flat", "", None), ("failed", "", None), ("light", "", None), ("middle", "", None), ("map", "", None), ("listed", "", None), ("stripped", "", None)):
+        for name, note, many in (("one", "", None), ("many", "; band: two thirds of the realizations", 5), ("flat", "", None), ("failed", "", None), ("light", "", None), ("middle", "", None), ("deep", "", None), ("map", "", None), ("listed", "", None), ("stripped", "", None)):
             raw = Raw(name)
             drawn, force, status = self.area_line(raw, 0, "rsc")
             drawn += self.laws(raw, force)
             bands = {"bands": [self.area_band(raw, force, STYLES[0][2])]} if many else {}
             crossings.append("*" in [d.get("marker") for d in drawn])
+            if name == "deep":
+                self.assertTrue(crossings[-1] and force.min() > 3 * float(raw.transition_force))
             if name == "middle":  # the crossing lies beyond the levels, and is drawn as it is within a factor of 30
                 self.assertTrue(crossings[-1] and force.max() < float(raw.transition_force) / 3)
             entries = [d for d in drawn if "label" in d] + marks_of_legend(status)

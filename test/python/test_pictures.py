@@ -83,6 +83,11 @@ class Places(unittest.TestCase):
         self.assertTrue(x0 <= 29.5 and x1 >= 39.5 and y0 <= 19.5 and y1 >= 23.5)
         self.assertLess(x1 - x0, 15)
         self.assertAlmostEqual(x1 - x0, y1 - y0)
+        self.assertAlmostEqual(x1 - x0, 1.3 * 10)  # the longer side, and 15 % on either side
+        field[:] = 0
+        field[22, 30] = 1.0  # a single cell: four of them, and the margin
+        self.assertTrue(np.allclose(plot_maps.contact_window(x, x, field, 1.0), (30 - 2.6, 30 + 2.6, 22 - 2.6, 22 + 2.6)))
+        self.assertEqual(plot_maps.contact_window(x, x + 5, 0 * field, 1.0), (-0.5, 49.5, 4.5, 54.5))  # nothing: the whole
 
 
 class Compare(unittest.TestCase):
@@ -197,7 +202,7 @@ class Legends(unittest.TestCase):
 
     def test_sizes(self):
         """Panels side by side where they are 62 mm wide at least, below each other otherwise."""
-        for count, width, rows, columns in ((2, 150.0, 1, 2), (2, 85.0, 2, 1), (3, 175.0, 2, 2), (3, 190.0, 1, 3)):
+        for count, width, rows, columns in ((2, 150.0, 1, 2), (2, 85.0, 2, 1), (3, 175.0, 2, 2), (3, 190.0, 1, 3), (2, 123.9, 2, 1), (2, 124.0, 1, 2)):
             figure, axes = plot_style.panels(count, width)
             self.assertEqual(len(axes), count)
             self.assertTrue(np.allclose(figure.get_size_inches() * 25.4, (width, rows * 0.78 * width / columns + 8)))
