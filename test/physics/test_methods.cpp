@@ -177,9 +177,36 @@ void saddle_is_left() {
     }
 }
 
+// 'auto': direct sums of few asperities, a mesh of many, of fewer where every pair is a sum over images; none where nothing interacts. What was
+// asked for by name is done. One summit carries all, the others are candidates only.
+void auto_chooses() {
+    const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
+        Asperities a;
+        const int side = static_cast<int>(std::sqrt(n));
+        for (int i = 0; i < side * side; ++i) {
+            a.x.push_back((i % side + 0.5) / side), a.y.push_back((i / side + 0.5) / side);
+            a.z.push_back(i == 0 ? 1e-2 : 1e-9), a.radius.push_back(1e-3);
+        }
+        SolverOptions o = options(method);
+        o.tolerance = 1e-4, o.interaction = interaction;
+        const Level level = AsperityContact(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
+        CHECK(level.candidates == side * side && level.status == LevelStatus::converged);
+        CHECK(level.fallback == (method == Method::mesh && level.method != method ? Fallback::no_interaction : Fallback::none));
+        return level.method;
+    };
+    CHECK(method_of(900, Method::automatic, Interaction::point, {}) == Method::direct);
+    CHECK(method_of(40000, Method::automatic, Interaction::point, {}) == Method::mesh);
+    CHECK(method_of(900, Method::automatic, Interaction::point, {1, 1}) == Method::mesh);
+    CHECK(method_of(40000, Method::automatic, Interaction::none, {}) == Method::direct);
+    CHECK(method_of(900, Method::mesh, Interaction::point, {}) == Method::mesh);
+    CHECK(method_of(900, Method::direct, Interaction::point, {1, 1}) == Method::direct);
+    CHECK(method_of(900, Method::mesh, Interaction::none, {1, 1}) == Method::direct);
+}
+
 }  // namespace
 
 int main() {
+    auto_chooses();
     methods_agree();
     levels_do_not_remember();
     pressed_levels_do_not_remember();

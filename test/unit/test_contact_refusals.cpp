@@ -339,6 +339,24 @@ std::vector<Refusal> of_friction() {
          },
          {0, -1, kInfinity, kNaN},
          {1e-3, 2}},
+        {"the coefficient of friction must be zero or positive, and finite",
+         [](double v) {
+             slide_to(curve, {v, 1}, 1e-3, {0.1});
+         },
+         {-1e-9, kInfinity, kNaN},
+         {0, 3}},
+        {"the coefficient of friction must be zero or positive, and finite",
+         [](double v) {
+             slide_at_force(curve, {v, 1}, 1e-3, 0);
+         },
+         {-1e-9, kInfinity, kNaN},
+         {0, 3}},
+        {"the coefficient of friction must be zero or positive, and finite",
+         [](double v) {
+             slide_cycle(curve, {v, 1}, 1e-3, 20);
+         },
+         {-1e-9, kInfinity, kNaN},
+         {0, 3}},
         {"approach and slide must be finite", [=](double v) { FrictionHistory(half).go_to(curve, v, {}); }, {kInfinity, kNaN}, {1e-3, -1}},
         {"approach and slide must be finite",
          [=](double v) {
