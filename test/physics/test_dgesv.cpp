@@ -141,6 +141,11 @@ void says_what_it_did() {
     const Level uncut = AsperityContact(a, indenter, options).at_separation(0.0);
     CHECK(uncut.method == Method::direct && uncut.fallback == Fallback::dgesv_not_converged);
     CHECK_CLOSE(uncut.force, paper.force, 1e-6 * paper.force);
+    // Its counts are those of both: the solves in vain, and what the direct method took, with a product more: of what dgesv left.
+    SolverOptions direct = options;
+    direct.method = Method::direct;
+    const Level plain = AsperityContact(a, indenter, direct).at_separation(0.0);
+    CHECK(plain.iterations > 0 && uncut.iterations == 30 + plain.iterations && uncut.products == plain.products + 1);
     // Two asperities so close that the solution the iteration finds is a saddle of the energy.
     Asperities pair;
     pair.x = {0.499, 0.501}, pair.y = {0.5, 0.5}, pair.z = {0.01, 0.01}, pair.radius = {1e-2, 1e-2};
