@@ -162,6 +162,9 @@ void gwy() {
     check_sample(in_micrometres(write("mask.gwy", gwy_file(masked)), "", Missing::fill), 4);
     REFUSED(in_micrometres(write("mask.gwy", gwy_file(masked))), "missing or masked");
 
+    std::string untitled;
+    gwy_component(untitled, "/3/data", 'o', gwy_field(map, "m", "V"));
+    REFUSED(in_micrometres(write("one.gwy", gwy_file(untitled))), "one.gwy: no channel holds heights; there are 'channel 3' in 'V'");
     // Sides that are not given are 1.
     for (const bool x : {true, false}) {
         std::string field = gwy_field(map, "m", "m");

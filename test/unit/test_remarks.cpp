@@ -140,6 +140,13 @@ void forecast(const Folder& folder) {
     const auto job_of = [](const std::string& text) { return prepare(read_case_text(text, "case.nml").settings); };
     const std::string text = "&surface source='asperities' L=1.5 sigma=0.01 file='" + folder / "many.txt" + "' / &indentation ";
     const Job job = job_of(text + "levels=0.5,0,-0.5 / &solver method='direct' /");
+    CHECK(job.given->statistics.summits == 300 && job.site.domain.Lx == 1.5 && !job.site.guessed);
+    std::ofstream(folder / "lone.txt") << "0.2 0.3 0.01 0.5\n";
+    const Job lone = job_of("&surface source='asperities' sigma=0.01 file='" + folder / "lone.txt" +
+                            "' / &indentation start=4 stop=1.1 steps=7 unit='length' /");
+    CHECK(lone.site.guessed && lone.site.domain.Lx == 1 && lone.site.domain.Ly == 1 && lone.site.domain.x0 == -0.3 &&
+          lone.site.domain.y0 == -0.2);
+    CHECK(lone.levels.size() == 7 && lone.levels.front() == 4 && lone.levels.back() == 1.1);  // both ends exactly
     double seconds = 0;
     const Asperities& a = job.given->asperities;
     for (const double Z0 : {0.005, 0.0, -0.005}) {
