@@ -105,6 +105,12 @@ void test_resistance() {
     }
     OK(rsc_contact_destroy(&k));
     OK(rsc_contact_destroy(&copy));
+    for (const char* one : {"0, 7e-5", "7e-5, 0"}) {  // of one body alone
+        k = contact(("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solids resistivity=" + std::string(one) + " /").c_str());
+        OK(rsc_contact_indent(k, 0.01, nullptr));
+        CHECK_RELATIVE(value(k, "resistance") * value(k, "conductance_length"), 7e-5, 1e-14);
+        OK(rsc_contact_destroy(&k));
+    }
 }
 
 // Asked again for the level it holds, the contact does not solve it again: a second solution would begin at the first and need fewer steps.
@@ -119,6 +125,11 @@ void test_again() {
     OK(rsc_contact_move_tip(k, 0.44, 0.56));  // another place is another level
     OK(rsc_contact_indent(k, 0.01, &M));
     CHECK(M != N);
+    // Nor after a move, once the level there is known.
+    OK(rsc_contact_indent(k, 0.008, &N));
+    const double moved_steps = value(k, "iterations");
+    OK(rsc_contact_indent(k, 0.008, &M));
+    CHECK(M == N && moved_steps > 1 && value(k, "iterations") == moved_steps);
     OK(rsc_contact_destroy(&k));
 }
 
@@ -154,7 +165,8 @@ void test_file_and_arrays() {
     CHECK(rsc_case_read_file(c, (folder / "bad.nml").c_str()) == -2 && message().find("bad.nml:2:3") != std::string::npos);
     CHECK(rsc_case_read_file(c, (folder / "none.nml").c_str()) == -2 && message().find("none.nml") != std::string::npos);
     CHECK(rsc_case_read_file(c, (folder / "study.nml").c_str()) == -2 && message().find("&study") != std::string::npos);
-    CHECK(rsc_case_read_file(c, folder.path.c_str()) == -2 && rsc_case_read_file(c, "") == -2 && rsc_case_read_file(c, nullptr) == -2);
+    CHECK(rsc_case_read_file(c, folder.path.c_str()) == -2 && rsc_case_read_file(c, nullptr) == -2);
+    CHECK(rsc_case_read_file(c, "") == -2 && message() == "argument 2 (path) must not be empty");
     CHECK(rsc_case_read_file(nullptr, "x") == -1);
     // Both values or one by name: half an array is a mistake.
     CHECK(rsc_case_set(c, "solids%E", "1e5") == -3 && message().find("solids%E(1)") != std::string::npos);

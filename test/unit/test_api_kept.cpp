@@ -1,4 +1,7 @@
 // Contacts and friction kept in files go on bit for bit; many contacts at once are what they are one by one, whatever the threads.
+#include <sys/resource.h>
+
+#include <csignal>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -102,6 +105,15 @@ void contacts_in_files(const Folder& folder) {
     CHECK(rsc_contact_restore(&again, asperities, "") == -3 && rsc_contact_restore(&again, nullptr, file.c_str()) == -2);
     CHECK(rsc_contact_save(contact, (folder / "no/folder").c_str()) == RSC_FILE && says("cannot write"));
     CHECK(rsc_contact_save(nullptr, file.c_str()) == -1 && rsc_contact_save(contact, nullptr) == -2);
+    // A disk that takes no more: told, and the file of before is as it was.
+    const std::string before = bytes(file);
+    rlimit usual{};
+    CHECK(getrlimit(RLIMIT_FSIZE, &usual) == 0 && std::signal(SIGXFSZ, SIG_IGN) != SIG_ERR);
+    const rlimit little{100, usual.rlim_max};
+    CHECK(setrlimit(RLIMIT_FSIZE, &little) == 0);
+    const std::int32_t full = rsc_contact_save(contact, file.c_str());
+    CHECK(setrlimit(RLIMIT_FSIZE, &usual) == 0);
+    CHECK(full == RSC_FILE && says("cannot write") && bytes(file) == before && !std::ifstream(file + ".new"));
     std::string spoilt = bytes(file);
     spoilt[spoilt.size() / 2] ^= 4;
     std::ofstream(folder / "spoilt", std::ios::binary) << spoilt;
@@ -226,6 +238,15 @@ void many_contacts() {
     CHECK(rsc_contacts_press(n, made.data(), force.data(), nullptr, nullptr, 1) == -2 && says("different"));
     made[3] = kept;
     for (auto& c : made) OK(rsc_contact_destroy(&c));
+    // One with nothing under it is a wrong argument of its own call, and of the whole.
+    rsc_contact* apart[2] = {nullptr, nullptr};
+    for (auto& c : apart) OK(rsc_contact_create(&c, asperities, 94e3, 0.25, 0.5, 0.5, nullptr));
+    OK(rsc_contact_move_tip(apart[1], 1.24, 1.24));
+    const double both[2] = {1, 1};
+    CHECK(rsc_contacts_press(2, apart, both, nullptr, status.data(), 1) == -2 &&
+          says("contact 1: argument 1 (contact) has no asperity under its sphere"));
+    CHECK(status[0] == 0 && status[1] == -1);
+    for (auto& c : apart) OK(rsc_contact_destroy(&c));
     // One that does not converge is no wrong argument: its numbers are there.
     rsc_case* few = nullptr;
     OK(rsc_case_create(&few));

@@ -197,6 +197,40 @@ void rms_height() {
     OK(rsc_case_destroy(&a_case));
 }
 
+// What was synthesized keeps the rms height it was made for, whatever is done to its heights: seen in who is a candidate by the paper's radius.
+void rms_of_synthesized() {
+    rsc_case *made = nullptr, *asks = nullptr;
+    rsc_surface *surface = nullptr, *copy = nullptr;
+    OK(rsc_case_create(&made));
+    OK(rsc_case_read(made, "&surface n=128, L_lambda_l=4, L_lambda_s=32, sigma=0.02, normalise='ensemble' /"));
+    OK(rsc_surface_synthesize(&surface, made, 1));
+    double left = 0;
+    OK(rsc_surface_filter(surface, 0.25));
+    OK(rsc_surface_detrend(surface, "quadratic", &left));
+    CHECK(left < 0.7 * 0.02);
+    OK(rsc_surface_copy(&copy, surface));
+    const auto candidates = [&](const rsc_surface* s, const std::string& sigma) {
+        rsc_asperities* on = nullptr;
+        rsc_contact* contact = nullptr;
+        std::int64_t n = 0;
+        OK(rsc_case_create(&asks));
+        OK(rsc_case_read(asks, ("&indentation selection='paper', selection_factor=0.5 / &surface " + sigma + "/").c_str()));
+        OK(rsc_asperities_find(&on, s, nullptr));
+        OK(rsc_contact_create(&contact, on, 1e3, 1.5, 0.5, 0.5, asks));
+        OK(rsc_contact_indent(contact, 0.0, nullptr));
+        OK(rsc_contact_level(contact, nullptr, &n, nullptr, nullptr, nullptr));
+        OK(rsc_contact_destroy(&contact));
+        OK(rsc_asperities_destroy(&on));
+        OK(rsc_case_destroy(&asks));
+        return n;
+    };
+    const std::int64_t of_made = candidates(surface, "sigma=0.02 ");
+    CHECK(candidates(surface, "") == of_made && candidates(copy, "") == of_made);
+    CHECK(candidates(surface, "sigma=" + std::to_string(left) + " ") != of_made);
+    for (rsc_surface** s : {&surface, &copy}) OK(rsc_surface_destroy(s));
+    OK(rsc_case_destroy(&made));
+}
+
 // The tip may be anywhere above the surface, its border included, and nowhere beside it: of a map, of given asperities (as far as the
 // sphere reaches), of the square of surface%L around or from the origin.
 void reach(rsc_contact* contact, double x_min, double x_max, double y_min, double y_max) {
@@ -279,6 +313,13 @@ void bounds() {
     for (const double d : {least, most}) CHECK(surface(d, 1, 0) == 0 && surface(1, d, 0) == 0);
     for (const double d : {less, more}) CHECK(surface(d, 1, 0) == -4 && surface(1, d, 0) == -5);
     CHECK(surface(1, 1, most) == 0 && surface(1, 1, -most) == 0 && surface(1, 1, more) == -9 && surface(1, 1, -more) == -9);
+    const Values nine(9, 0.0);  // 3 points each way, and no fewer
+    for (const int nx : {2, 3})
+        for (const int ny : {2, 3}) {
+            const std::int32_t code = rsc_surface_take(&s, nx, ny, 1, 1, 0, 0, 0, nine.data());
+            CHECK(code == (nx == 2 ? -2 : ny == 2 ? -3 : 0));
+            OK(rsc_surface_destroy(&s));
+        }
     const auto asperity = [&](double x, double radius, double kappa1, double kappa2, double angle) {
         const std::int32_t code = rsc_asperities_take(&a, 1, &x, &x, &x, &radius, &kappa1, &kappa2, &angle, &angle);
         OK(rsc_asperities_destroy(&a));
@@ -481,6 +522,7 @@ int main() {
     forms();
     waves();
     rms_height();
+    rms_of_synthesized();
     places();
     bounds();
     friction_spots();
