@@ -232,14 +232,24 @@ void cases() {
     scene = "cases";
     rsc_case *a_case = nullptr, *other = nullptr;
     CALL(rsc_case_create, &a_case);
-    const char* const keys[][2] = {{"surface%sigma", "0.015625"}, {"surface%hurst", "0.1"},           {"surface%n", "4096"},
-                                   {"run%seed", "9000000000"},    {"surface%plateau", ".true."},      {"solids%E", "0.1, 0.7"},
-                                   {"solids%nu", "0.1, 0.3"},     {"indentation%levels", "3 2 1"},    {"solver%method", "'direct'"},
-                                   {"run%title", "'it''s'"},      {"indentation%centre(2)", "0.625"}, {"output%heights", ".false."}};
+    const char* const keys[][2] = {{"surface%sigma", "0.30000000000000004"},
+                                   {"surface%hurst", "0.1"},
+                                   {"surface%n", "4096"},
+                                   {"run%seed", "9000000000"},
+                                   {"surface%plateau", ".true."},
+                                   {"solids%E", "0.1, 0.7"},
+                                   {"solids%nu", "0.1, 0.3"},
+                                   {"indentation%levels", "3 2 1"},
+                                   {"solver%method", "'direct'"},
+                                   {"run%title", "'it''s'"},
+                                   {"indentation%centre(2)", "0.625"},
+                                   {"output%heights", ".false."}};
     for (const auto& [name, value] : keys) {
         CALL(rsc_case_set, a_case, name, value);
         get(a_case, name);
     }
+    CALL(rsc_case_set, a_case, "surface%file", ("'" + std::string(4096, 'f') + "'").c_str());
+    get(a_case, "surface%file");
     whole(a_case);
     CALL(rsc_case_copy, &other, a_case);
     CALL(rsc_case_set, a_case, "surface%sigma", "0.03125");

@@ -317,7 +317,7 @@ contains
     type(rsc_case) :: options, other
     integer :: failed
     scene = 'cases'
-    call options%set('surface%sigma', 0.015625_dp, stat, msg)
+    call options%set('surface%sigma', 0.1_dp + 0.2_dp, stat, msg)
     call get(options, 'surface%sigma')
     call options%set('surface%hurst', 0.1, stat, msg)
     call get(options, 'surface%hurst')
@@ -341,6 +341,8 @@ contains
     call get(options, 'indentation%centre(2)')
     call options%set('output%heights', .false., stat, msg)
     call get(options, 'output%heights')
+    call options%set('surface%file', "'" // repeat('f', 4096) // "'", stat, msg)
+    call get(options, 'surface%file')
     call whole(options)
     other = options
     call options%set('surface%sigma', 0.03125_dp, stat, msg)

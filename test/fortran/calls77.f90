@@ -233,9 +233,11 @@ contains
   subroutine cases()
     integer :: icase, other, failed, k, unit, length
     character(3) :: cut
+    character(5000) :: long_text
     character(:), allocatable :: text
     character(24), parameter :: keys(2, 12) = reshape([character(24) :: &
-      'surface%sigma', '0.015625', 'surface%hurst', '0.1', 'surface%n', '4096', 'run%seed', '9000000000', 'surface%plateau', &
+      'surface%sigma', '0.30000000000000004', 'surface%hurst', '0.1', &
+      'surface%n', '4096', 'run%seed', '9000000000', 'surface%plateau', &
       '.true.', 'solids%E', '0.1, 0.7', 'solids%nu', '0.1, 0.3', 'indentation%levels', '3 2 1', 'solver%method', "'direct'", &
       'run%title', "'it''s'", 'indentation%centre(2)', '0.625', 'output%heights', '.false.'], [2, 12])
     scene = 'cases'
@@ -248,6 +250,10 @@ contains
       call told('rsc_case_set')
       call get(icase, keys(1, k))
     end do
+    call rscset(icase, 'surface%file', "'" // repeat('f', 4096) // "'", ierr)
+    call told('rsc_case_set')
+    call rscget(icase, 'surface%file', long_text, ierr)
+    call put('rsc_case_get.buffer', long_text)
     call rsccpy(other, icase, ierr)
     call told('rsc_case_copy')
     call expect(other /= icase .and. other > 0, 'rsccpy: another handle')

@@ -97,7 +97,7 @@ contains
     real(real64) :: mean
     integer :: s
     call rsc_read_result(file, r)
-    call check(r%realizations() == 3 .and. all(r%realization == [1, 2, 3]), 'three realizations')
+    call check(r%realizations() == 3 .and. r%steps() == steps .and. all(r%realization == [1, 2, 3]), 'three realizations')
     call check(size(r%asperity_x) == 0 .and. size(r%contact_start) == 0, 'no contacts kept of single realizations')
     call check(size(r%height) == 0, 'no heights kept of single realizations')
     do s = 1, steps
@@ -253,6 +253,26 @@ contains
     call check(stat /= 0 .and. index(message, "no/such/file.nc': No such file") > 0, 'missing file: ' // trim(message))
     call rsc_read_result(other, r, stat, message)
     call check(stat /= 0 .and. index(message, other) > 0, 'not NetCDF: ' // trim(message))
+    ! NetCDF files of something else, which have one of the two variables looked for.
+    call foreign('force')
+    call foreign('map_pressure')
+    call rsc_read_result(argument(1), r, stat, message)
+    call check(stat == 0 .and. index(message, 'which is no result') > 0, 'errmsg keeps its value without failure')
   end subroutine test_refusals
+
+  subroutine foreign(name)
+    character(*), intent(in) :: name
+    type(rsc_result) :: r
+    character(300) :: message
+    integer :: id, variable, stat
+    call check(nf90_create('foreign.nc', nf90_clobber, id) == nf90_noerr, 'create')
+    call check(nf90_def_var(id, name, nf90_double, variable) == nf90_noerr .and. nf90_close(id) == nf90_noerr, 'define')
+    call rsc_read_result('foreign.nc', r, stat, message)
+    call check(stat /= 0 .and. message == "cannot read the result file 'foreign.nc', which is no result of rsc: it lacks " // &
+               "the variables 'force' and 'map_pressure'", 'another NetCDF file: ' // trim(message))
+    call check(r%steps() == 0 .and. r%realizations() == 0, 'nothing read')
+    open (newunit=id, file='foreign.nc')
+    close (id, status='delete')
+  end subroutine foreign
 
 end program test_results

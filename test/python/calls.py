@@ -125,11 +125,13 @@ def get(case, name):
 
 def cases():
     case = rsc.Case()
-    for name, value in {"surface%sigma": 0.015625, "surface%hurst": 0.1, "surface%n": 4096, "run%seed": 9000000000, "surface%plateau": True, "solids%E": [0.1, 0.7],
+    for name, value in {"surface%sigma": 0.1 + 0.2, "surface%hurst": 0.1, "surface%n": 4096, "run%seed": 9000000000, "surface%plateau": True, "solids%E": [0.1, 0.7],
                         "solids%nu": np.array([0.1, 0.3]), "indentation%levels": (3, 2, 1), "solver%method": "direct", "run%title": "it's", "indentation%centre(2)": 0.625,
                         "output%heights": False}.items():
         case[name] = value
         get(case, name)
+    case["surface%file"] = "f" * 4096
+    get(case, "surface%file")
     put("rsc_case_text.buffer", case.text())
     other = case.copy()
     case["surface%sigma"] = 0.03125

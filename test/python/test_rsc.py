@@ -38,6 +38,8 @@ class Values(unittest.TestCase):
         far = f / (math.pi * E * 5) * (1 + 0.3 * U / (10 * 5**2))  # of a Hertz pressure on a circle, to (a/d)^4
         self.assertAlmostEqual(contact.deflection([0.0, 3.0], [0.0, 4.0])[1] / far, 1, delta=1e-9)
         self.assertAlmostEqual(contact.deflection(0.0, 0.0) / U, 1, delta=1e-12)
+        self.assertIs(type(contact.deflection(0.0, 0.0)), float)
+        self.assertEqual(contact.deflection(np.zeros((2, 3)), np.ones((2, 3))).shape, (2, 3))
         self.assertAlmostEqual(contact.press(f) / -U, 1, delta=1e-9)
         contact.tip = (0.05, 0.0)
         self.assertEqual(contact.tip, (0.05, 0.0))
@@ -65,7 +67,8 @@ class Values(unittest.TestCase):
         rectangle = rsc.Surface.take(z[:50].copy(), grid.dx, 2 * grid.dx, 0.1, 0.2)
         self.assertEqual(rectangle.grid(), rsc.Grid(128, 50, grid.dx, 2 * grid.dx, 0.1, 0.2, False))
         tilted = rsc.Surface.take(np.add.outer(np.arange(4.0), 10 * np.arange(5.0)), 1.0)
-        self.assertAlmostEqual(tilted.detrend("plane"), 0, delta=1e-12)
+        self.assertAlmostEqual(tilted.detrend(), 0, delta=1e-12)  # a plane, unless told otherwise
+        self.assertIs(tilted.grid().periodic, False)
         contact = rsc.Contact.from_case(asperities, case)
         force = contact.indent(0.005)
         every, some = contact.per_asperity(), contact.spots()
@@ -133,6 +136,32 @@ class Values(unittest.TestCase):
         self.assertGreater(contact.force, 0)
         self.assertEqual(contact.level().status, rsc.LEVEL_NOT_CONVERGED)
         self.assertEqual(contact.curve([0.0])["status"].tolist(), [4])
+
+
+    def test_no_memory(self):
+        """A failure of the whole of press_all is raised, one of some contacts is told in their statuses, NaN for what was not found."""
+        library, contacts = rsc._library, [one_asperity(), one_asperity()]
+
+        class Refusing:
+            def __getattr__(self, name):
+                return getattr(library, name) if name == "rsc_message" else self.refuse
+
+            @staticmethod
+            def refuse(n, handles, given, answers, statuses, threads):
+                for k, status in enumerate(told):
+                    rsc.ctypes.cast(statuses, rsc.ctypes.POINTER(rsc.ctypes.c_int32))[k] = status
+                return rsc.NO_MEMORY
+
+        rsc._library, told = Refusing(), (0, 0)
+        try:
+            with self.assertRaises(rsc.Error) as caught:
+                rsc.press_all(contacts, [1.0, 2.0])
+            told = 0, rsc.NO_MEMORY
+            separations, statuses = rsc.press_all(contacts, [1.0, 2.0])
+        finally:
+            rsc._library = library
+        self.assertEqual(caught.exception.status, rsc.NO_MEMORY)
+        self.assertTrue(np.isnan(separations).all() and statuses.tolist() == [0, rsc.NO_MEMORY])
 
 
 class Lifetimes(unittest.TestCase):
@@ -302,7 +331,9 @@ class Files(unittest.TestCase):
         for name in ("force", "contact_area", "contacts", "status"):
             self.assertTrue(np.array_equal(curve[name], plain[name][0]), name)
         other = self.case.run(file=os.path.join(self.folder.name, "b.nc"))
-        self.assertTrue(os.path.exists(other) and other != path)
+        self.assertTrue(os.path.exists(other))
+        self.assertEqual(other, os.path.join(self.folder.name, "b.nc"))
+        self.assertEqual(self.case["output%file"], path)  # as it was
         try:
             import xarray  # noqa: F401
         except ImportError:
@@ -316,8 +347,9 @@ class Files(unittest.TestCase):
         self.assertIn("case", data.attrs)
 
     def test_failures(self):
-        with self.assertRaises(rsc.Error):
+        with self.assertRaises(rsc.Error) as unread:
             rsc.read(os.path.join(self.folder.name, "nothing.nc"))
+        self.assertEqual(unread.exception.status, rsc.FILE)
         with self.assertRaisesRegex(rsc.Error, "folder"):
             self.case.run(file=os.path.join(self.folder.name, "folder", "a.nc"))
         self.case.update({"solver%tolerance": 1e-14, "solver%max_iterations": 1})
@@ -341,6 +373,9 @@ class Files(unittest.TestCase):
         self.assertEqual(calls, [(k, 6) for k in range(1, 7)])
         self.assertEqual(rsc.study(self.case, over, force, threads=2), members)
         self.assertEqual(members[3][1], force(rsc.Case({**SMALL, "solids%R(2)": 1.0})))
+        told = []
+        rsc.study(self.case, {"surface%sigma": [0.005, 0.01]}, force, progress=lambda done, n, values: told.append((done, n, values)))
+        self.assertEqual(told, [(1, 2, {"surface%sigma": 0.005}), (2, 2, {"surface%sigma": 0.01})])
         pairs = rsc.study(self.case, {"surface%sigma": [0.005, 0.01], "surface%hurst": [0.5, 0.8]}, force, mode="zip")
         self.assertEqual(len(pairs), 2)
         self.assertEqual(self.case["surface%sigma"], 0.01)
