@@ -340,6 +340,14 @@ void test_periodic() {
     double w[4];
     OK(rsc_contact_deflection(c, 4, x, y, w));
     for (int k = 1; k < 4; ++k) CHECK_RELATIVE(w[k], w[0], 1e-9);
+    // The boundary of the case holds where E* and R are given, too.
+    rsc_contact* given = nullptr;
+    double by_case = 0, by_hand = 0;
+    OK(rsc_contact_create(&given, a, 78e3 / (1 - 0.42 * 0.42), kInfinity, 0, 0, a_case));
+    OK(rsc_contact_result(c, &by_case, nullptr, nullptr, nullptr));
+    OK(rsc_contact_press(given, 5.0, &by_hand));
+    CHECK_RELATIVE(by_hand, by_case, 1e-9);
+    OK(rsc_contact_destroy(&given));
     OK(rsc_contact_destroy(&c));
     OK(rsc_asperities_destroy(&a));
     OK(rsc_case_destroy(&a_case));

@@ -142,6 +142,14 @@ void ratio_and_case() {
     CHECK(a == b && a > 0);
     OK(rsc_friction_destroy(&by_case));
     OK(rsc_friction_destroy(&by_hand));
+    // What yields has no friction, by a case either.
+    rsc_contact* soft = nullptr;
+    OK(rsc_case_set(h.options, "solids%hardness", "100.0"));
+    CHECK(rsc_contact_create_from_case(&soft, h.asperities, h.options) == -3 && says("friction"));
+    OK(rsc_case_set(h.options, "solids%friction", "0.0"));
+    OK(rsc_contact_create_from_case(&soft, h.asperities, h.options));
+    CHECK(rsc_friction_create_from_case(&by_case, soft, h.options) == -2 && says("must be elastic") && !by_case);
+    OK(rsc_contact_destroy(&soft));
 }
 
 void misuse() {

@@ -79,6 +79,15 @@ void contacts_in_files(const Folder& folder) {
     OK(rsc_contact_restore(&again, asperities, file.c_str()));
     OK(rsc_contact_result(again, nullptr, &same, nullptr, nullptr));
     CHECK(same == N);
+    const auto energies = [](rsc_contact* c) {
+        double by_name = 0, by_answer = 0, alone = 0;
+        OK(rsc_contact_value(c, "energy", &by_name));
+        OK(rsc_contact_energy(c, &alone));
+        OK(rsc_contact_answer(c, nullptr, nullptr, nullptr, nullptr, &by_answer, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                              nullptr, nullptr));
+        return std::vector<double>{by_name, by_answer, alone};
+    };
+    CHECK(energies(again) == energies(contact) && energies(again) == std::vector<double>(3, energies(contact)[0]));
     double here = 0, there = 0;
     OK(rsc_contact_indent(contact, Z0, &here));
     OK(rsc_contact_indent(again, Z0, &there));

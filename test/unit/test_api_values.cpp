@@ -513,6 +513,15 @@ void texts() {
     const std::string cut = message();
     CHECK(cut.size() == 4095 && cut.ends_with("yyy ...") && cut.starts_with("unknown key 'y"));
     OK(rsc_case_destroy(&c));
+    // A line for each fault.
+    rsc_surface* none = nullptr;
+    OK(rsc_case_create(&c));
+    for (const char* key : {"surface%n", "surface%L_lambda_l"}) OK(rsc_case_set(c, key, "600"));
+    CHECK(rsc_surface_synthesize(&none, c, 1) == -2 && !none);
+    const std::string faults = message();
+    const std::size_t line = faults.find('\n');
+    CHECK(faults.starts_with("&surface: ") && line != std::string::npos && faults.compare(line + 1, 10, "&surface: ") == 0);
+    OK(rsc_case_destroy(&c));
 }
 
 }  // namespace
