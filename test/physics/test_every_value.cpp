@@ -171,7 +171,8 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                                    out + " /\n"});
     all.push_back({"fourth_order", bodies + " /\n" + rough + " /\n&asperities law = 'fourth_order' /\n&solver method = 'mesh' /\n" +
                                        "&indentation levels = 1.8, 0.5, -1.2 /\n" + out + ", format = 'classic' /\n"});
-    all.push_back({"force", bodies + " /\n" + surface + " /\n&indentation control = 'force', levels = 200, 900, centre = 57, 38 /\n" + out +
+    all.push_back({"force", "&run seed = -5 /\n" + bodies + " /\n" + surface +
+                                " /\n&indentation control = 'force', levels = 200, 900, centre = 57, 38 /\n" + out +
                                 " /\n&compare levels = 1000, 300 /\n"});
     all.push_back({"elements", micro + bodies + " /\n" + surface + " /\n&solver model = 'elements' /\n" +
                                    "&indentation levels = 9.0, 1.5, 0.8, 0.2, centre = 57, 38 /\n" + out + ", heights = .true. /\n"});

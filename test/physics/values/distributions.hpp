@@ -266,7 +266,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         // Differences of shares of an area lose digits; nothing else does.
         const std::size_t place = k % (sums.size() / D), first_area = n + 2;
         const bool share = place >= first_area && place <= first_area + n;
-        if (2 * k < there.size()) CHECK_CLOSE(there[2 * k], sums[k], 1e-10 * std::abs(sums[k]) + (share ? 1e-12 * most : 0));
+        if (2 * k < there.size()) CHECK_CLOSE(there[2 * k], sums[k], 1e-12 * std::abs(sums[k]) + (share ? 1e-12 * most : 0));
         both.push_back(sums[k]), both.push_back(rest);
     }
     f.same("pdf_sums", both, 1e-10, 1e-12 * most), f.same("pdf_sum", numbers);
