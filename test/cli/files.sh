@@ -135,6 +135,10 @@ test_case() {
     expect 0 "$rsc" case.nml -s surface%sigma=0.02 -o made.nc
     "$rsc" --case made.nc > shown.nml || fail "--case fails"
     grep -q 'sigma *= 0.02' shown.nml || fail "--case does not show the case"
+    if command -v ncdump > /dev/null; then
+        (unset SOURCE_DATE_EPOCH && "$rsc" -q case.nml -s run%seed=3)
+        ncdump -h out.nc | grep -q ':history = ".*Z rsc -q case.nml -s run%seed=3"' || fail "history: $(ncdump -h out.nc | grep history)"
+    fi
     mkdir a b
     (cd a && expect 0 "$rsc" ../shown.nml) || exit 1
     (cd b && expect 0 "$rsc" ../made.nc) || exit 1

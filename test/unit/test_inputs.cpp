@@ -548,6 +548,10 @@ void more_words() {
     uneven[1] += 0.02e-6;
     REFUSED(read_heights(with({}, x, uneven), std::nullopt),
             "m: coordinate y is not uniform to 1e-6 of its step 0.25: y(1), counted from 0, is 1.25000026 where 1.25 was expected");
+    // The number is that of the file, also where the coordinate runs backwards.
+    std::vector<double> backwards = ramp(5, 0.4, -0.1);
+    backwards[1] += 0.01;
+    REFUSED(read_heights(with({}, backwards, y), std::nullopt), "x(1), counted from 0, is 0.31 where 0.3 was expected");
     REFUSED(read_heights(with({}, ramp(5, 0.4, -0.1), ramp(3, 2, 0)), std::nullopt),
             "m: coordinate y does not vary: it begins and ends at 2");
     REFUSED(read_heights(with({}, ramp(5, 3e50, 1e49), y), std::nullopt),
@@ -563,6 +567,8 @@ void more_words() {
     CHECK(nine.nx == 3 && nine.ny == 3 && nine.dx == 1 && nine.dy == 2 && nine(0, 2) == 3 && nine(2, 0) == 7 && nine(1, 0) == 4);
     REFUSED(read_heights(write("t", triples("1.02")), std::nullopt),
             "t:4: three columns are read as x y z of a map; x = 1.02 is not on a uniform grid of 4 values from 0 to 2");
+    REFUSED(read_heights(write("t", "0 0 1\n0 2 2\n1.02 0 3\n1.02 2 4\n2 0 5\n2 2 6\n"), std::nullopt),
+            "t:3: three columns are read as x y z of a map; x = 1.02 is not on a uniform grid of 3 values from 0 to 2");
     REFUSED(read_heights(write("t", "0 0 1\n1 nan 2\n"), std::nullopt, "mm", "", Missing::fill),
             "t:2: three columns are read as x y z of a map; y is missing");
 

@@ -143,6 +143,8 @@ void gwy() {
             "three.gwy: there is no channel 'Phase'; there are 'Amplitude' in 'V', 'Topography' in 'm', 'Height' in 'm'");
     REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))),
             "volt.gwy: no channel holds heights; there are 'A' in 'V'");
+    REFUSED(in_micrometres(write("number.gwy", gwy_file(gwy_channel(0, "A", map, "")))),  // a number is no length
+            "number.gwy: no channel holds heights; there are 'A' in ''");
     REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "none.gwy: holds no channel (image)");
     REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))),
             "xy.gwy: channel 'A': its sides are in 's', which is no length");

@@ -106,9 +106,22 @@ public:
         int variables = 0;
         nc_inq_nvars(file_.id(), &variables);
         for (int v = NC_GLOBAL; v < variables; ++v) finish(v, descriptions);
+        for (int v = 0; v < variables; ++v) stored(v);
     }
 
 private:
+    // Large arrays of netCDF-4 are compressed, at the default level, but not those whose digits have no order: of asperities and contacts.
+    void stored(int v) const {
+        char name[NC_MAX_NAME + 1] = "";
+        int format = 0, shuffled = 0, deflated = 0, level = 0;
+        nc_inq_varname(file_.id(), v, name);
+        nc_inq_format(file_.id(), &format);
+        if (format == NC_FORMAT_NETCDF4_CLASSIC) nc_inq_var_deflate(file_.id(), v, &shuffled, &deflated, &level);
+        const std::string first = file_.dimensions(name).empty() ? "" : file_.dimensions(name)[0];
+        const bool large = format == NC_FORMAT_NETCDF4_CLASSIC && file_.values(name).size() >= 2048;
+        if (level != (large && first != "asperity" && first != "contact" ? 4 : 0))
+            failed(name, ("has level " + std::to_string(level) + " of compression").c_str());
+    }
     void failed(const std::string& what, const char* how) const {
         std::printf("%s, %s: ", name_.c_str(), what.c_str());
         check::that(false, how, __FILE__, __LINE__);
