@@ -310,6 +310,35 @@ void maps() {
         c.solver.model = Model::asperities;
         CHECK(accepted([&] { realize(elements, 2, 1); }) == allowed);
     }
+    // Elements stand on the points themselves: as read, copied, or made on a grid of their own.
+    map_file("p4.txt", 4, -9);
+    Case elements = of_map(folder / "p4.txt");
+    elements.solver.model = Model::elements;
+    const Surface read = make_surface(elements, 1, 1);
+    const Ground copied = make_ground(read, elements, 1), direct = make_ground(elements, 1, 1);
+    for (const Ground* g : {&copied, &direct}) {
+        CHECK(g->points && g->asperities.size() == 0);
+        if (!g->points) continue;
+        const HeightMap& m = *g->points;
+        CHECK(m.nx == 30 && m.ny == 20 && m.dx == read.map.dx && m.dy == read.map.dy && m.x0 == read.map.x0 && m.y0 == read.map.y0);
+        CHECK(m.dx > 0.49 && m.dy < 0.26 && m.periodic == read.map.periodic && g->site.domain.Lx == m.Lx() && g->site.domain.Ly == m.Ly());
+        long same = 0;
+        for (int j = 0; j < 20; ++j)
+            for (int i = 0; i < 30; ++i) same += m(i, j) == read.map(i, j);
+        CHECK(same == 600);
+    }
+    Case made = synthetic();
+    made.solver.model = Model::elements, made.elements.points_per_wave = 6.1;
+    CHECK(make_ground(made, 1, 1).points->nx == 98 && make_ground(made, 1, 1).points->ny == 98);
+    // Of two sizes the message names both.
+    try {
+        map_file("p2.txt", 11, -5, 0.75, 0.125);
+        realize(prepare(c), 2, 1);
+        CHECK(!"refused");
+    } catch (const Error& e) {
+        CHECK(std::string(e.what()) ==
+              "the map of realization 2 is 22.500000 x 2.500000, the first is 15.000000 x 5.000000; maps of one size are expected");
+    }
     // A flat list has no sigma: the levels need one.
     Case list;
     list.surface.source = Source::asperities, list.surface.file = write("list.txt", "1 1 2 0.5\n3 1 2 0.25\n");

@@ -438,6 +438,197 @@ void test_accumulation() {
     CHECK_THROWS(other.add(records[0]), Error);
 }
 
+// Where a map ends, its grid does; ranges of bins by their formulas; what is refused just beyond its bound.
+void test_bounds() {
+    const MapGrid grid = make_map_grid(-3, 2, 6, 1.6, 12);  // three rows of 0.5, and 0.1 that belongs to none
+    CHECK(grid.nx == 12 && grid.ny == 3 && grid.cell(-1.4, 3.5) == 2 * 12 + 3 && grid.cell(3, 2.6) == 12 + 11);
+    CHECK(grid.cell(-1.4, 3.55) == -1 && grid.cell(3.01, 2.6) == -1 && grid.cell(-3.01, 2.6) == -1 && grid.cell(0, 1.99) == -1);
+    CHECK(make_map_grid(0, 0, 1, 1, 10000).ny == 10000);
+    CHECK_THROWS(make_map_grid(0, 0, 1, 1, 10001), Error);
+    for (const double bad : {0.0, -1.0, kInf, std::nan("")}) {
+        CHECK_THROWS(make_map_grid(0, 0, bad, 1, 3), Error);
+        CHECK_THROWS(make_map_grid(0, 0, 1, bad, 3), Error);
+        CHECK_THROWS(make_pdf_bins(3, bad, 2, 3, kInf), Error);
+        CHECK_THROWS(make_pdf_bins(3, 5, bad, 3, kInf), Error);
+        CHECK_THROWS(make_pdf_bins(3, 5, 2, bad, kInf), Error);
+    }
+    CHECK_THROWS(make_pdf_bins(0, 5, 2, 3, kInf), Error);
+    const PdfBins one = make_pdf_bins(1, 5, 2, 3, kInf), soft = make_pdf_bins(7, 5, 2, 3, 2.5);
+    CHECK(one.bins == 1 && soft.bins == 7 && soft.pressure_max == 2.5);
+    CHECK_RELATIVE(one.pressure_max, 1.2 * 5 * std::sqrt(6.0), kRounding);
+    CHECK_RELATIVE(one.area_max, 20.0 / 3, kRounding);
+    CHECK_RELATIVE(soft.pressure_width(), 1.5 * 2.5 / 7, kRounding);
+    // Of two levels equally near the first; of none none.
+    std::vector<Level> levels(3);
+    levels[0].separation = 5, levels[1].separation = 3, levels[2].separation = 3;
+    CHECK(nearest_level(levels, 4) == 0 && nearest_level(levels, 3.5) == 1 && nearest_level(levels, -9) == 1 && nearest_level({}, 1) == -1);
+    // Equal values have neither skewness nor kurtosis, no values not even a mean.
+    const DistributionMoments equal = moments_of(4, {12, 36, 108, 324}), none = moments_of(0, {0, 0, 0, 0});
+    CHECK(equal.mean == 3 && equal.deviation == 0 && std::isnan(equal.skewness) && std::isnan(equal.kurtosis) && std::isnan(none.mean));
+    // 1, 2, 2, 5.
+    const DistributionMoments m = moments_of(4, {10, 34, 142, 658});
+    CHECK_RELATIVE(m.mean, 2.5, kRounding);
+    CHECK_RELATIVE(m.deviation, 1.5, kRounding);
+    CHECK_RELATIVE(m.skewness, (std::pow(-1.5, 3) + 2 * std::pow(-0.5, 3) + std::pow(2.5, 3)) / 4 / std::pow(1.5, 3), 1e-12);
+    CHECK_RELATIVE(m.kurtosis, (std::pow(1.5, 4) + 2 * std::pow(0.5, 4) + std::pow(2.5, 4)) / 4 / std::pow(1.5, 4), 1e-12);
+}
+
+// Pixels that are no squares, in contacts of unlike size, some beyond the bins: areas, their squares and powers.
+void test_pixel_pressures() {
+    Level level;
+    level.pixels = {9, 0.05, 0.1, 0.1, 0.3, {0, 1, 4, 15, 16}, {0, 0, 0, 1, 2}, {0.1, 0.32, 0.7, 0.35, 5}};
+    for (int k = 0; k < 3; ++k) level.add_contact(k, 0.1 * k, 0.2, 1 + k, 0.1 + 0.01 * k, 0);
+    const Distributions d = distributions_of({5, 1.0, 0.05}, level, 3);  // point pressures in bins of 0.3
+    const double wanted[] = {0.03, 0.06, 0.03, 0, 0};
+    for (std::size_t b = 0; b < 5; ++b) CHECK_CLOSE(d.pressure.area[b], wanted[b], kRounding);
+    CHECK_RELATIVE(d.pressure.overflow, 0.03, kRounding);
+    CHECK_RELATIVE(d.pressure.total, 0.15, kRounding);
+    CHECK_RELATIVE(d.pressure.squares, 0.09 * 0.09 + 2 * 0.03 * 0.03, kRounding);
+    double power = 0;
+    for (int n = 1; n <= 4; ++n) {
+        power = 0;
+        for (const double p : level.pixels.pressure) power += 0.03 * std::pow(p, n);
+        CHECK_RELATIVE(d.pressure.power[static_cast<std::size_t>(n - 1)], power, kRounding);
+    }
+    CHECK(d.step == 3 && d.levels == 1 && d.mean_pressure.total() == 3 && d.spot_area.total() == 3);
+}
+
+// Standard errors of the generalised gamma against Fisher's information in (alpha, beta, delta) themselves, and of gamma by its own
+// derivatives: other parameters than those of the fit.
+void test_gamma_information() {
+    const double alpha = 0.9, beta = 1.3, delta = 2.5, n = 7000;
+    constexpr std::size_t bins = 25;
+    const double width = 0.3;
+    const auto probability = [&](std::array<double, 3> q, std::size_t b) {
+        const auto cdf = [&](double x) { return generalised_gamma_cdf(x, q[0], q[1], q[2]); };
+        const double low = cdf(width * static_cast<double>(b));
+        return (b < bins ? cdf(width * static_cast<double>(b + 1)) : 1) - low;
+    };
+    const auto norm = [](std::array<double, 3> q) { return q[1] / (std::pow(q[2], q[0] + 1) * std::tgamma((q[0] + 1) / q[1])); };
+    const std::array<double, 3> truth{alpha, beta, delta};
+    const auto slope = [&](auto of, std::size_t i) {
+        constexpr double h = 1e-5;
+        std::array<double, 3> up = truth, down = truth;
+        up[i] += h, down[i] -= h;
+        return (of(up) - of(down)) / (2 * h);
+    };
+    Binned binned{width, {}, 0};
+    double information[3][3] = {}, gradient[3] = {};
+    for (std::size_t b = 0; b <= bins; ++b) {
+        const double p = probability(truth, b);
+        b < bins ? binned.weight.push_back(3 * p) : void(binned.overflow = 3 * p);
+        double s[3];
+        for (std::size_t i = 0; i < 3; ++i) s[i] = slope([&](std::array<double, 3> q) { return probability(q, b); }, i);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) information[i][j] += n * s[i] * s[j] / p;
+    }
+    for (std::size_t i = 0; i < 3; ++i) gradient[i] = slope(norm, i);
+    // g' I^-1 g by Cramer's rule, for unit vectors and the gradient.
+    const auto det = [](const double(&m)[3][3]) {
+        return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    };
+    const auto error = [&](const double(&g)[3]) {
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) {
+            double replaced[3][3];
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) replaced[i][j] = j == k ? g[i] : information[i][j];
+            sum += g[k] * det(replaced) / det(information);
+        }
+        return std::sqrt(sum);
+    };
+    const double mean = delta * std::tgamma((alpha + 2) / beta) / std::tgamma((alpha + 1) / beta);
+    const GammaFit fit = fit_generalised_gamma(binned, mean, n);
+    constexpr double kDifferences = 1e-5;  // of the derivatives, ill-conditioned by the parameters' likeness
+    CHECK_RELATIVE(fit.alpha, alpha, kDifferences);
+    CHECK_RELATIVE(fit.beta, beta, kDifferences);
+    CHECK_RELATIVE(fit.delta, delta, kDifferences);
+    CHECK_RELATIVE(fit.gamma, norm(truth), kDifferences);
+    CHECK_RELATIVE(fit.alpha_error, error({1, 0, 0}), kDifferences);
+    CHECK_RELATIVE(fit.beta_error, error({0, 1, 0}), kDifferences);
+    CHECK_RELATIVE(fit.delta_error, error({0, 0, 1}), kDifferences);
+    CHECK_RELATIVE(fit.gamma_error, error({gradient[0], gradient[1], gradient[2]}), kDifferences);
+    // Absent for fewer than ten draws, or fewer than five bins with anything in them.
+    CHECK(!std::isnan(fit_generalised_gamma(binned, mean, 10).alpha) && std::isnan(fit_generalised_gamma(binned, mean, 9.99).alpha));
+    CHECK(std::isnan(fit_generalised_gamma(Binned{1, {3, 4, 0, 2, 1}, 0}, 1.5, 100).alpha));
+}
+
+// A campaign of three, the tip beside the middle of a map that is no square: every number of it from those of the realizations, and the
+// same when its parts are put together.
+void test_campaign() {
+    ObserveOptions options = sample_options();
+    options.tip_x = 0.4, options.tip_y = 0.3;
+    options.map = make_map_grid(-0.1, 0.1, 1, 0.7, 10);
+    std::vector<RealizationRecord> records;
+    for (unsigned k = 1; k <= 3; ++k) {
+        Sample s = random_sample(k, 4);
+        for (Level& level : s.levels) level.separation += 0.01 * k * k;  // as under force control
+        if (k == 3) s.levels[3].separation = -4, s.levels[2].separation = -5.01;
+        records.push_back(observe(options, k, {}, s.levels));
+    }
+    Accumulators all(options, 4), first(options, 4), rest(options, 4);
+    for (const RealizationRecord& r : records) all.add(r), (r.realization == 1 ? first : rest).add(r);
+    first.append(rest);
+    for (const Accumulators* sums : {&all, &first}) {
+        const Observations o = sums->finish();
+        CHECK(o.realizations == 3 && o.steps == 4 && (o.realization == std::vector<std::int64_t>{1, 2, 3}));
+        const RadialMean ring(options.map, 0.4, 0.3, 8);
+        CHECK(o.radii == ring.radii() && o.radii.size() == 8);
+        for (std::size_t step = 0; step < 4; ++step) {
+            const auto check = [&](const LevelStatistics& s, double LevelValues::*value) {
+                double mean = 0, square = 0;
+                for (const RealizationRecord& r : records) mean += r.levels[step].*value / 3;
+                for (const RealizationRecord& r : records) square += std::pow(r.levels[step].*value - mean, 2) / 2;
+                CHECK_RELATIVE(s.mean[step], mean, kRounding);
+                CHECK_CLOSE(s.deviation[step], std::sqrt(square), 1e-12 * std::abs(mean));
+            };
+            check(o.separation, &LevelValues::separation), check(o.force, &LevelValues::force), check(o.area, &LevelValues::area);
+            std::vector<double> area(70, 0.0), force(70, 0.0);
+            for (const RealizationRecord& r : records)
+                for (std::size_t k = 0; k < r.maps[step].cell.size(); ++k) {
+                    const auto cell = static_cast<std::size_t>(r.maps[step].cell[k]);
+                    area[cell] += r.maps[step].area[k] / 0.03, force[cell] += r.maps[step].force[k] / 0.03;
+                }
+            for (std::size_t c = 0; c < 70; ++c) {
+                CHECK_CLOSE(o.map_area_fraction[step * 70 + c], area[c], 1e-14);
+                CHECK_CLOSE(o.map_pressure[step * 70 + c], force[c], 1e-13);
+            }
+            const std::vector<double> a = ring(area.data()), p = ring(force.data());
+            for (std::size_t b = 0; b < 8; ++b) {
+                CHECK_CLOSE(o.radial_area_fraction[step * 8 + b], a[b], 1e-13);
+                CHECK_CLOSE(o.radial_pressure[step * 8 + b], p[b], 1e-12);
+            }
+        }
+        // The level nearest to 2.1 is not the same in all; the sums say so.
+        CHECK(o.distribution_sums.size() == 2 && o.distribution_sums[0].numbers.size() == all.distributions[0].numbers.size());
+        for (std::size_t d = 0; d < 2; ++d) {
+            const auto& one = records[0].distributions[d];
+            const auto &two = records[1].distributions[d], &three = records[2].distributions[d];
+            const bool same = one.step == two.step && two.step == three.step;
+            const FittedDistributions& f = o.distributions[d];
+            CHECK(f.sum.levels == 3 && f.sum.step == (same ? one.step : -1));
+            CHECK_RELATIVE(f.sum.separation, one.separation + two.separation + three.separation, kRounding);
+            const auto bins = [&](auto of, const std::vector<double>& pdf, double width) {
+                double total = of(f.sum, 40);
+                for (std::size_t b = 0; b < 40; ++b) total += of(f.sum, b);
+                for (std::size_t b = 0; b <= 40; ++b) CHECK_RELATIVE(of(f.sum, b), of(one, b) + of(two, b) + of(three, b), 1e-12);
+                for (std::size_t b = 0; b < 40; ++b) CHECK_RELATIVE(pdf[b], of(f.sum, b) / (total * width), 1e-12);
+            };
+            bins([](const Distributions& x,
+                    std::size_t b) { return static_cast<double>(b < 40 ? x.mean_pressure.count[b] : x.mean_pressure.overflow); },
+                 f.mean_pressure_pdf, 2.0 / 40);
+            bins([](const Distributions& x,
+                    std::size_t b) { return static_cast<double>(b < 40 ? x.spot_area.count[b] : x.spot_area.overflow); },
+                 f.spot_area_pdf, 2e-4 / 40);
+            bins([](const Distributions& x, std::size_t b) { return b < 40 ? x.pressure.area[b] : x.pressure.overflow; }, f.pressure_pdf,
+                 3.0 / 40);
+        }
+        CHECK(o.distributions[0].sum.step == -1 || o.distributions[1].sum.step == -1);
+    }
+    CHECK_THROWS(rest.append(first), Error);
+}
+
 __extension__ using Wide = __int128;
 
 // Against integers: in any order, in any groups.
@@ -486,6 +677,10 @@ int main() {
     test_gamma_fit();
     test_gamma_errors();
     test_accumulation();
+    test_bounds();
+    test_pixel_pressures();
+    test_gamma_information();
+    test_campaign();
     test_exact_sums();
     return check::summary();
 }
