@@ -119,14 +119,14 @@ void moments() {
 }
 
 // Sq, Ssk, Sku, Sdq, the isotropy of slopes and the histogram of heights.
-void heights() {
-    HeightMap map = rough(21, 14);
-    const int points = 21 * 14;
+void heights(int nx, int ny) {
+    HeightMap map = rough(nx, ny);
+    const int points = nx * ny;
     double mean = 0, p2 = 0, p3 = 0, p4 = 0;
-    for (int j = 0; j < 14; ++j)
-        for (int i = 0; i < 21; ++i) mean += map(i, j) / points;
-    for (int j = 0; j < 14; ++j)
-        for (int i = 0; i < 21; ++i) {
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) mean += map(i, j) / points;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
             const double d = map(i, j) - mean;
             p2 += d * d / points, p3 += d * d * d / points, p4 += d * d * d * d / points;
         }
@@ -138,8 +138,8 @@ void heights() {
     // The smallest and the largest rms slope over all directions, from gradients in the middle of each four points.
     const auto slope = [&](double angle) {
         double sum = 0;
-        for (int j = 0; j < 13; ++j)
-            for (int i = 0; i < 20; ++i) {
+        for (int j = 0; j < ny - 1; ++j)
+            for (int i = 0; i < nx - 1; ++i) {
                 const double zx = (map(i + 1, j) + map(i + 1, j + 1) - map(i, j) - map(i, j + 1)) / (2 * map.dx);
                 const double zy = (map(i, j + 1) + map(i + 1, j + 1) - map(i, j) - map(i + 1, j)) / (2 * map.dy);
                 sum += std::pow(std::cos(angle) * zx + std::sin(angle) * zy, 2);
@@ -158,8 +158,8 @@ void heights() {
     CHECK_RELATIVE(m.height_bin, m.parameters.sq / 6, 1e-14);
     for (int b = 0; b < 60; ++b) {
         int inside = 0;
-        for (int j = 0; j < 14; ++j)
-            for (int i = 0; i < 21; ++i)
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
                 inside += map(i, j) - mean >= (b - 30) * m.height_bin && map(i, j) - mean < (b - 29) * m.height_bin;
         CHECK_CLOSE(m.height_pdf[static_cast<std::size_t>(b)], inside / (points * m.height_bin), 1e-12);
     }
@@ -501,6 +501,19 @@ void bounds() {
                 for (int i = 0; i < 21; ++i) CHECK_CLOSE(one(i, j), 0.5, 1e-12);
         }
     }
+    // The first missing point by its place, wherever it is.
+    for (const auto& [nx, ny] : {std::pair{21, 14}, {14, 21}}) {
+        HeightMap torn = rough(nx, ny);
+        torn.row(ny - 2)[nx - 3] = torn.row(ny - 1)[1] = std::nan("");
+        try {
+            measure(torn, {});
+            CHECK(!"refused");
+        } catch (const Error& e) {
+            CHECK(std::string(e.what()) == "2 of 294 points are missing, the first in column " + std::to_string(nx - 3) + " of row " +
+                                               std::to_string(ny - 2) +
+                                               ", counted from 0 with y upwards; surface%missing = 'fill' fills them");
+        }
+    }
     HeightMap map;
     map.allocate(1, 1, 1);
     map.allocate(3, 2, 3);
@@ -721,7 +734,8 @@ void borders() {
 
 int main() {
     moments();
-    heights();
+    heights(21, 14);
+    heights(14, 21);
     spectra();
     fits();
     symmetries();
