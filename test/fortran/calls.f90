@@ -1,13 +1,10 @@
 ! What calls.cpp does, through rsc.f90: the same calls in the same order, every value they give back printed in the same words.
 program calls
   use rsc
+  use printed, only: put, scene
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
   implicit none
-  interface put
-    procedure put_real, put_reals, put_integer, put_integers, put_text
-  end interface
-  character(16) :: scene
   real(dp) :: nan, infinity
   integer :: stat
   character(2000) :: msg
@@ -31,44 +28,13 @@ program calls
 
 contains
 
-  subroutine put_real(what, v)
-    character(*), intent(in) :: what
-    real(dp), intent(in) :: v
-    call put_reals(what, [v])
-  end subroutine
-  subroutine put_reals(what, v)
-    character(*), intent(in) :: what
-    real(dp), intent(in) :: v(:)
-    print '(a,1x,a,*(1x,z16.16))', trim(scene), what, transfer(v, [0_c_int64_t])
-  end subroutine
-  subroutine put_integer(what, v)
-    character(*), intent(in) :: what
-    integer, intent(in) :: v
-    call put_integers(what, [v])
-  end subroutine
-  subroutine put_integers(what, v)
-    character(*), intent(in) :: what
-    integer, intent(in) :: v(:)
-    print '(a,1x,a,*(1x,i0))', trim(scene), what, v
-  end subroutine
-  subroutine put_text(what, v)
-    character(*), intent(in) :: what, v
-    integer :: k
-    character(len(v)) :: line
-    line = v
-    do k = 1, len(v)
-      if (line(k:k) == new_line('a')) line(k:k) = '|'
-    end do
-    print '(a,1x,a,1x,a)', trim(scene), what, trim(line)
-  end subroutine
-
   ! Success is not told, everything else is; errmsg keeps its value on success.
   subroutine told(function)
     character(*), intent(in) :: function
     character(12) :: code
     write (code, '(i0)') stat
-    if (stat /= 0) call put_text(function // '.code', trim(code) // ' ' // msg)
-    if (stat == 0 .and. msg /= '') call put_text(function // '.code', 'a message without failure: ' // msg)
+    if (stat /= 0) call put(function // '.code', trim(code) // ' ' // msg)
+    if (stat == 0 .and. msg /= '') call put(function // '.code', 'a message without failure: ' // msg)
     msg = ''
     stat = 0
   end subroutine
@@ -78,7 +44,7 @@ contains
     logical, intent(in) :: ok
     character(*), intent(in) :: what
     call told(what)
-    if (.not. ok) call put_text(what, 'another value where it is asked for alone')
+    if (.not. ok) call put(what, 'another value where it is asked for alone')
   end subroutine
   elemental logical function same(a, b)
     real(dp), intent(in) :: a, b

@@ -1,15 +1,12 @@
 ! What calls.cpp does as far as rsc77.c goes: the same calls in the same order, every value they give back printed in the same words; and
 ! for every routine, what it says to a handle of another kind or of nothing.
 program calls77
+  use printed, only: put, scene
   implicit none
   integer, parameter :: dp = kind(1d0), long = selected_int_kind(18)
   external :: rscver, rscmsg, rscdel, rsccpy, rsccas, rscred, rscset, rscget, rscrun, rscsyn, rscsur, rschgt, rscfnd, rscmak
   external :: rscasp, rscnum, rscxyz, rsccon, rsccnc, rsctip, rsctch, rscind, rscprs, rscres, rsclev, rscstf, rscnrg, rscspt
   external :: rscdfl, rscfri, rscupd, rsccmt, rscrbk
-  interface put
-    procedure put_real, put_reals, put_integer, put_integers, put_text
-  end interface
-  character(16) :: scene
   character(30) :: buffer
   integer :: ierr, said = 0
   real(dp) :: nan, infinity, zero = 0
@@ -29,37 +26,6 @@ program calls77
 
 contains
 
-  subroutine put_real(what, v)
-    character(*), intent(in) :: what
-    real(dp), intent(in) :: v
-    call put_reals(what, [v])
-  end subroutine
-  subroutine put_reals(what, v)
-    character(*), intent(in) :: what
-    real(dp), intent(in) :: v(:)
-    print '(a,1x,a,*(1x,z16.16))', trim(scene), what, transfer(v, [0_long])
-  end subroutine
-  subroutine put_integer(what, v)
-    character(*), intent(in) :: what
-    integer, intent(in) :: v
-    call put_integers(what, [v])
-  end subroutine
-  subroutine put_integers(what, v)
-    character(*), intent(in) :: what
-    integer, intent(in) :: v(:)
-    print '(a,1x,a,*(1x,i0))', trim(scene), what, v
-  end subroutine
-  subroutine put_text(what, v)
-    character(*), intent(in) :: what, v
-    integer :: k
-    character(len(v)) :: line
-    line = v
-    do k = 1, len(v)
-      if (line(k:k) == new_line('a')) line(k:k) = '|'
-    end do
-    print '(a,1x,a,1x,a)', trim(scene), what, trim(line)
-  end subroutine
-
   subroutine told(function)
     character(*), intent(in) :: function
     character(12) :: code
@@ -67,7 +33,7 @@ contains
     if (ierr == 0) return
     call rscmsg(msg)
     write (code, '(i0)') ierr
-    call put_text(function // '.code', trim(code) // ' ' // msg)
+    call put(function // '.code', trim(code) // ' ' // msg)
   end subroutine
 
   subroutine expect(ok, what)

@@ -13,6 +13,11 @@ struct Folder {
     Folder() { std::filesystem::remove_all(path), std::filesystem::create_directories(path); }
     ~Folder() { std::filesystem::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }
+    // The path of a new file.
+    std::string write(const std::string& name, const std::string& content) const {
+        std::ofstream(*this / name, std::ios::binary) << content;
+        return *this / name;
+    }
     std::size_t files() const {
         return static_cast<std::size_t>(
             std::distance(std::filesystem::recursive_directory_iterator(path), std::filesystem::recursive_directory_iterator()));

@@ -19,6 +19,7 @@
 #include "read/input_spectrum.hpp"
 #include "read/inputs.hpp"
 #include "unit/map_files.hpp"
+#include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -28,20 +29,7 @@ namespace {
 
 const Folder folder;
 
-std::string write(const std::string& name, const std::string& content) {
-    std::ofstream((folder / name), std::ios::binary) << content;
-    return folder / name;
-}
-
-bool accepted(const std::function<void()>& what) {
-    try {
-        what();
-        return true;
-    } catch (const Error& e) {
-        CHECK(e.kind() == Failure::bad_input);
-        return false;
-    }
-}
+std::string write(const std::string& name, const std::string& content) { return folder.write(name, content); }
 
 void ok(int status) {
     if (status != NC_NOERR) std::printf("NetCDF: %s\n", nc_strerror(status));

@@ -18,33 +18,18 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "read/input_spectrum.hpp"
+#include "unit/refused.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_inputs_" + std::to_string(getpid()));
+const Folder folder;
 
-std::string in_folder(const std::string& name) { return (folder / name).string(); }
+std::string in_folder(const std::string& name) { return folder / name; }
 
-std::string write(const std::string& name, const std::string& content) {
-    std::ofstream(in_folder(name), std::ios::binary) << content;
-    return in_folder(name);
-}
-
-void refused(const std::function<void()>& what, const std::string& expected, int line) {
-    const char* const words = expected.c_str();
-    try {
-        what();
-        std::printf("line %d: accepted, though '%s' was expected\n", line, words);
-        CHECK(!"refused");
-    } catch (const Error& e) {
-        CHECK(e.kind() == Failure::bad_input);
-        if (!std::strstr(e.what(), words)) std::printf("line %d: '%s' is not in: %s\n", line, words, e.what());
-        CHECK(std::strstr(e.what(), words));
-    }
-}
-#define REFUSED(expression, words) refused([&] { (void)(expression); }, words, __LINE__)
+std::string write(const std::string& name, const std::string& content) { return folder.write(name, content); }
 
 void ok(int status) {
     if (status != NC_NOERR) std::printf("NetCDF: %s\n", nc_strerror(status));
@@ -350,7 +335,7 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0),
             "t: four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
     REFUSED(read_heights(in_folder("absent"), 1.0), "absent: No such file or directory");
-    REFUSED(read_heights(folder.string(), 1.0), ": is a directory, not a file");
+    REFUSED(read_heights(folder.path.string(), 1.0), ": is a directory, not a file");
     REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0), "t.nc:2: 'x'");  // by content, not by name
 }
 
@@ -645,7 +630,6 @@ void several_threads() {
 }  // namespace
 
 int main() {
-    std::filesystem::create_directories(folder);
     heights_from_netcdf();
     bad_heights_from_netcdf();
     cut_files();
@@ -656,6 +640,5 @@ int main() {
     asperities();
     more_words();
     several_threads();
-    std::filesystem::remove_all(folder);
     return check::summary();
 }

@@ -14,6 +14,7 @@
 #include "run/job.hpp"
 #include "run/prepare.hpp"
 #include "run/twins.hpp"
+#include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -24,20 +25,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-13;
 const Folder folder;
 
-std::string write(const std::string& name, const std::string& content) {
-    std::ofstream((folder / name), std::ios::binary) << content;
-    return folder / name;
-}
-
-bool accepted(const std::function<void()>& what) {
-    try {
-        what();
-        return true;
-    } catch (const Error& e) {
-        CHECK(e.kind() == Failure::bad_input);
-        return false;
-    }
-}
+std::string write(const std::string& name, const std::string& content) { return folder.write(name, content); }
 
 Case synthetic() {
     Case c;

@@ -15,32 +15,17 @@
 #include "read/input_sdf.hpp"
 #include "read/inputs.hpp"
 #include "unit/map_files.hpp"
+#include "unit/refused.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 using namespace map_files;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_maps_" + std::to_string(getpid()));
+const Folder folder;
 
-std::string write(const std::string& name, const std::string& content) {
-    std::ofstream((folder / name).string(), std::ios::binary) << content;
-    return (folder / name).string();
-}
-
-void refused(const std::function<void()>& what, const std::string& expected, int line) {
-    const char* const words = expected.c_str();
-    try {
-        what();
-        std::printf("line %d: accepted, though '%s' was expected\n", line, words);
-        CHECK(!"refused");
-    } catch (const Error& e) {
-        CHECK(e.kind() == Failure::bad_input);
-        if (!std::strstr(e.what(), words)) std::printf("line %d: '%s' is not in: %s\n", line, words, e.what());
-        CHECK(std::strstr(e.what(), words));
-    }
-}
-#define REFUSED(expression, words) refused([&] { (void)(expression); }, words, __LINE__)
+std::string write(const std::string& name, const std::string& content) { return folder.write(name, content); }
 
 // 6 x 4 points of 2 x 3 micrometres; height 100 row + column nanometres, rows from the top.
 Map sample() {
@@ -78,7 +63,7 @@ void cut_inside(const std::string& components) {
         try {
             in_micrometres(write("cut.gwy", cut));
         } catch (const Error& e) {
-            std::string text = std::string(e.what()).substr((folder / "cut.gwy").string().size());
+            std::string text = std::string(e.what()).substr((folder / "cut.gwy").size());
             text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }), text.end());
             said.insert(text);
         }
@@ -118,9 +103,8 @@ void gwy() {
     check_sample(in_micrometres(write("one.gwy", gwy_file(gwy_channel(0, "Topography", map)))), -1);
     CHECK_RELATIVE(read_heights(write("one.gwy", gwy_file(gwy_channel(0, "T", map))), std::nullopt, "mm")(1, 3), 1e-6, 1e-12);
     check_sample(in_micrometres(write("own.gwy", gwy_file(gwy_channel(0, "T", in_own_units, "nm", "mm")))), -1);
-    CHECK_RELATIVE(read_heights((folder / "one.gwy").string(), 12e-3).Lx(), 12e-3, 1e-12);  // L may be given, if it is the same
-    REFUSED(read_heights((folder / "one.gwy").string(), 11e-3),
-            "one.gwy: its coordinate x spans 6 steps of 0.002 = 0.012, but L = 0.011 was given");
+    CHECK_RELATIVE(read_heights(folder / "one.gwy", 12e-3).Lx(), 12e-3, 1e-12);  // L may be given, if it is the same
+    REFUSED(read_heights(folder / "one.gwy", 11e-3), "one.gwy: its coordinate x spans 6 steps of 0.002 = 0.012, but L = 0.011 was given");
     // The first channel of heights, or the one that is named; other things lie between.
     Map other = map;
     for (double& z : other.z) z += 1e-6;
@@ -372,8 +356,8 @@ void against_gwyddion() {
     for (const bool binary : {true, false}) {
         if (!binary) words[777] = "0";  // it does not know BAD in a text
         const std::string from = write("g.sdf", binary ? sdf_binary(map, 5, 1e-9, values) : sdf_text(map, 1e-9, words, 5));
-        const std::string to = (folder / (binary ? "b.gwy" : "t.gwy")).string();
-        const std::string command = "cd " + folder.string() + " && HOME=" + folder.string() +
+        const std::string to = folder / (binary ? "b.gwy" : "t.gwy");
+        const std::string command = "cd " + folder.path.string() + " && HOME=" + folder.path.string() +
                                     " timeout 60 gwyddion --convert-to-gwy=" + to + " " + from + " > gwyddion.log 2>&1";
         if (std::system(command.c_str()) != 0) {
             std::printf("skipped: gwyddion does not run here\n");
@@ -394,12 +378,10 @@ void against_gwyddion() {
 }  // namespace
 
 int main() {
-    std::filesystem::create_directories(folder);
     gwy();
     sdf();
     text_with_holes();
     example();
     against_gwyddion();
-    std::filesystem::remove_all(folder);
     return check::summary();
 }
