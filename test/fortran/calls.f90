@@ -1,7 +1,7 @@
 ! What calls.cpp does, through rsc.f90: the same calls in the same order, every value they give back printed in the same words.
 program calls
   use rsc
-  use printed, only: put, scene
+  use calls_common, only: put, scene, noise, points, oblong_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
   implicit none
@@ -51,11 +51,6 @@ contains
     same = a >= b .and. a <= b
   end function
 
-  real(dp) function noise(k, s)
-    integer, intent(in) :: k, s
-    noise = mod(k * k * s + 29 * k + 7 * s, 61) / 64.0_dp
-  end function
-
   subroutine read_case(options, text)
     type(rsc_case), intent(inout) :: options
     character(*), intent(in) :: text
@@ -68,11 +63,8 @@ contains
     logical, intent(in) :: bent
     real(dp), dimension(35) :: x, y, z, radius, kappa1, kappa2, angle, biharmonic
     integer :: k
+    call points(x, y, z, radius)
     do k = 1, 35
-      x(k) = -0.25_dp + 0.25_dp * mod(k - 1, 5) + noise(k, 1) / 8
-      y(k) = 0.5_dp + 0.375_dp * ((k - 1) / 5) + noise(k, 2) / 8
-      z(k) = noise(k, 3) / 16
-      radius(k) = 0.25_dp + noise(k, 4) / 4
       kappa2(k) = 1.5_dp + noise(k, 5)
       kappa1(k) = kappa2(k) + 0.25_dp + noise(k, 6)
       angle(k) = noise(k, 7) - 0.5_dp
@@ -345,13 +337,9 @@ contains
     type(rsc_asperities) :: found
     real(dp) :: z(9, 7), rms
     character(9), parameter :: forms(6) = [character(9) :: 'none', 'mean', 'plane', 'quadratic', 'sphere', 'cubic']
-    integer :: i, j, k
+    integer :: k
     scene = 'surfaces'
-    do j = 1, 7
-      do i = 1, 9
-        z(i, j) = noise(i + 9 * j, 9) / 8 + (i * i - 2 * i * j) / 256.0_dp + j / 64.0_dp
-      end do
-    end do
+    z = oblong_map()
     call read_case(options, "&asperities curvature='algebraic' /")
     do k = 1, 0, -1
       call surface%take(z, 0.125_dp, 0.1875_dp, -0.5_dp, 0.75_dp, k == 1, stat, msg)

@@ -1,7 +1,7 @@
 ! What calls.cpp does as far as rsc77.c goes: the same calls in the same order, every value they give back printed in the same words; and
 ! for every routine, what it says to a handle of another kind or of nothing.
 program calls77
-  use printed, only: put, scene
+  use calls_common, only: put, scene, points, oblong_map
   implicit none
   integer, parameter :: dp = kind(1d0), long = selected_int_kind(18)
   external :: rscver, rscmsg, rscdel, rsccpy, rsccas, rscred, rscset, rscget, rscrun, rscsyn, rscsur, rschgt, rscfnd, rscmak
@@ -53,11 +53,6 @@ contains
     call expect(ierr == -i .and. index(msg, 'not a handle') == 1 .and. index(msg, 'deleted') > 0, what // ': ' // msg)
   end subroutine
 
-  real(dp) function noise(k, s)
-    integer, intent(in) :: k, s
-    noise = mod(k * k * s + 29 * k + 7 * s, 61) / 64.0_dp
-  end function
-
   subroutine read_case(icase, text)
     integer, intent(out) :: icase
     character(*), intent(in) :: text
@@ -77,13 +72,7 @@ contains
   subroutine take_list(iasp)
     integer, intent(out) :: iasp
     real(dp), dimension(35) :: x, y, z, radius
-    integer :: k
-    do k = 1, 35
-      x(k) = -0.25_dp + 0.25_dp * mod(k - 1, 5) + noise(k, 1) / 8
-      y(k) = 0.5_dp + 0.375_dp * ((k - 1) / 5) + noise(k, 2) / 8
-      z(k) = noise(k, 3) / 16
-      radius(k) = 0.25_dp + noise(k, 4) / 4
-    end do
+    call points(x, y, z, radius)
     iasp = 0
     call rscasp(iasp, 35, x, y, z, radius, ierr)
     call told('rsc_asperities_take')
@@ -265,14 +254,10 @@ contains
   end subroutine
 
   subroutine surfaces()
-    integer :: icase, isurf, iasp, i, j, k, copy
+    integer :: icase, isurf, iasp, k, copy
     real(dp) :: z(9, 7)
     scene = 'surfaces'
-    do j = 1, 7
-      do i = 1, 9
-        z(i, j) = noise(i + 9 * j, 9) / 8 + (i * i - 2 * i * j) / 256.0_dp + j / 64.0_dp
-      end do
-    end do
+    z = oblong_map()
     call read_case(icase, "&asperities curvature='algebraic' /")
     do k = 1, 0, -1
       call rscsur(isurf, 9, 7, 0.125_dp, 0.1875_dp, -0.5_dp, 0.75_dp, k, z, ierr)

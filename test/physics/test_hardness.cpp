@@ -290,14 +290,23 @@ void test_path() {
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
 }
 
+Asperities rough_asperities() {
+    Spectrum spectrum;
+    spectrum.sigma = 1e-3, spectrum.L_lambda_l = 8, spectrum.L_lambda_s = 64;
+    return make_asperities(spectrum, 256, Normalise::sample, 1, 1, Curvature::geometric);
+}
+
+SolverOptions strict_options() {
+    SolverOptions options = options_with(2000);
+    options.tolerance = 1e-10;
+    return options;
+}
+
 // A rough sphere pressed so deep that flattened asperities cover each other, and let go again: every level is solved on the way back, too,
 // where many asperities have let go below their old depth.
 void test_way_back() {
-    Spectrum spectrum;
-    spectrum.sigma = 1e-3, spectrum.L_lambda_l = 8, spectrum.L_lambda_s = 64;
-    const Asperities a = make_asperities(spectrum, 256, Normalise::sample, 1, 1, Curvature::geometric);
-    SolverOptions options = options_with(2000);
-    options.tolerance = 1e-10;
+    const Asperities a = rough_asperities();
+    const SolverOptions options = strict_options();
     AsperityContact contact(a, {115e3, 2.5, 0.5, 0.5}, options);
     const double touch = contact.first_touch();
     const int steps = 80;
@@ -314,11 +323,8 @@ void test_way_back() {
 // What yields goes on from the accepted levels alone, where several solutions exist, too: separations tried on the way to a force are not
 // even seen in the last bit, and on the way down the branch is kept (two paths of different steps meet at the same force).
 void test_follows() {
-    Spectrum spectrum;
-    spectrum.sigma = 1e-3, spectrum.L_lambda_l = 8, spectrum.L_lambda_s = 64;
-    const Asperities a = make_asperities(spectrum, 256, Normalise::sample, 1, 1, Curvature::geometric);
-    SolverOptions options = options_with(2000);
-    options.tolerance = 1e-10;
+    const Asperities a = rough_asperities();
+    const SolverOptions options = strict_options();
     const Indenter ball{115e3, 2.5, 0.5, 0.5};
     AsperityContact by_forces(a, ball, options), by_separations(a, ball, options), finer(a, ball, options);
     int several = 0;

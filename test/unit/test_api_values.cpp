@@ -96,12 +96,13 @@ void forms() {
         for (int j = 3; j < map.ny; ++j)
             for (int i = 3; i < map.nx; ++i) {
                 const double first_x = taken(i, j) - taken(i - 1, j), first_y = taken(i, j) - taken(i, j - 1);
-                const double xx = first_x - (taken(i - 1, j) - taken(i - 2, j)), yy = first_y - (taken(i, j - 1) - taken(i, j - 2));
-                const double xxx = xx - (taken(i - 1, j) - 2 * taken(i - 2, j) + taken(i - 3, j));
-                const double yyy = yy - (taken(i, j - 1) - 2 * taken(i, j - 2) + taken(i, j - 3));
+                const double second_x = first_x - (taken(i - 1, j) - taken(i - 2, j)),
+                             second_y = first_y - (taken(i, j - 1) - taken(i, j - 2));
+                const double third_x = second_x - (taken(i - 1, j) - 2 * taken(i - 2, j) + taken(i - 3, j));
+                const double third_y = second_y - (taken(i, j - 1) - 2 * taken(i, j - 2) + taken(i, j - 3));
                 worst = check::worse(worst, form < 2    ? std::max(std::abs(first_x), std::abs(first_y))
-                                            : form == 2 ? std::max(std::abs(xx), std::abs(yy))
-                                                        : std::max(std::abs(xxx), std::abs(yyy)));
+                                            : form == 2 ? std::max(std::abs(second_x), std::abs(second_y))
+                                                        : std::max(std::abs(third_x), std::abs(third_y)));
             }
         CHECK_CLOSE(worst, 0, 1e-12);
         OK(rsc_surface_destroy(&surface));
