@@ -3,7 +3,6 @@
 
 It fails, too, where something public is called by none of them or could be taken for something else unseen:
     an output of a function of rsc.h that calls.cpp does not print; two outputs of a function that are alike whenever they are printed;
-    a message other than in calls_said.txt;
     a procedure of rsc.f90 or rsc.py, a routine of rsc77.c, a member of rsc_result (rsc_results.f90) that its test does not use.
 
 usage: compare_calls.py SOURCE_FOLDER fortran CALLS_C CALLS_FORTRAN CALLS_77
@@ -84,11 +83,6 @@ def what_calls_leaves_out(functions, rows, source):
     return wrong
 
 
-def words(language, rows):
-    """What is said of failures, and what a language says of its own."""
-    return {f"{language} {scene} {what} {number}: {values}" for (scene, what, number), values in rows.items() if scene == "own" or (language == "c" and what.endswith(".code"))}
-
-
 def differences(language, reference, rows):
     def belongs(scene, what):
         if scene in SCENES_LACKING[language]:
@@ -159,14 +153,11 @@ def main():
     reference = rows_of([program])
     functions = declarations(text_of(folder, "src", "rsc.h"))
     wrong = what_calls_leaves_out(functions, reference, text_of(test, "fortran", "calls.cpp"))
-    compared, said = 0, words("c", reference)
+    compared = 0
     for name, command in {"fortran": more[:1], "77": more[1:]}.items() if language == "fortran" else [("python", [sys.executable, os.path.join(test, "python", "calls.py")])]:
         rows = rows_of(command)
         compared += len(rows)
         wrong += differences(name, reference, rows)
-        said |= words(name, rows)
-    foreseen = {line for line in text_of(test, "fortran", "calls_said.txt").splitlines() if line.startswith("c ") or language == "fortran"}
-    wrong += [f"not foreseen in calls_said.txt: {line}" for line in sorted(said - foreseen)] + [f"never said, in calls_said.txt: {line}" for line in sorted(foreseen - said)]
     if language == "fortran":
         wrong += uncalled_fortran(text_of(modules, "rsc.f90"), text_of(test, "fortran", "calls.f90"))
         wrong += uncalled_77(text_of(modules, "rsc77.c"), text_of(test, "fortran", "calls77.f90"), text_of(modules, "README"))

@@ -2,9 +2,7 @@
 import copy
 import itertools
 import math
-import os
 import pickle
-import re
 import unittest
 
 import numpy as np
@@ -82,20 +80,12 @@ CASES = [
 ]
 
 
-SAID = os.path.join(os.path.dirname(os.path.abspath(__file__)), "arguments_said.txt")
-
-
 class Arguments(unittest.TestCase):
     def test_refused(self):
-        said = []
         for k, (action, word) in enumerate(CASES):
             with self.subTest(number=k, word=word):
-                with self.assertRaisesRegex((ValueError, rsc.Error), word) as caught:
+                with self.assertRaisesRegex((ValueError, rsc.Error), word):
                     action()
-                said.append(f"{k} {type(caught.exception).__name__} {caught.exception}".replace("\n", "|"))
-        # Word for word, but for addresses in memory.
-        with open(SAID, encoding="utf-8") as file:
-            self.assertEqual([re.sub("0x[0-9a-f]+", "0x...", line) for line in said], file.read().splitlines())
 
     def test_state(self):
         with self.assertRaises(rsc.Error) as caught:
