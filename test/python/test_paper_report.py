@@ -1,11 +1,8 @@
-"""output/plot/paper*.py on files whose answers are known: every number of the report, what the pictures show.
+"""output/plot/paper*.py on files whose answers are known: the numbers of the report. The pictures and the sentences are not tested.
 
 usage: test_paper_report.py FOLDER_OF_PLOT
 """
 import contextlib
-import io
-import math
-import os
 import re
 import sys
 import tempfile
@@ -20,13 +17,11 @@ except ImportError:
     sys.exit(77)  # the reports need it, nothing else does
 
 sys.path.insert(0, sys.argv.pop(1))
-import paper  # noqa: E402
 import paper_common  # noqa: E402
 import paper_contact  # noqa: E402
 import paper_laws  # noqa: E402
 import paper_pressure  # noqa: E402
 import paper_surfaces  # noqa: E402
-from figure_contents import ANYTHING, bars, contents, differences, ellipses, legend_of, line, picture  # noqa: E402
 from result_files import write_result  # noqa: E402
 
 COLOURS = ["#0b3c5d", "#c1440e", "#4b8b3b", "#6a4c93", "#777777", "#b08d00", "#000000", "#1f9e9e"]
@@ -37,17 +32,15 @@ STEP = {round(z, 2): k for k, z in enumerate(Z)}
 BODY = ("surface%sigma", "surface%L_lambda_s", "surface%L_lambda_l", "solids%R", "surface%n", "surface%hurst")
 
 
-def report_of(*functions, folder=None, full=True):
-    """(lines, contents of figures by name) of figures of the paper."""
-    report, figures = paper_common.Report(), {}
-    report.full = full
-    keep = lambda figure, folder, name: figures.__setitem__(name, contents(figure)) or paper_common.plt.close(figure)
+def report_of(*functions, folder=None):
+    """The report of figures of the paper; the figures are not looked at."""
+    report = paper_common.Report()
     with contextlib.ExitStack() as stack:
         for module in (paper_surfaces, paper_contact, paper_pressure):
-            stack.enter_context(unittest.mock.patch.object(module, "save", keep))
+            stack.enter_context(unittest.mock.patch.object(module, "save", lambda figure, folder, name: paper_common.plt.close(figure)))
         for function in functions:
             function(folder, report)
-    return report, figures
+    return report
 
 
 def row(report, start):
@@ -74,19 +67,8 @@ class Case(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder, self.rng = folder.name, np.random.default_rng(6)
 
-    def same(self, expected, found):
-        for axis in found["axes"]:
-            for part in [axis] + axis.get("inset", []):
-                if "legend" in part:
-                    part["legend"]["entries"] = [{"text": entry["text"]} for entry in part["legend"]["entries"]]
-        wrong = differences(expected, found, tolerance=1e-7)
-        self.assertFalse(wrong, "\n" + "\n".join(wrong[:10]))
-
     def row_is(self, report, start, paper_number, ours, error):
         self.assertEqual(row(report, start), " ".join(expected_row(paper_number, ours, error)).split(), start)
-
-    def flowing(self, report):
-        return " ".join(" ".join(report.lines).split())
 
 
 class Common(Case):
@@ -101,94 +83,8 @@ class Common(Case):
         self.assertAlmostEqual(spread, error)
         self.assertTrue(np.isnan(paper_common.jackknife(1, lambda keep: 3.0)[1]))
 
-    def test_texts(self):
-        for value, shown in ((None, "-"), (float("nan"), "-"), ("words", "words"), (12345.6, "12 346"), (-1234567.0, "-1 234 567"), (9999.0, "9999"), (0.123456, "0.1235"), (0, "0")):
-            self.assertEqual(paper_common.text(value), shown)
-        self.assertEqual(paper_common.text(0.123456, 2), "0.12")
-        for paper_number, ours, error, agrees in ((100, 101.9, np.nan, True), (100, 102.1, np.nan, False), (100, 110, 4.1, True), (100, 110, 3.9, False), (100, 98.1, 0.0, True), (100, 97.9, 0.1, False)):
-            self.assertEqual(paper_common.agrees(paper_number, ours, error), agrees, (ours, error))
-        for ours, error, words in ((1.0, 0.5, "agrees within sampling"), (3.1, 1.0, "3 standard errors apart"), (2.4, 1.0, "agrees within sampling"), (2.6, 1.0, "3 standard errors apart"), (5.0, 0.0, ""), (5.0, np.nan, "")):
-            self.assertEqual(paper_common.judge(ours, error, 0.0), words)
-
-    def test_report(self):
-        report = paper_common.Report()
-        report.heading("Title")
-        report.columns()
-        report.row("rms slope of the gold surface", 4.7, 4.5, 0.01, "a   remark\nthat goes on")
-        report.row("no number of the paper", None, 3.0, 0.5)
-        report.row("area over load is another", 2.0, 2.01)
-        report.row("words", None, "1.23", 0.1)
-        report.raw("as it is")
-        self.assertEqual(report.lines, ["", "Title", "-----", f"  {'':56s} {'paper':>12s} {'ours':>12s} {'+-':>10s} {'difference':>18s}",
-                                        f"  {'rms slope of the gold surface':56s} {'4.7':>12s} {'4.5':>12s} {'0.01':>10s} {'-0.2 (-4.3 %)':>18s}", "      a remark that goes on",
-                                        f"  {'no number of the paper':56s} {'-':>12s} {'3':>12s} {'0.5':>10s}",
-                                        f"  {'area over load is another':56s} {'2':>12s} {'2.01':>12s} {'-':>10s} {'0.01 (+0.5 %)':>18s}",
-                                        f"  {'words':56s} {'-':>12s} {'1.23':>12s} {'0.1':>10s}", "  as it is"])
-        verdict = report.verdict()
-        self.assertEqual(verdict[0], "Verdict: of 2 numbers of the paper, 1 agree (within 2.5 standard errors or 2 %), 1 do not.")
-        self.assertEqual(len(verdict), 10)
-        self.assertEqual(verdict[3].split("  ")[-1].strip(), "paper 4.7, rsc 4.5 +- 0.01: does not agree, -4 %")
-        self.assertEqual([v.strip().endswith("not in this run") for v in verdict[1:]], [True, True, False] + [True] * 6)
-        report.row("solves a level, 90 % of levels have no more than", 12.0, 12.1)
-        self.assertEqual(report.verdict()[9].strip(), "solves a level by dgesv, 90 % have at most     paper 12, rsc 12.1: agrees")
-        report.full = False
-        self.assertTrue(report.verdict()[0].endswith(" SHORTENED: no verdict on the paper."))
-        before = len(report.lines)
-        report.finding("of the full run alone")
-        self.assertEqual(len(report.lines), before)
-
-    def test_preface_and_times(self):
-        for realizations, full in ((2000, True), (6, False)):
-            write_result(self.folder, "maps", {}, {"force": ("realization", np.ones(realizations))}, source="rsc 9.9")
-            report = paper_common.Report()
-            paper.preface(report, self.folder)
-            self.assertEqual((report.full, "SHORTENED" in self.flowing(report), "rsc 9.9." in self.flowing(report)), (full, not full, True))
-        report = paper_common.Report()
-        paper.times(report, self.folder)
-        self.assertEqual(report.lines, [])
-        with open(os.path.join(self.folder, "times.txt"), "w", encoding="utf-8") as out:
-            out.write("area 12\nmaps 30 resumed\n")
-        paper.times(report, self.folder)
-        self.assertEqual(self.flowing(report), f"Time ---- Cases 42 s in all with {os.cpu_count()} processors: area 12 s, maps 30 s. Interrupted, the time is that of the last go: maps.")
-
-    def test_nothing_there(self):
-        with unittest.mock.patch.object(sys, "argv", ["paper.py", self.folder]), self.assertRaises(SystemExit) as stop:
-            paper.main()
-        self.assertRegex(str(stop.exception.code), "^paper.py: .*; the result files are made by input/paper/run.sh$")
-
 
 class Surfaces(Case):
-    def test_asperities(self):
-        made = []
-        for k, count in enumerate((30, 410)):
-            h = (np.arange(20) + 0.5) / 20
-            z, (x, y) = self.rng.normal(0, 0.01, (20, 20)), self.rng.uniform(0, 1, (2, count))
-            k1, r = self.rng.uniform(20, 90, count), self.rng.uniform(0.01, 0.05, count)
-            k2, angle = k1 * self.rng.uniform(0.001, 1, count), self.rng.uniform(-1.5, 1.5, count)
-            made.append((z, h, x, y, r, k1, k2, angle))
-            write_result(self.folder, f"asperities_00{k + 1}", {"surface%L_lambda_s": 16 * (k + 1)},
-                         {"height": ("height_y height_x", z), "height_x": ("height_x", h), **{f"asperity_{name}": ("asperity", v) for name, v in (("x", x), ("y", y), ("radius", r), ("kappa1", k1), ("kappa2", k2), ("angle", angle))},
-                          "saddles": ("realization", [3 + k]), "density_theory": ("", 44.4 + k)})
-        report, figures = report_of(paper_surfaces.asperities, folder=self.folder)
-        self.assertEqual(report.lines[-2:], ["  L/lambda_s = 16: 30 asperities, 3 saddles left out, formula 44", "  L/lambda_s = 32: 410 asperities, 4 saddles left out, formula 45"])
-        axes, colour_bars = [], []
-        for lower in (0, 1):
-            for k, (z, h, x, y, r, k1, k2, angle) in enumerate(made):
-                half = 0.5 if not lower else 1.6 / np.sqrt(x.size) if x.size > 400 else 0.12
-                ends = [0.5 - half, 0.5 + half]
-                inside = abs(h - 0.5) <= half
-                # Depth h at which a typical paraboloid, area 2 pi h/sqrt(k1 k2), covers a sixth of an asperity's room.
-                depth = 1 / (6 * x.size) / (2 * np.pi * np.median(1 / np.sqrt(k1 * k2)))
-                drawn = [ellipses(x, y, np.minimum(2 * np.sqrt(2 * depth / k2), 6 / np.sqrt(x.size)), 2 * np.sqrt(2 * depth / k1), np.degrees(angle), edge="k")]
-                if lower:
-                    drawn.append(ellipses(x, y, 2 * np.sqrt(2 * depth * r), 2 * np.sqrt(2 * depth * r), 0.0, edge="w"))
-                part = z[np.ix_(inside, inside)]
-                axes.append({"xlabel": "$x$ [mm]", "ylabel": "$y$ [mm]", "xlim": ends, "ylim": ends, "aspect": 1.0, "images": [picture(part, ends * 2, part.min(), part.max(), "from_list")], "ellipses": drawn,
-                             **({} if lower else {"title": rf"$L/\lambda_s$ = {16 * (k + 1)}: {x.size} asperities"})})
-        order = [0, 2, 1, 3]  # colour bars column by column
-        colour_bars = [{"bar": "height $z$ [mm]", "of": k} for k in order]
-        self.same({"title": "The same noise, more short waves. Solid: contours of the summits' paraboloids; dashed: circles of equal geometric curvature", "axes": axes + colour_bars}, figures["paper_asperities"])
-
     def test_greenwood(self):
         """Greenwood's density: integral 1 over kappa1 > kappa2 taken twice, mode ratio 2.2153, mean 1.356; its mode is found again in a histogram of it."""
         k = (np.arange(2000) + 0.5) / 200
@@ -215,7 +111,7 @@ class Surfaces(Case):
                          {"asperity_x": ("asperity", x), "asperity_y": ("asperity", y), "asperity_kappa1": ("asperity", pairs[:, 0] * np.sqrt(m4)), "asperity_kappa2": ("asperity", pairs[:, 1] * np.sqrt(m4)),
                           "m4": ("realization", [m4]), "m4_grid": ("realization", [m4 * 0.81]), "saddles": ("realization", [17]), "density_theory": ("", 21000.0)})
         with unittest.mock.patch.object(paper_surfaces, "mode_of", quick_mode):
-            report, figures = report_of(paper_surfaces.curvatures, folder=self.folder)
+            report = report_of(paper_surfaces.curvatures, folder=self.folder)
         pairs, x, y = made[0]
         block = np.floor(x * 8).astype(int) * 8 + np.floor(y * 8).astype(int)
         count = np.bincount(block, minlength=64)
@@ -237,45 +133,8 @@ class Surfaces(Case):
         histogram = np.histogram2d(*pairs.T, bins=[paper_surfaces.EDGES] * 2)[0]
         mode = quick_mode(histogram)
         self.assertEqual(found[1], f"{mode[0] / mode[1]:.4g}")
-        words = self.flowing(report)
-        self.assertIn("The formula gives 21 000. Saddles left out: 17; with them 20 017.", words)
-        for n, (pairs, x, y) in enumerate(made):
-            mean = np.sqrt(pairs.prod(axis=1)).mean()
-            self.assertIn(f"{4 * (n + 1)} points a wave: {len(pairs)} asperities ({len(pairs) / 21000:.3f} of the formula), <kappa_g'> = {mean:.4f} +- ", words)
-            self.assertIn(f"; by m4 of the differences <kappa_g'> = {mean / 0.9:.4f}", words)
-        axes = figures["paper_curvatures"]["axes"]
-        density = histogram / (20000 * 0.05**2)
-        m1, m2 = np.meshgrid(paper_surfaces.MIDDLE, paper_surfaces.MIDDLE, indexing="ij")
-        exact = np.where(m1 > m2, 2 * paper_surfaces.greenwood(m1, m2), 0)
-        best = paper_surfaces.exact_mode()
-        for axis, values, title in ((axes[0], density, "sampled, 4 points a wave, 20000 summits"), (axes[1], exact, "Greenwood's formula")):
-            self.assertTrue(np.allclose(axis["meshes"][0]["values"], values.T.ravel()) and np.allclose(axis["meshes"][0]["range"], (0, max(exact.max(), density.max()))))
-            self.assertEqual((axis["title"], axis["xlim"], axis["ylim"]), (title, [0, 4], [0, 2.5]))
-            self.assertEqual((axis["xlabel"], axis["ylabel"]), (r"larger curvature $\kappa_1/\sqrt{m_4}$ [1]", r"smaller curvature $\kappa_2/\sqrt{m_4}$ [1]"))
-            self.assertFalse(differences([line([best[0]], [best[1]], "None", "w", None, "+")], axis["lines"], tolerance=1e-6))
-            self.assertEqual(len(axis["segments"]), 5)
-            ends = axis["segments"][2]["ends"]  # half of the formula's maximum
-            at = np.array([paper_surfaces.greenwood(*e) for e in ends]) * 2
-            self.assertTrue(title[0] == "s" or abs(np.median(at) / (0.5 * exact.max()) - 1) < 0.03)
-        lines = axes[2]["lines"]
-        self.assertEqual(len(lines), 6)
-        middle = paper_surfaces.MIDDLE
-        for k in (0, 1):
-            for n, (pairs, _, _) in enumerate(made):
-                marginal = np.histogram(pairs[:, k], bins=paper_surfaces.EDGES)[0] / (len(pairs) * 0.05)
-                self.assertFalse(differences(line(middle[::2], marginal[::2], "None", COLOURS[k], f"$\\kappa_{k + 1}$, {4 * (n + 1)} points a wave", MARKERS[n], "no"), lines[3 * k + n]))
-            self.assertFalse(differences(line(middle, exact.sum(axis=1 - k) * 0.05, LINES[k], COLOURS[k], f"$\\kappa_{k + 1}$, Greenwood"), lines[3 * k + 2]))
-        self.assertEqual((axes[2]["xlim"], axes[2]["xlabel"], axes[2]["ylabel"], axes[2]["title"]), ([0, 5], r"curvature $\kappa/\sqrt{m_4}$ [1]", "probability density [1]", "marginal densities"))
-        self.assertEqual(figures["paper_curvatures"]["title"], "Principal curvatures of summits; cross: where the formula has its maximum; contours at 0.1, 0.3, 0.5, 0.7, 0.9 of that")
-
     def test_density(self):
-        self.density_of(512, 200)
-
-    def test_density_of_the_paper(self):
-        """At the paper's grid and bandwidth its two numbers stand beside ours: 8 % at the largest Hurst exponent, 15 % at the smallest."""
-        self.density_of(4096, 1000)
-
-    def density_of(self, grid, top):
+        grid, top = 4096, 1000  # the grid of the paper, and its largest bandwidth
         data, number = {}, 0
         for h in (0.2, 0.9):
             for waves in (16, 20, top):
@@ -287,34 +146,11 @@ class Surfaces(Case):
                              {"summits": ("realization", summits), "density_theory": ("", theory), "m2_theory": ("", 0.1), "saddles": ("realization", np.arange(4.0)), "m2_grid": ("realization", m2g), "m4_grid": ("realization", m4g)})
         for k, (h, n) in enumerate(((0.2, 256), (0.2, 1024), (0.9, 256))):
             write_result(self.folder, f"density_grid_00{k + 1}", {"surface%hurst": h, "surface%n": n}, {"summits": ("realization", np.array([90.0, 110.0]) + k), "density_theory": ("", 120.0)})
-        report, figures = report_of(paper_surfaces.density, folder=self.folder)
-        words = self.flowing(report)
+        report = report_of(paper_surfaces.density, folder=self.folder)
         for h in (0.9, 0.2):
             summits, theory, m2g, m4g = data[h, top]
             mean, error = summits.mean(), summits.std(ddof=1) / 2
-            self.row_is(report, f"grid error, n = {grid}, L/lambda_s = {top}, H = {h}", (8.0 if h == 0.9 else 15.0) if grid == 4096 else None, abs(100 * (1 - mean / theory)), 100 * error / theory)
-            formula = np.sqrt(3) / (18 * np.pi) * np.mean(m4g / m2g)
-            self.assertIn(f"Counted {mean:.0f}, formula {theory:.0f}: {'fewer' if mean < theory else 'more'} than the formula says; 2 saddles a surface left out, with them the error is "
-                          f"{abs(100 * (1 - (mean + 1.5) / theory)):.1f} %; against the formula with m2 and m4 of the differences it is {abs(100 * (1 - mean / formula)):.1f} %.", words)
-        self.assertIn(f"H = 0.2: n = 256: {100 / 120:.4f}, n = 1024: {101 / 120:.4f} H = 0.9: n = 256: {102 / 120:.4f}", words)
-        ratio = {key: (v[0].mean() / v[1] - 1, v[0].std(ddof=1) / 2 / v[1]) for key, v in data.items() if grid / key[1] >= 20}
-        worst = max(ratio, key=lambda key: abs(ratio[key][0]))
-        self.assertIn(f"With at least 20 points a wave (4 of 6 combinations) count and formula differ by {100 * np.mean([abs(v[0]) for v in ratio.values()]):.1f} % in the mean, at most {100 * ratio[worst][0]:+.1f} +- "
-                      f"{100 * ratio[worst][1]:.1f} % (H = {worst[0]:g}, zeta = {worst[1] / 8:g};", words)
-        drawn, segments = ([], []), ([], [])
-        waves = np.array([16, 20, top])
-        for k, h in enumerate((0.2, 0.9)):
-            mean, error, theory = (np.array([f(data[h, w]) for w in waves]) for f in (lambda v: v[0].mean(), lambda v: v[0].std(ddof=1) / 2, lambda v: v[1]))
-            drawn[0].extend([line(waves / 8, mean / waves**2, "None", COLOURS[k], None, MARKERS[k], "no"), line(waves / 8, theory / waves**2, LINES[k], COLOURS[k])])
-            segments[0].append(bars(waves / 8, mean / waves**2, error / waves**2, error / waves**2, COLOURS[k]))
-            drawn[1].append(line(grid / waves, mean / theory, LINES[k], COLOURS[k], None, MARKERS[k], "no"))
-            segments[1].append(bars(grid / waves, mean / theory, error / theory, error / theory, COLOURS[k]))
-        drawn[1].append(line([0, 1], [1, 1], "-", "k"))
-        self.same({"title": "", "axes": [{"xscale": "log", "ylim": [0, None], "xlabel": r"bandwidth $\zeta = k_s/k_l$ [1]", "ylabel": r"density of summits $D\,\lambda_s^2$ [1]", "title": r"points: counted, lines: $\sqrt{3}\,m_4/(18\pi m_2)$",
-                                          "lines": drawn[0], "segments": segments[0], "legend": legend_of("$H$ = 0.2", "$H$ = 0.9")},
-                                         {"xscale": "log", "xlabel": r"grid points to the shortest wave $n\lambda_s/L$ [1]", "ylabel": "counted over formula [1]", "title": f"the grid: $n$ = {grid}", "lines": drawn[1], "segments": segments[1]}]},
-                  figures["paper_density"])
-
+            self.row_is(report, f"grid error, n = {grid}, L/lambda_s = {top}, H = {h}", 8.0 if h == 0.9 else 15.0, abs(100 * (1 - mean / theory)), 100 * error / theory)
 
 class Area(Case):
     """Members of the area studies: areas of lone contacts by a radius r and of the second regime by a beta, both known, with some scatter."""
@@ -338,8 +174,8 @@ class Area(Case):
             N[contacts == 0], A[contacts == 0] = 0, 0
             lone = contacts == 1
             A[lone] = np.pi * (3 * r * N[lone] / (4 * E)) ** (2 / 3) * self.rng.uniform(0.97, 1.03, lone.sum())
-            m = self.made[name] = dict(sigma=sigma, waves=waves, low=low, R=R, E=E, m2=m2, m4=m4, unit=unit, N=N, A=A, contacts=contacts, slope=np.sqrt(2 * m2), mean_m2=m2 * 1.1, grid_m2=m2 * 0.9)
-            m["range"] = slice(6, 12) if name != "area_l48_001" else np.flatnonzero(N.mean(axis=0) >= 0.5 * N.mean(axis=0).max())
+            self.made[name] = dict(sigma=sigma, waves=waves, low=low, R=R, E=E, m2=m2, m4=m4, unit=unit, N=N, A=A, contacts=contacts, slope=np.sqrt(2 * m2),
+                                   range=slice(6, 12) if name != "area_l48_001" else np.flatnonzero(N.mean(axis=0) >= 0.5 * N.mean(axis=0).max()))
             write_result(self.folder, name, dict(zip(BODY, (sigma, waves, low, f"Infinity, {R}", 256, 0.8))),
                          {"force": ("realization step", N), "contact_area": ("realization step", A), "contacts": ("realization step", contacts), "force_mean": ("step", N.mean(axis=0)), "contact_area_mean": ("step", A.mean(axis=0)),
                           "force_std": ("step", N.std(axis=0, ddof=1)), "contact_area_std": ("step", A.std(axis=0, ddof=1)), "separation_sigma": ("step", Z), "e_star": ("", E), "m2_theory": ("", m2), "m4_theory": ("", m4),
@@ -350,7 +186,7 @@ class Area(Case):
             self.trial.append((N, A, 70.0 + k, 0.2 + 0.1 * k))
             write_result(self.folder, name, {"surface%normalise": normalise, "surface%plateau": plateau, "surface%n": 256 * (k + 1), "asperities%curvature": "'algebraic'", "solids%R": f"Infinity, {2.5 + k}"},
                          {"force": ("realization step", N), "contact_area": ("realization step", A), "separation_sigma": ("step", Z), "m2_theory": ("", 0.2 + 0.1 * k), "e_star": ("", 70.0 + k)})
-        self.report, self.figures = report_of(paper_contact.area, folder=self.folder)
+        self.report = report_of(paper_contact.area, folder=self.folder)
 
     @staticmethod
     def left_out(values):
@@ -386,31 +222,6 @@ class Area(Case):
             kappa = m["A"].mean(axis=0)[m["range"]] * m["slope"] * m["E"] / m["N"].mean(axis=0)[m["range"]]
             wanted = (f"{m['sigma']:g} {m['waves']} {m['low']} {m['R']:.1f} {beta:.4f} {error:.4f} {kappa[0]:.3f} .. {kappa[-1]:.3f} {formula:.2f} +- {df:.2f} {data:.2f} +- {dd:.2f} {data * m['unit']:.3g} {212.66 * m['unit']:.4g}")
             self.assertEqual(found, wanted.split())
-        self.assertIn(f"the transition lies {212.66 / np.mean(formulas):.0f} times lower", self.flowing(self.report))
-
-    def test_normalisations(self):
-        base = [self.made[f"area_00{k}"] for k in range(1, 7)]
-        betas = np.array([self.beta(m)[0] for m in base])
-        of = lambda f: np.array([f(m) for m in base])
-        for name, factor in (("as stated", 1.0), ("m2 summed over the modes drawn", np.sqrt(1.1)), ("m2 of finite differences", np.sqrt(0.9)), ("sqrt(m2) for the gradient", np.sqrt(0.5)),
-                             ("2 m2 for the gradient (root lacking)", of(lambda m: m["slope"])), ("no gradient at all", of(lambda m: 1 / m["slope"])), ("gradient with K in cycles, K/(2 pi)", 0.5 / np.pi),
-                             ("2 pi for sqrt(2 pi)", 1 / ROOT), ("A without pi: sum of a^2", 1 / np.pi), ("E for E*", of(lambda m: 78e3 / m["E"])), ("sigma/lambda_s for the gradient", of(lambda m: m["sigma"] * m["waves"] / m["slope"])),
-                             ("sigma/lambda_l for the gradient", of(lambda m: m["sigma"] * m["low"] / m["slope"])), ("half the area, or 2 E*", 0.5), ("a quarter of the area, pi (a/2)^2", 0.25)):
-            values = betas * factor
-            near = "   near 0.2 for all" if values.min() > 0.17 and values.max() < 0.23 else ""
-            self.assertIn(f"      {name:40s} {values.min():8.4f} .. {values.max():8.4f}{near}", self.report.lines)
-        self.assertEqual(len([text for text in self.report.lines if text.startswith("      ") and " .. " in text and "+-" not in text]), 14)
-
-    def test_near_the_paper(self):
-        """Members of a lower beta: a quarter of the area, or none, gives 0.2 for all, and is named."""
-        base = [paper_contact.AreaMember(paper_common.Result(os.path.join(self.folder, f"area_00{k}.nc"))) for k in range(1, 7)]
-        for values, near, none in ((np.linspace(0.75, 0.85, 6), True, False), (np.linspace(0.3, 3.0, 6), False, True)):
-            for m, beta in zip(base, values):
-                m.beta = beta
-            report = paper_common.Report()
-            paper_contact.normalisations(base, report)
-            words = self.flowing(report)
-            self.assertEqual(("Only a quarter of the area comes near" in words, words.endswith("None was found.")), (near, none))
 
     def test_trials(self):
         rows = [line.split() for line in self.report.lines if line.startswith("      plateau")]
@@ -423,49 +234,6 @@ class Area(Case):
                 of = lambda keep: np.sqrt(2 * m2) * E / ROOT * A[keep, s].mean() / N[keep, s].mean()
                 words += f" {of(np.arange(self.M)):.4f} +- {self.left_out([of(np.delete(np.arange(self.M), j)) for j in range(self.M)]):.4f}"
             self.assertEqual(found, words.split())
-
-    def test_picture(self):
-        axes = []
-        for waves in (32, 64):
-            drawn, segments, words = [], [], []
-            for k, m in enumerate(m for name, m in self.made.items() if m["waves"] == waves and re.match("area_00", name)):
-                shown = np.flatnonzero(m["contacts"].sum(axis=0) >= 5)[::3]
-                N, A, dN, dA = (f(m[v])[shown] for v, f in (("N", lambda v: v.mean(axis=0)), ("A", lambda v: v.mean(axis=0)), ("N", lambda v: v.std(axis=0, ddof=1)), ("A", lambda v: v.std(axis=0, ddof=1))))
-                drawn.append(line(N, A, "None", COLOURS[k], None, MARKERS[k], "no"))
-                segments += [bars(N, A, np.minimum(dN, 0.9 * N), dN, COLOURS[k], "x"), bars(N, A, np.minimum(dA, 0.9 * A), dA, COLOURS[k])]
-                ends = np.array([N.min(), N.max()])
-                beta = self.beta(m)[0]
-                drawn += [line(ends, np.pi * (3 * 0.737 / np.sqrt(m["m4"]) * ends / (4 * m["E"])) ** (2 / 3), ":", COLOURS[k]), line(ends, beta * ROOT * ends / (m["slope"] * m["E"]), "-", COLOURS[k]),
-                          line([], [], "-", COLOURS[k], rf"$\sigma$ = {m['sigma']:g} mm; $A_{{II}}$, fitted $\beta$ = {beta:.3f}", MARKERS[k], "no"), line(ends, 0.2 * ROOT * ends / (m["slope"] * m["E"]), "--", COLOURS[k])]
-            drawn += [line([], [], ":", "k", "$A_I$"), line([], [], "--", "k", r"$A_{II}$, $\beta$ = 0.2 (paper)")]
-            axes.append({"xscale": "log", "yscale": "log", "xlabel": "force $N$ [N]", "title": rf"$L/\lambda_s$ = {waves}", "lines": drawn, "segments": segments, "legend": legend_of(*[d["label"] for d in drawn if "label" in d]), "ylim": ANYTHING})
-        axes[0]["ylabel"] = "contact area $A$ [mm$^2$]"
-        least = min(m["A"].mean(axis=0)[m["contacts"].sum(axis=0) >= 5].min() for name, m in self.made.items() if re.match("area_00", name))
-        axes[0]["ylim"] = [least / 5, None]
-        self.same({"title": "Mean and standard deviation of 5 realizations, every third level", "axes": axes}, self.figures["paper_area"])
-
-    def test_slopes(self):
-        left, right = [], []
-        seen = set()
-        for k, group in enumerate(sorted({(m["R"], m["low"], m["waves"]) for m in self.made.values()})):
-            for n, m in enumerate(m for m in self.made.values() if (m["R"], m["low"], m["waves"]) == group):
-                N, A = m["N"].mean(axis=0), m["A"].mean(axis=0)
-                label = rf"$R$ = {group[0]:g} mm, $L/\lambda_l$ = {group[1]}, $L/\lambda_s$ = {group[2]}" if n == 0 else None
-                for part, least in ((left, 1), (right, 3)):
-                    some = np.flatnonzero((m["contacts"].mean(axis=0) >= least) & (N > 0))[::3]
-                    x, y = (N / (m["E"] * m["slope"]), A) if part is left else (N / m["unit"], np.divide(A, N, where=N > 0, out=0 * A) * m["E"] * m["slope"] / ROOT)
-                    part.append(line(x[some], y[some], "None", COLOURS[k], label, MARKERS[k], "no"))
-                seen.add(group)
-        beta = np.mean([self.beta(m)[0] for m in self.made.values()])
-        x = np.array([1e-9, 1e-2])
-        left += [line(x, beta * ROOT * x, "-", "k", rf"$\beta$ = {beta:.3f} (mean of the fits)"), line(x, 0.2 * ROOT * x, "--", "k", r"$\beta$ = 0.2 (paper)")]
-        at = 1.7013 / beta**3
-        right += [line([0, 1], [0.2, 0.2], "--", "k"), line([212.66] * 2, [0, 1], "-", "0.5"), line([at] * 2, [0, 1], ":", "0.5")]
-        texts = [{"text": "paper: $N^*$ = 212.66", "at": [212.66, 0.5], "colour": "#000000"}, {"text": r"paper: $\beta$ = 0.2", "at": [0.97, 0.2], "colour": "#000000"}, {"text": "1.7013/$\\beta^3$, fitted", "at": [at, 0.5], "colour": "#000000"}]
-        self.same({"title": "", "axes": [{"xscale": "log", "yscale": "log", "xlabel": r"$N/(E^*\sqrt{2m_2})$ [mm$^2$]", "ylabel": "contact area $A$ [mm$^2$]", "title": "force normalised by the rms gradient; every third level with a contact or more",
-                                          "xlim": ANYTHING, "ylim": ANYTHING, "lines": left, "legend": legend_of(*[d["label"] for d in left if "label" in d])},
-                                         {"xscale": "log", "ylim": [0, None], "xlabel": r"force $N/(m_2^{3/2}E^*/m_4)$ [1]", "ylabel": r"$\beta = \sqrt{2m_2}\,E^*A/(\sqrt{2\pi}\,N)$ [1]",
-                                          "title": "the factor of the second regime; every third level with 3 contacts or more", "lines": right, "texts": texts}]}, self.figures["paper_area_slope"])
 
 
 class Maps(Case):
@@ -503,16 +271,12 @@ class Maps(Case):
         self.assertAlmostEqual(bump[np.argmin(abs(s - 2.625))], 1 - 0.375**2 * 2.5 + 1.5 * 0.375**3)  # Catmull and Rom's: 1 - 5/2 t^2 + 3/2 t^3 at the distance t
 
     def test_maps(self):
-        report, figures = report_of(paper_contact.maps, folder=self.folder)
+        report = report_of(paper_contact.maps, folder=self.folder)
         s = STEP[1.43]
         for name, words in (("maps", "no plateau"), ("maps_plateau", "plateau")):
             N = self.runs[name][0][:, s]
             self.row_is(report, f"N at Z0/sigma = 1.43 [N], {words} ", 116.6, N.mean(), N.std(ddof=1) / np.sqrt(self.M))
         self.assertEqual(row(report, "area fraction beyond which spots would merge")[:3], ["19.6", "19.63", "0"])
-        levels = (4.0, 25 / 7, 22 / 7, 19 / 7, 16 / 7, 13 / 7)
-        text = paper_common.text
-        self.assertIn("no plateau / plateau: " + ", ".join(f"{z:.2f}: {text(self.runs['maps'][0][:, STEP[round(z, 2)]].mean())} / {text(self.runs['maps_plateau'][0][:, STEP[round(z, 2)]].mean())}" for z in levels) + ".",
-                      self.flowing(report))
         rows = [line.split() for line in report.lines if line.startswith("      plateau")]
         for found, N, name, plateau in zip(rows, self.trials, ("maps_plateau", "maps"), (".true.", ".false.")):
             base = self.runs[name][0][:, s]
@@ -520,21 +284,9 @@ class Maps(Case):
             error = np.hypot(base.std(ddof=1) / np.sqrt(self.M), change.std(ddof=1) / np.sqrt(len(N)))
             self.assertEqual(found, f"plateau {plateau} n = 512 curvature 'geometric' sigma by 'sample' {base.mean() + change.mean():.2f} +- {error:.2f}".split())
         self.assertEqual(len(rows), 2)
-        N, pressure, _, a0, _ = self.runs["maps"]
-        matrix, angle = paper_contact.bezier_matrix(12, 8), np.linspace(0, 2 * np.pi, 200)
-        axes, colour_bars = [], []
-        for k, z in enumerate(levels):
-            s = STEP[round(z, 2)]
-            field = np.maximum(matrix @ pressure[s] @ matrix.T, 0)
-            circle = 0.5 + a0[s] * np.cos(angle), 0.5 + a0[s] * np.sin(angle)
-            axes.append({"title": rf"$Z_0/\sigma$ = {z:.2f}, mean force {N.mean(axis=0)[s]:#.3g} N", "xlim": [0, 1], "ylim": [0, 1], "aspect": 1.0, "images": [picture(field, [0, 1, 0, 1], 0, field.max(), "cividis")],
-                         "lines": [line(*circle, "-", "k"), line(*circle, "--", "w")], **({"xlabel": "$x$ [mm]"} if k > 2 else {}), **({"ylabel": "$y$ [mm]"} if k % 3 == 0 else {})})
-            colour_bars.append({"bar": "pressure $p$ [N mm$^{-2}$]", "of": k})
-        self.same({"title": "Mean pressure of 6 realizations, bicubic Bezier smoothing; dashed: Hertz contact of the smooth sphere under the mean force", "axes": axes + colour_bars}, figures["paper_maps"])
-
     def test_radial(self):
         """Pressures that are Gaussian or Hertz's themselves: the fits find them."""
-        report, figures = report_of(paper_contact.radial, folder=self.folder)
+        report = report_of(paper_contact.radial, folder=self.folder)
         N, _, radial, a0, r = self.runs["maps"]
         mean = N.mean(axis=0)
         rows = [line.replace("|", " ").split() for line in report.lines if line.count("|") == 3 and "Hertz" not in line]
@@ -547,29 +299,6 @@ class Maps(Case):
             truth = (a, p0, d, 0.3) if s % 2 else (width, pg, dg, 0.1)
             self.assertTrue(abs(truth[0] / truth[3] - 1) < 2e-3 and abs(truth[1] / (30 + s) - 1) < 2e-3 and truth[2] < 2e-3, (z, found))
             self.assertTrue((dg if s % 2 else d) > 0.005, found)
-        for log, axis in enumerate(figures["paper_radial"]["axes"][:2]):
-            self.assertEqual((axis["xlabel"], axis["ylabel"], axis["xlim"]), ("distance from the tip $r$ [mm]", "pressure $p$ [N mm$^{-2}$]", [0, 0.5]))
-            self.assertEqual(len(axis["lines"]), 24)
-            for k, z in enumerate(levels):
-                s = STEP[round(z, 2)]
-                some = radial[s] > 0
-                self.assertFalse(differences(line(r[some], radial[s][some], "None", COLOURS[k], rf"$Z_0/\sigma$ = {z:.2f}", MARKERS[k], "no"), axis["lines"][3 * k]))
-                gauss, hertz = axis["lines"][3 * k + 1], axis["lines"][3 * k + 2]
-                self.assertEqual((gauss["line"], hertz["line"], gauss["x"][-1]), ("-", "--", r[-1]))
-                if s % 2:
-                    self.assertTrue(np.allclose(hertz["y"], (30 + s) * np.sqrt(np.maximum(1 - (hertz["x"] / 0.3) ** 2, 0)), atol=0.1 * (30 + s) ** 0.5) and abs(hertz["x"][-1] - 0.3) < 1e-3)
-                else:
-                    self.assertTrue(np.allclose(gauss["y"], (30 + s) * np.exp(-(gauss["x"] ** 2) / 0.02), atol=0.05))
-        self.assertEqual(figures["paper_radial"]["axes"][1]["yscale"], "log")
-        self.assertTrue(np.allclose(figures["paper_radial"]["axes"][1]["ylim"], (radial.max() * 1e-6, radial.max() * 5)))
-        self.assertEqual(figures["paper_radial"]["axes"][0]["ylim"][0], 0)
-        third = figures["paper_radial"]["axes"][2]
-        expected = [line(r / a0[s], radial[s] / (1.5 * mean[s] / (np.pi * a0[s] ** 2)), "None", COLOURS[k], None, MARKERS[k], "no") for k, s in enumerate(STEP[round(z, 2)] for z in levels)]
-        x = np.linspace(0, 1, 300)
-        expected.append(line(x, np.sqrt(1 - x**2), "-", "k", "Hertz, smooth sphere"))
-        self.same({"title": "Radial mean of the pressure, 6 realizations", "axes": [{"xlabel": r"$r/a$ [1], $a$ of the smooth sphere", "ylabel": r"$p/p_0$ [1], $p_0$ of the smooth sphere", "xlim": [0, 4], "ylim": [0, 1.05],
-                   "title": "beside the smooth sphere under the same force", "lines": expected, "legend": legend_of("Hertz, smooth sphere")}]}, {"title": figures["paper_radial"]["title"], "axes": [third]})
-
 
 class Contacts(Case):
     """Densities over contacts, hardness, spots, the paper's method."""
@@ -608,7 +337,7 @@ class Contacts(Case):
                          {("spot_area_pdf", "standard_deviation"): np.array([2.0, 3.0, 4.0]) + k, ("spot_area_pdf", "mean"): np.array([1.5, 1.0, 1.0])})
 
     def test_mean_pressure(self):
-        report, figures = report_of(paper_pressure.pressures, folder=self.folder)
+        report = report_of(paper_pressure.pressures, folder=self.folder)
         for z in self.LEVELS:
             for name, words in (("maps", "no plateau"), ("maps_plateau", "plateau")):
                 c = self.runs[name]["contacts"][:, STEP[z]]
@@ -619,74 +348,25 @@ class Contacts(Case):
         found = [text for text in report.lines if text.startswith("      ") and text.count(",") >= 6]
         self.assertEqual(found, [trial("4 realizations, no plateau", self.runs["maps"]["contacts"]), trial("4 realizations, plateau", self.runs["maps_plateau"]["contacts"]), trial("plateau .true., n = 256, 'algebraic', R = 2.5", self.trials[0]),
                                  trial("plateau .true., n = 768, 'algebraic', R = 4.5", self.trials[2]), trial("area: sigma = 0.02, L/lambda_s = 64", self.trials[3])])
-        words = self.flowing(report)
-        self.assertIn("paper 1, 0.491, 0.122.", words)
-        between = []
-        for run in self.runs.values():
-            mean = run["contacts"].mean(axis=0)
-            order = np.argsort(mean)
-            between.append(", ".join(f"{np.interp(np.log(n / 2000), np.log(mean[order]), Z[order]):.2f}" for n in (320000, 157000, 39000)))
-        self.assertIn(f"2 000 surfaces would have the paper's three numbers at Z0/sigma = {between[0]} without and {between[1]} with the plateau.", words)
         run = self.runs["maps"]
-        lines, segments = [], []
         for k, z in enumerate(self.LEVELS):
-            scale, error, ks, skewness, mean = (run["of"]["pressure_mean_pdf", a][k] for a in ("rayleigh_scale", "rayleigh_scale_error", "ks_distance", "skewness", "mean"))
+            scale, error = (run["of"]["pressure_mean_pdf", a][k] for a in ("rayleigh_scale", "rayleigh_scale_error"))
             self.row_is(report, f"Rayleigh scale at Z0/sigma = {z:g} [N/mm2]", None, scale, error)
-            count = run["count_p"][k]
-            self.assertIn(f"Kolmogorov-Smirnov distance {ks:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(count.sum()):.4f}); skewness {skewness:.3f}, Rayleigh's 0.631; mean over scale {mean / scale:.4f}, Rayleigh's 1.2533.", words)
-            total, width = count.sum() + run["over"][k], 1.5
-            some = count > 0
-            y, dy, s = count[some] / total / width, np.sqrt(count[some]) / total / width, scale / 1e3
-            p = np.linspace(0, 29.5 * 1.5, 300)
-            lines += [line(run["p"][some] / 1e3, y, "None", COLOURS[k], None, MARKERS[k], "no"), line(p, p / s**2 * np.exp(-(p**2) / (2 * s**2)), LINES[k], COLOURS[k])]
-            segments.append(bars(run["p"][some] / 1e3, y, dy, dy, COLOURS[k]))
-        axis = {"xlabel": r"mean pressure of a contact $f/(\pi a^2)$ [GPa]", "ylabel": "probability density [GPa$^{-1}$]", "xlim": [0, None], "lines": lines, "segments": segments}
-        entries = legend_of(*[rf"$Z_0/\sigma$ = {z:.3g}, {run['count_p'][k].sum() + run['over'][k]:.0f} contacts" for k, z in enumerate(self.LEVELS)], title="lines: Rayleigh")
-        self.same({"title": "", "axes": [{**axis, "ylim": [0, None], "legend": entries}, {**axis, "yscale": "log", "ylim": [1e-8, 0.05]}]}, figures["paper_pressure_mean"])
-
-    def test_counts_of_the_paper(self):
-        """Of 2 000 realizations the paper's counts stand beside ours."""
-        contacts = self.rng.integers(0, 300, (2000, 12))
-        for name in ("maps", "maps_plateau"):
-            run = self.runs[name]
-            write_result(self.folder, name, {}, {"contacts": ("realization step", contacts), "separation_sigma": ("step", Z), "pdf_level": ("pdf_level", self.LEVELS), "pdf_separation_sigma": ("pdf_level", self.LEVELS),
-                                                 "pressure_mean_bin": ("bin", run["p"]), "pressure_mean_count": ("pdf_level bin", run["count_p"]), "pressure_mean_pdf": ("pdf_level bin", run["count_p"])},
-                         {key: v for key, v in {**run["of"], ("pressure_mean_count", "overflow"): run["over"]}.items() if key[0].startswith("pressure_mean")})
-        report, _ = report_of(paper_pressure.pressures, folder=self.folder)
-        for z, number in ((2.0, 320000), (2.5, 157000), (3.0, 39000)):
-            c = contacts[:, STEP[z]]
-            self.row_is(report, f"contacts at Z0/sigma = {z:g}, 2000 real., plateau ", number, c.sum(), c.std(ddof=1) * np.sqrt(2000))
 
     def test_full_pressure(self):
         with unittest.mock.patch.object(paper_pressure, "each_contact_once", lambda bins, counts, rng: ((0.6 + counts.sum() / 1e4, 1.3 + bins[0] / 1e4), (0.01, 0.02))):
-            report, figures = report_of(paper_pressure.full_pressure, folder=self.folder)
+            report = report_of(paper_pressure.full_pressure, folder=self.folder)
         run, other = self.runs["maps"], self.runs["maps_plateau"]
-        gamma = math.gamma
-        lines, words = [], self.flowing(report)
-        labels = []
         for k, z in enumerate(self.LEVELS):
             for r, name in ((run, "no plateau"), (other, "plateau")):
                 for a, number in (("alpha", 2 / 3), ("beta", 1.5)):
                     value, error = r["of"]["pressure_pdf", a][k], r["of"]["pressure_pdf", a + "_error"][k]
                     if value > 1e30:
                         self.assertEqual(row(report, f"exponent {a} at Z0/sigma = {z:g}, {name} ")[:2], ["0.6667", "-"])
-                        self.assertIn("Too few contacts.", words)
                     else:
                         self.row_is(report, f"exponent {a} at Z0/sigma = {z:g}, {name} ", number, value, error)
             for a, number, value, error in (("alpha", 2 / 3, 0.6 + run["count_p"][k].sum() / 1e4, 0.01), ("beta", 1.5, 1.3 + 750 / 1e4, 0.02)):
                 self.row_is(report, f"exponent {a} at Z0/sigma = {z:g}, each contact once", number, value, error)
-            self.assertIn(f"Kolmogorov-Smirnov distance of the fit {run['of']['pressure_pdf', 'ks_distance'][k]:.2g}, no plateau; {run['of']['pressure_pdf', 'independent_contacts'][k]:.0f} independent contacts", words)
-            alpha, beta, delta, mean = (run["of"]["pressure_pdf", a][k] for a in ("alpha", "beta", "delta", "mean"))
-            delta, mean = delta / 1e3, mean / 1e3
-            some = run["pdf_q"][k] > 0
-            labels.append(rf"$Z_0/\sigma$ = {z:.3g}: fitted $\alpha$ = {alpha:.3f}, $\beta$ = {beta:.3f}")
-            p = np.linspace(1e-3, 29.5 * 2, 400)
-            law = lambda a, b, d: b / (d ** (a + 1) * gamma((a + 1) / b)) * p**a * np.exp(-((p / d) ** b))
-            fixed = mean * gamma((5 / 3) / 1.5) / gamma((8 / 3) / 1.5)  # the paper's exponents, the mean of the data
-            lines += [line(run["q"][some] / 1e3, 1e3 * run["pdf_q"][k][some], "None", COLOURS[k], labels[-1], MARKERS[k], "no"), line(p, law(alpha, beta, delta), "-", COLOURS[k]), line(p, law(2 / 3, 1.5, fixed), "--", COLOURS[k])]
-        axis = {"xlabel": "pressure $p$ [GPa]", "ylabel": "probability density [GPa$^{-1}$]", "xlim": [0, None], "lines": lines}
-        self.same({"title": "", "axes": [{**axis, "ylim": [0, None], "legend": legend_of(*labels, title=r"solid: fitted; dashed: $p^{2/3}\exp(-(p/\delta)^{3/2})$, $\delta$ by the mean")}, {**axis, "yscale": "log", "ylim": [1e-9, 0.05]}]},
-                  figures["paper_pressure_full"])
 
     def test_each_contact_once(self):
         """Mean pressures all alike: the density at a point is Hertz's 2 p/p0^2, whose exponent alpha is 1 and which ends sharply, beta large. Twice the contacts: the same."""
@@ -700,26 +380,6 @@ class Contacts(Case):
         twice, smaller = paper_pressure.each_contact_once(bins, 4 * counts, np.random.default_rng(1))
         self.assertTrue(np.allclose(twice, (alpha, beta), rtol=1e-3) and 0.5 < alpha < 0.8 and 1.2 < beta < 1.7, (alpha, beta))
         self.assertTrue(np.all(error > 0) and np.all(error < 0.1) and np.all(smaller < 0.8 * error), (error, smaller))
-
-    def test_spots(self):
-        report, figures = report_of(paper_pressure.spots, folder=self.folder)
-        run, words = self.runs["maps"], self.flowing(report)
-        lines, small, labels = [], [], []
-        for k, z in enumerate(self.LEVELS):
-            scale, error, ks, deviation = (run["of"]["spot_area_pdf", a][k] for a in ("exponential_scale", "exponential_scale_error", "ks_distance", "standard_deviation"))
-            self.row_is(report, f"mean spot area at Z0/sigma = {z:g} [um2]", None, 1e6 * scale, 1e6 * error)
-            count = run["count_a"][k]
-            total = count.sum() + run["over"][k] + 1
-            self.assertIn(f"Kolmogorov-Smirnov distance from the exponential {ks:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(total):.4f}); standard deviation over mean {deviation / scale:.3f}, exponential 1.", words)
-            some, s = count > 0, 1e6 * scale
-            labels.append(rf"$Z_0/\sigma$ = {z:.3g}: mean {s:.3f} $\mu$m$^2$")
-            a = np.linspace(0.01, 29.5 * 0.2, 400)
-            lines += [line(run["a"][some] * 1e6, count[some] / total / 0.2, "None", COLOURS[k], labels[-1], MARKERS[k], "no"), line(a, np.exp(-a / s) / s, LINES[k], COLOURS[k])]
-        inset = {"xscale": "log", "yscale": "log", "ylim": [1e-6, 3], "lines": lines, "texts": [{"text": "the same, both axes logarithmic", "at": [0.04, 0.06], "colour": "#000000"}]}
-        self.same({"title": "", "axes": [{"yscale": "log", "xlabel": r"area of a contact $\pi a^2$ [$\mu$m$^2$]", "ylabel": r"probability density [$\mu$m$^{-2}$]", "xlim": [0, None], "ylim": [1e-6, 30], "title": "points: contacts, lines: exponential of the same mean",
-                                          "lines": lines, "inset": [inset], "legend": legend_of(*labels)}]}, figures["paper_spots"])
-        self.assertEqual(report.lines[-1], f"      plateau .true.   n =   256 curvature 'algebraic'  {2.0 / 1.5:.3f}")  # of 'sample' alone
-        self.assertNotIn("n =   512 curvature", words)
 
     def test_hardness(self):
         made = []
@@ -735,15 +395,12 @@ class Contacts(Case):
         contacts[:, STEP[3.0]] = plastic[:, STEP[3.0]] = 0  # nothing touches there
         for name, N, more in (("yielding_001", e, {}), ("yielding_002", y / 9, {"plastic_contacts": ("realization step", plastic)})):
             write_result(self.folder, name, {}, {"force": ("realization step", N), "contact_area": ("realization step", N**2), "contacts": ("realization step", contacts), "separation_sigma": ("step", Z), **more})
-        report, _ = report_of(paper_pressure.hardness, folder=self.folder)
+        report = report_of(paper_pressure.hardness, folder=self.folder)
         H0 = 550 / np.sqrt(1 + 0.69 / 0.18)
         self.row_is(report, "hardness at r = 0.18 um [N/mm2]", 1200, 550, 0.0)
-        words = self.flowing(report)
-        self.assertIn(f"with H0 = {H0:.0f} N/mm2 gives 550; the printed 1.2 GPa would need H0 = {1200 / np.sqrt(1 + 0.69 / 0.18):.0f} N/mm2, or r = {0.69 / ((1200 / H0) ** 2 - 1):.4f} um.", words)
         for name, text in (("maps", "no plateau"), ("maps_plateau", "plateau")):
             r = 1e3 / self.runs[name]["kappa"]
             self.row_is(report, f"r_g = 1/<kappa_g> [um], {text}, of the grid", 0.18, r.mean(), r.std(ddof=1) / 2)
-            self.assertIn(f"0.737/sqrt(m4) of the formulas is {737 / np.sqrt(self.runs[name]['m4']):.4f} um.", words)
         for k, (z, near) in enumerate(((2.6, 1), (1.9, 0))):
             parts = [(asperity[sum(count[:k]) : sum(count[: k + 1])], radius, a[sum(count[:k]) : sum(count[: k + 1])], p[sum(count[:k]) : sum(count[: k + 1])]) for count, asperity, radius, a, p in made]
             total = sum(len(part[0]) for part in parts)
@@ -751,28 +408,21 @@ class Contacts(Case):
                 share = sum((part[3] > limit(part)).sum() for part in parts) / total
                 found = row(report, f"beyond it at Z0/sigma = {z:.3g}, {name} [%]")
                 self.assertEqual(found, ["-", f"{100 * share:.3f}", f"{100 * np.sqrt(max(share * (1 - share), 1 / total) / total):.2g}"])
-            scale = self.runs["maps"]["of"]["pressure_mean_pdf", "rayleigh_scale"][near]
-            self.assertIn(f"{total} contacts; errors are at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / scale) ** 2 / 2)):.2g} % below 550 N/mm2", words)
         for z in (2.5, 2.0, 10 / 7, 1.0):
             s = STEP[round(z, 2)]
             share = plastic[:, s].sum() / contacts[:, s].sum()
             self.assertEqual(row(report, f"contacts that yield at Z0/sigma = {z:.3g} [%]"), ["-", f"{100 * share:.2f}", f"{100 * np.sqrt(share * (1 - share) / contacts[:, s].sum()):.2g}"])
             for name, N in (("elastic", e), ("yielding", y / 9)):
                 self.row_is(report, f"N at Z0/sigma = {z:.3g} [N], {name}", None, N[:, s].mean(), N[:, s].std(ddof=1) / 2)
-            self.assertIn(f"yielding over elastic: N {y[:, s].sum() / 9 / e[:, s].sum():.4f}, A {(y[:, s] ** 2).sum() / 81 / (e[:, s] ** 2).sum():.2f}", words)
-        self.assertNotIn("at Z0/sigma = 3 [", words)
         slope = self.runs["maps"]["slope"]
         self.row_is(report, "rms slope of the gold surface", 4.7, slope.mean(), slope.std(ddof=1) / 2)
-        self.assertIn(f"Formula {np.sqrt(20):.3f} without, {np.sqrt(22):.3f} with the plateau", words)
 
     def test_paper_method(self):
         contacts, solves, residual = np.array([[0, 2, 3, 4, 5.0, 6, 7]]), np.array([[99, 8, 14, 9, 11, 7, 10.0]]), np.array([[1, 1e-9, 3e-9, 2e-9, 1e-9, 1e-9, 5e-10]])
         write_result(self.folder, "dgesv", {}, {"contacts": ("realization step", contacts), "iterations": ("realization step", solves), "residual": ("realization step", residual)})
-        report, _ = report_of(paper_pressure.paper_method, folder=self.folder)
+        report = report_of(paper_pressure.paper_method, folder=self.folder)
         self.row_is(report, "solves a level, 10 %", 7.0, 7.5, np.nan)  # of 7, 8, 9, 10, 11, 14
         self.row_is(report, "solves a level, 90 %", 12.0, 12.5, np.nan)
-        self.assertIn("Smallest 7, largest 14, median 10, mean 9.8 over 6 levels.", self.flowing(report))
-        self.assertIn("(at most 3e-09 here)", self.flowing(report))
 
 
 class Laws(Case):
@@ -791,8 +441,7 @@ class Laws(Case):
             made[name] = dict(N=N, A=A, contacts=contacts, beyond=beyond, count=count, law="elements" if model == "elements" else law, waves=waves, points=8.0 + k if model == "elements" else n / waves)
             write_result(self.folder, name, {"solver%model": f"'{model}'", "asperities%law": f"'{law}'", "surface%L_lambda_s": waves, "surface%n": n, "elements%points_per_wave": 8.0 + k, "surface%plateau": ".true." if plateau else ".false."},
                          {"force": ("realization step", N), "contact_area": ("realization step", A), "contacts": ("realization step", contacts), "beyond_law": ("realization step", beyond), "separation_sigma": ("step", Z), "e_star": ("", E), "m2_theory": ("", m2)})
-        report, _ = report_of(paper_laws.laws, folder=self.folder)
-        words = self.flowing(report)
+        report = report_of(paper_laws.laws, folder=self.folder)
 
         def beta(m, z, keep=None):
             keep = np.arange(m["count"]) if keep is None else keep
@@ -823,12 +472,6 @@ class Laws(Case):
             m = made[name]
             self.row_is(report, f"beta at 1 sigma, L/lambda_s = 128, {m['law']} ", 0.2, *with_error(m["count"], lambda keep: beta(m, 1.0, keep)))
         t = made["elements_002"]
-        self.assertIn(f"give {beta(t, 2.0):.2f} at 2 sigma and {beta(t, 1.0):.2f} at 1 sigma:", words)
-        self.assertIn(f"A_II has {100 * 0.2 / beta(t, 1.0):.0f} % of the area", words)
-        change = {law: abs(beta(made[f"laws_00{2 + k}"], 1.0) - beta(made[f"laws_00{5 + k}"], 1.0)) for k, law in enumerate(("hertz", "elliptic", "fourth_order"))}
-        f = made["laws_007"]
-        self.assertIn(f"With 8 points to the shortest wave instead of 4, beta at 1 sigma and L/lambda_s = 128 changes by {change['hertz']:.4f} for hertz, whose summits are grid points, by {change['elliptic']:.4f} for elliptic and "
-                      f"{change['fourth_order']:.4f} for fourth_order, which look between them. There {100 * f['beyond'][:, STEP[1.0]].sum() / f['contacts'][:, STEP[1.0]].sum():.0f} % of the contacts are beyond", words)
         rows = [text.split() for text in report.lines if re.match(r" {6,} *(64|128) [a-z]", text)]
         wanted = []
         for truth, runs in (("elements_001", ["laws_001"]), ("elements_002", ["laws_005", "laws_006", "laws_007"])):
@@ -841,20 +484,13 @@ class Laws(Case):
                     cells += f" {np.mean(off):+.1f} ({max(off, key=abs):+.1f})"
                 wanted.append(cells.split())
         self.assertEqual(rows, wanted)
-        s, counts = STEP[1.43], []
+        s = STEP[1.43]
         for name, truth, run in (("no plateau", "elements_002", "maps"), ("plateau", "elements_003", "maps_plateau")):
             t, r = made[truth], made[run]
             count = min(t["count"], r["count"])
             ratio, error = with_error(count, lambda keep: t["N"][keep, s].sum() / r["N"][keep, s].sum())
             mean, of_mean = r["N"][:, s].mean(), r["N"][:, s].std(ddof=1) / np.sqrt(r["count"])
             self.row_is(report, f"N at Z0/sigma = 1.43 [N], {name}, elements", 116.6, mean * ratio, mean * ratio * np.hypot(of_mean / mean, error / ratio))
-            self.assertIn(f"That of {r['count']} realizations with the paper's asperities, times {ratio:.4f} +- {error:.4f}, elements over asperities on {count} of these surfaces.", words)
-            for what, m in (("hertz", r), ("elements", t)):
-                found = [m["contacts"][:count, STEP[z]].mean() for z in (2.0, 2.5, 3.0)]
-                counts.append(found)
-                self.assertIn(f"{name}, {what} " + " ".join(f"{c:.2f}" for c in found) + " " + ", ".join(f"{n / c:.0f}" for n, c in zip((320000, 157000, 39000), found)), words)
-        fewer = 100 * (1 - np.array(counts[1]) / counts[0])
-        self.assertIn(f"Without plateau elements have {fewer[0]:.0f}, {fewer[1]:.0f} and {fewer[2]:.0f} % fewer contacts", words)
 
 
 def quick_mode(histogram):
