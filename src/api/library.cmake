@@ -52,6 +52,8 @@ if(RSC_FORTRAN)
   set(rsc_fortran_folder ${rsc_fortran_root}/${compiler_name}-${compiler_version})
 
   add_library(rsc_fortran STATIC ${PROJECT_SOURCE_DIR}/modules/rsc.f90)
+  file(GLOB included ${PROJECT_SOURCE_DIR}/modules/generated/*.inc)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/modules/rsc.f90 PROPERTIES OBJECT_DEPENDS "${included}")
   set(modules ${PROJECT_BINARY_DIR}/modules)
   set_target_properties(rsc_fortran PROPERTIES Fortran_MODULE_DIRECTORY ${modules} EXPORT_NAME fortran)
   target_compile_options(rsc_fortran PRIVATE $<$<Fortran_COMPILER_ID:GNU>:-std=f2018 -Wall -Wextra>)
@@ -65,6 +67,8 @@ else()
   set(rsc_fortran_folder ${rsc_fortran_root})  # the source alone, for any compiler
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/modules/rsc.f90 ${PROJECT_SOURCE_DIR}/modules/rsc_results.f90 DESTINATION ${rsc_fortran_folder})
+install(FILES ${PROJECT_SOURCE_DIR}/modules/generated/interface.inc ${PROJECT_SOURCE_DIR}/modules/generated/wrappers.inc
+        DESTINATION ${rsc_fortran_folder}/generated)  # rsc.f90 includes them
 
 # FORTRAN 77: subroutines with integer handles, in C, for any Fortran compiler.
 add_library(rsc_77 STATIC ${PROJECT_SOURCE_DIR}/modules/rsc77.c)
@@ -73,7 +77,7 @@ target_link_libraries(rsc_77 PUBLIC rsc_shared PRIVATE $<BUILD_INTERFACE:rsc_war
 add_library(rsc::rsc77 ALIAS rsc_77)
 install(TARGETS rsc_77 EXPORT rscTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
-install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc.py]])")
+install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc.py;${PROJECT_SOURCE_DIR}/modules/_rsc_h.py]])")
 install(SCRIPT ${PROJECT_SOURCE_DIR}/modules/install_python.cmake)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rscConfig.cmake.in ${PROJECT_BINARY_DIR}/rscConfig.cmake

@@ -18,11 +18,8 @@ set_tests_properties(fortran.api_stop PROPERTIES PASS_REGULAR_EXPRESSION "ERROR 
 
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
-  set(check_interface ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/check_interface.py)
-  set(interface ${PROJECT_SOURCE_DIR}/src/rsc.h ${PROJECT_SOURCE_DIR}/src/api/tickets.h ${PROJECT_SOURCE_DIR}/modules/rsc.f90)
-  add_test(NAME fortran.interface COMMAND ${check_interface} ${interface})
-  add_test(NAME fortran.interface_check_itself COMMAND ${check_interface} --self-test ${interface})
-  set_tests_properties(fortran.interface fortran.interface_check_itself PROPERTIES LABELS fortran)
+  add_test(NAME fortran.generated COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/modules/generate.py --check)
+  set_tests_properties(fortran.generated PROPERTIES LABELS fortran)
 
   # Every argument of every routine in three languages (test/python: a fourth): the values of rsc.h, bit by bit.
   add_executable(calls_c calls.cpp)
