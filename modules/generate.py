@@ -69,7 +69,7 @@ class Function:
     def __init__(self, name, arguments, comment):
         self.name, self.short = name, name[4:]
         self.comment = " ".join(re.sub(r"\n \*", "\n", comment).split())
-        words = [a for a in arguments.split(",")]
+        words = [] if arguments.strip() in ("", "void") else arguments.split(",")
         outputs = {w.split()[-1] for w in words if "*" in w and not w.strip().startswith("const")}
         named = {n for group in re.findall(r"((?:\w+, )*\w+) \((?:in and )?out, may be null\)", self.comment) for n in group.split(", ")}
         named |= {n for group in re.findall(r"((?:\w+, )*\w+)(?::[^;]*)? all three or none of them \(null\)", self.comment) for n in group.split(", ")}
@@ -84,9 +84,9 @@ class Function:
             named |= {"separation" if self.short == "contacts_press" else "force", "status"}
         has_n = any(re.fullmatch(r"\s*int64_t n", w) for w in words)
         self.arguments = [Argument(name, w, named, has_n, w is words[0]) for w in words]
-        first = self.arguments[0]
-        self.kind = first.kind if first.role in ("handle", "new") and first.type != "void" else None
-        self.makes = first.role == "new"
+        first = self.arguments[0] if self.arguments else None
+        self.kind = first.kind if first and first.role in ("handle", "new") and first.type != "void" else None
+        self.makes = bool(first) and first.role == "new"
 
     def brief(self):
         """The first sentence of its comment."""

@@ -27,7 +27,7 @@
 !> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
 !> stat = rsc_not_converged. Asperities count from 1.
 module rsc
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_float, &
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_float, &
     c_int32_t, c_int64_t
   implicit none
   private

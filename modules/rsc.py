@@ -76,7 +76,7 @@ def _parse(prototypes):
     for line in prototypes.strip().splitlines():
         name, arguments = re.fullmatch(r"(\w+)\((.*)\)", line.strip()).groups()
         functions[name] = []
-        for argument in arguments.split(","):
+        for argument in filter(None, arguments.split(",")):
             const, kind, stars, word = re.fullmatch(r"\s*(const )?(\w+)(\**) (\w+)", argument).groups()
             functions[name].append(_Argument(bool(const), kind, len(stars), word))
     return functions
@@ -87,7 +87,7 @@ _FUNCTIONS = _parse(_rsc_h.PROTOTYPES)
 
 def _ctype(argument):
     """What ctypes is told: numbers by value; everything else is an address, made and checked by _convert."""
-    if argument.stars:
+    if argument.stars or argument.type.startswith("rsc_"):  # an address, or a function to be called back
         return ctypes.c_void_p
     return ctypes.c_double if argument.type == "double" else _INTEGERS[argument.type][0]
 
