@@ -378,7 +378,7 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
         const auto& indenter = contact->contact.indenter();
-        const auto kernel = rsc::make_kernel(rsc::Interaction::point, indenter.E_star, indenter.period);
+        const auto kernel = rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
         for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(level, *kernel, x[i], y[i]);
     });
 }

@@ -25,13 +25,19 @@ using Vector = std::vector<double>;
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures. The dense method is never the cheapest.
-Method choose_method(const SolverOptions& options, const Kernel& kernel, int candidates) {
+Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates) {
     if (kernel.none()) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
     if (options.method != Method::automatic) return options.method;
     // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
     constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
-    const double contacts = contacts_per_candidate * static_cast<double>(candidates);
-    const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates), 1e-3);
+    const double contacts = contacts_per_candidate * static_cast<double>(candidates.size());
+    double scale = 1e300;  // of a smooth part, in extents of the candidates
+    if (kernel.smooth() && candidates.size() > 0) {
+        const auto [west, east] = std::minmax_element(candidates.x.begin(), candidates.x.end());
+        const auto [south, north] = std::minmax_element(candidates.y.begin(), candidates.y.end());
+        scale = kernel.smooth()->scale() / std::max({*east - *west, *north - *south, 1e-300});
+    }
+    const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates.size()), 1e-3, 1, scale);
     return contacts * contacts / direct_rate(kernel) > mesh_cost ? Method::mesh : Method::direct;
 }
 
@@ -65,7 +71,7 @@ struct AsperityContact::Impl {
         : asperities(asperities_),
           indenter(indenter_),
           options(options_),
-          kernel(make_kernel(options_.interaction, indenter_.E_star, indenter_.period)),
+          kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
           law(make_yielding(make_law(options_.law, asperities_, indenter_.E_star), asperities_, options_.hardness,
                             traits(options_.law).sinks)),
           direct(make_direct_products(kernel)),
@@ -112,7 +118,7 @@ void AsperityContact::Impl::use(Method how) {
 
 void AsperityContact::Impl::select(double Z0) {
     candidates = select_candidates(ranking, asperities, indenter, options, *law, Z0);
-    use(choose_method(options, *kernel, candidates.size()));
+    use(choose_method(options, *kernel, candidates.set));
 }
 
 NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_start) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/interaction/love.hpp"
-
 namespace rsc {
 namespace {
 
@@ -27,35 +25,34 @@ constexpr std::array<double, kTerms> kSeries = [] {
 }  // namespace
 
 double spot_deflection(double force, double radius, double distance, double E_star) {
-    const double s = radius / distance;
+    const double s = radius / distance, near = Substrate(E_star).near();
     if (s >= 1) {
         const double t = distance / radius;
-        return 0.375 * force / (E_star * radius) * (2 - t * t);
+        return 0.375 * std::numbers::pi * near * force / radius * (2 - t * t);
     }
     if (s >= kFar) {
         const double t2 = 1 / (s * s);
-        return 0.75 * force / (std::numbers::pi * E_star * radius) * ((2 - t2) * std::asin(s) + std::sqrt(t2 - 1));
+        return 0.75 * near * force / radius * ((2 - t2) * std::asin(s) + std::sqrt(t2 - 1));
     }
     double sum = 0;  // the two terms above cancel
     for (std::size_t n = kTerms; n-- > 0;) sum = sum * s * s + kSeries[n];
-    return force / (std::numbers::pi * E_star * distance) * sum;
+    return near * force / distance * sum;
 }
 
 double deflection(const Level& level, const Kernel& kernel, double x, double y) {
     const Period period = kernel.period();
+    const Substrate& body = kernel.substrate();
+    const auto images = [&](double dx, double dy) { return kernel.lattice() ? body.near() * kernel.lattice()->rest(dx, dy) : 0.0; };
     double sum = 0;
     const LevelPixels& pixels = level.pixels;
     for (std::size_t k = 0; k < pixels.index.size(); ++k) {
         const double dx = period.nearest_x(x - pixels.x(k)), dy = period.nearest_y(y - pixels.y(k));
-        double of_one = pixel_kernel(dx / pixels.dx, dy / pixels.dx, pixels.dy / pixels.dx);
-        if (kernel.lattice()) of_one += pixels.dy * kernel.lattice()->rest(dx, dy);
-        sum += pixels.pressure[k] * pixels.dx * of_one;
+        sum += pixels.pressure[k] * (body.under_pixel(dx, dy, pixels.dx, pixels.dy) + pixels.dx * pixels.dy * images(dx, dy));
     }
-    if (!pixels.index.empty()) return sum / (std::numbers::pi * kernel.modulus());
+    if (!pixels.index.empty()) return sum;
     for (std::size_t k = 0; k < level.f.size(); ++k) {
-        const double dx = period.nearest_x(x - level.x[k]), dy = period.nearest_y(y - level.y[k]);
-        sum += spot_deflection(level.f[k], level.a[k], std::sqrt(dx * dx + dy * dy), kernel.modulus());
-        if (kernel.lattice()) sum += level.f[k] / (std::numbers::pi * kernel.modulus()) * kernel.lattice()->rest(dx, dy);
+        const double dx = period.nearest_x(x - level.x[k]), dy = period.nearest_y(y - level.y[k]), d = std::sqrt(dx * dx + dy * dy);
+        sum += spot_deflection(level.f[k], level.a[k], d, body.modulus()) + level.f[k] * (body.smooth_at(d) + images(dx, dy));
     }
     return sum;
 }

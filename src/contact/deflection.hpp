@@ -12,7 +12,8 @@ namespace rsc {
 double spot_deflection(double force, double radius, double distance, double E_star);
 
 // The sum over the contacts of a level at (x, y) [length], positive down. Spots that are no circles, and pressures that are not
-// Hertz's (laws 'elliptic', 'fourth_order'), are taken as Hertz's over the circle of the same area: exact far away. Of pixels it is Love's.
+// Hertz's (laws 'elliptic', 'fourth_order'), are taken as Hertz's over the circle of the same area: exact far away. Of pixels it is Love's. Layers are
+// felt by a spot as by a point.
 // Where everything repeats, images act as points and the mean of the deflection is 0: it is that from the mean plane.
 double deflection(const Level& level, const Kernel& kernel, double x, double y);
 

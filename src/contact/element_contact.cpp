@@ -54,7 +54,7 @@ struct ElementContact::Impl {
         : heights(heights_),
           indenter(indenter_),
           options(options_),
-          products(make_tree_products(indenter_.E_star, heights_.dx, heights_.dy, kInnerError, 0.1 * options_.tolerance)),
+          products(make_tree_products(substrate_of(indenter_), heights_.dx, heights_.dy, kInnerError, 0.1 * options_.tolerance)),
           solver(*products, options_.hardness.H0),
           blocks_x((heights_.nx + kBlock - 1) / kBlock),
           blocks_y((heights_.ny + kBlock - 1) / kBlock),

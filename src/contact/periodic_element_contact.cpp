@@ -29,7 +29,7 @@ struct PeriodicElementContact::Impl {
           indenter(indenter_),
           options(options_),
           pressed(heights_.nx, heights_.ny),
-          solver({heights.nx, heights.ny, heights.dx, heights.dy, heights.data.get(), heights.stride}, indenter_.E_star,
+          solver({heights.nx, heights.ny, heights.dx, heights.dy, heights.data.get(), heights.stride}, substrate_of(indenter_),
                  options_.hardness.H0) {
         find_top();
     }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/kernel.hpp"
 #include "contact/solver/spot_blocks.hpp"
 #include "error.hpp"
 
@@ -84,13 +84,13 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         if (2 * offset > n) return offset - n;
         return 2 * offset < -n ? offset + n : offset;
     };
-    const double aspect = map.dy / map.dx;
+    const Substrate substrate = substrate_of(indenter);
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
         const int dx = nearest(touching[k].x - s.peak.x, map.nx), dy = nearest(touching[k].y - s.peak.y, map.ny);
         s.px += pressure[k] * dx;
         s.py += pressure[k] * dy;
-        s.own += pressure[k] * pixel_kernel(dx, dy * aspect, aspect);
+        s.own += pressure[k] * substrate.under_pixel(dx * map.dx, dy * map.dy, map.dx, map.dy);
     }
     const auto inside = [&](double column, int n) { return periodic ? column - n * std::floor(column / n) : column; };
     const double pixel = map.dx * map.dy;
@@ -99,8 +99,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         const double flat = static_cast<double>(s.hard) / static_cast<double>(s.pixels);
         const double area = pixel * (static_cast<double>(s.pixels) - (1 + flat * flat) * border * static_cast<double>(s.border));
         level.add_contact(s.peak.y * map.nx + s.peak.x, map.x0 + map.dx * inside(s.peak.x + s.px / s.p, map.nx),
-                          map.y0 + map.dy * inside(s.peak.y + s.py / s.p, map.ny), s.p * pixel, std::sqrt(area / std::numbers::pi),
-                          s.own * map.dx / (std::numbers::pi * indenter.E_star));
+                          map.y0 + map.dy * inside(s.peak.y + s.py / s.p, map.ny), s.p * pixel, std::sqrt(area / std::numbers::pi), s.own);
         level.force += s.p * pixel;
         level.area += area;
         if (std::isfinite(H0)) level.yields.push_back(s.hard > 0);

@@ -3,28 +3,45 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/interaction/love.hpp"
+#include "error.hpp"
+
 namespace rsc {
+
+double Substrate::near() const { return 1 / (std::numbers::pi * E_star_); }
+
+double Substrate::under_pixel(double x, double y, double dx, double dy) const {
+    double sum = near() * dx * pixel_kernel(x / dx, y / dx, dy / dx);
+    if (smooth_) sum += smooth_->over_rectangle(x, y, 0.5 * dx, 0.5 * dy);
+    return sum;
+}
+
 namespace {
 
 class FreeKernel final : public Kernel {
 public:
-    explicit FreeKernel(double E_star) : Kernel(E_star, 1 / (std::numbers::pi * E_star)) {}
-    double at(double dx, double dy) const override { return 1 / (std::numbers::pi * modulus() * std::sqrt(dx * dx + dy * dy)); }
-    double self() const override { return 0; }
+    explicit FreeKernel(Substrate substrate) : Kernel(substrate, substrate.near()) {}
+    double at(double dx, double dy) const override {
+        const double d2 = dx * dx + dy * dy, point = near() / std::sqrt(d2);
+        return smooth() ? point + smooth()->at_square(d2) : point;
+    }
+    double self() const override { return substrate().smooth_at(0); }
     double shift() const override { return 0; }
 };
 
 class NoKernel final : public Kernel {
 public:
-    explicit NoKernel(double E_star) : Kernel(E_star, 0) {}
+    explicit NoKernel(Substrate substrate) : Kernel(std::move(substrate), 0) {}
     double at(double, double) const override { return 0; }
-    double self() const override { return 0; }
+    double self() const override { return substrate().smooth_at(0); }
     double shift() const override { return 0; }
 };
 
 class PeriodicKernel final : public Kernel {
 public:
-    PeriodicKernel(double E_star, Period period) : Kernel(E_star, 1 / (std::numbers::pi * E_star)), lattice_(period) {}
+    PeriodicKernel(Substrate substrate, Period period) : Kernel(substrate, substrate.near()), lattice_(period) {
+        if (smooth()) throw Error(Failure::bad_input, "layers between two flats need solver%model = 'elements'");
+    }
     double at(double dx, double dy) const override { return near() * (lattice_.at(dx, dy) - lattice_.least()); }
     double self() const override { return near() * (lattice_.self() - lattice_.least()); }
     double shift() const override { return -near() * lattice_.least(); }
@@ -36,10 +53,10 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const Kernel> make_kernel(Interaction interaction, double E_star, Period period) {
-    if (interaction == Interaction::none) return std::make_shared<NoKernel>(E_star);
-    if (period.finite()) return std::make_shared<PeriodicKernel>(E_star, period);
-    return std::make_shared<FreeKernel>(E_star);
+std::shared_ptr<const Kernel> make_kernel(Interaction interaction, Substrate substrate, Period period) {
+    if (interaction == Interaction::none) return std::make_shared<NoKernel>(std::move(substrate));
+    if (period.finite()) return std::make_shared<PeriodicKernel>(std::move(substrate), period);
+    return std::make_shared<FreeKernel>(std::move(substrate));
 }
 
 }  // namespace rsc

@@ -1,12 +1,38 @@
-// What a force does to other places: Green's function of the elastic half-space. The one place that knows 1/(pi E* d).
+// What a force does to other places: the one place that knows 1/(pi E* d). Pairs, mesh, pixels, the periodic grid and deflections take
+// it from here.
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "contact/indentation.hpp"
 #include "contact/interaction/lattice.hpp"
+#include "contact/interaction/smooth_part.hpp"
 
 namespace rsc {
+
+// The elastic body that is pressed. A unit force lowers its surface at a distance d by 1/(pi E* d) + s(d) (Boussinesq; s: layers), a
+// mode of pressure with the wavenumber k by 2/(E* k) (1 + share(k)) of itself.
+class Substrate {
+public:
+    // E_star: E* > 0 of what lies at the surface, finite [force/length^2]. `smooth`: null for a homogeneous half-space.
+    Substrate(double E_star, std::shared_ptr<const SmoothPart> smooth = {}) : E_star_(E_star), smooth_(std::move(smooth)) {}
+
+    double modulus() const { return E_star_; }
+    double near() const;  // 1/(pi E*)
+    const SmoothPart* smooth() const { return smooth_.get(); }
+    // s(d), 0 of a homogeneous half-space.
+    double smooth_at(double d) const { return smooth_ ? smooth_->at(d) : 0; }
+    // The deflection at an offset (x, y) from the middle of a rectangle of sides dx and dy under unit pressure [length^3/force].
+    double under_pixel(double x, double y, double dx, double dy) const;
+
+private:
+    double E_star_;
+    std::shared_ptr<const SmoothPart> smooth_;
+};
+
+// The body that an indenter is pressed into.
+inline Substrate substrate_of(const Indenter& indenter) { return {indenter.E_star}; }
 
 // G(dx, dy): how far a unit force lowers the surface at an offset from it [length/force]. B_ij = G(x_i - x_j, y_i - y_j), B_ii = self().
 class Kernel {
@@ -15,7 +41,7 @@ public:
 
     // G at an offset that is not zero.
     virtual double at(double dx, double dy) const = 0;
-    // What a force does to its own place beside what the law of the place answers: through its images, if it has any.
+    // What a force does to its own place beside what the law of the place answers: through layers, and through its images, if any.
     virtual double self() const = 0;
     // What G has been raised by, so that no force raises any other place: then only what reaches above the separation can touch (alone
     // it could rise only by a spot as wide as the period). 0 for a free half-space. A solution with this G at Z0' is the one with the
@@ -28,20 +54,22 @@ public:
     // Close to the force G = near()/d + something bounded: 1/(pi E*), or 0 without interaction.
     double near() const { return near_; }
     bool none() const { return near_ == 0; }
-    double modulus() const { return E_star_; }  // E*
+    const Substrate& substrate() const { return substrate_; }
+    double modulus() const { return substrate_.modulus(); }           // E*
+    const SmoothPart* smooth() const { return substrate_.smooth(); }  // null: none
 
 protected:
-    Kernel(double E_star, double near) : E_star_(E_star), near_(near) {}
+    Kernel(Substrate substrate, double near) : substrate_(std::move(substrate)), near_(near) {}
 
 private:
-    double E_star_, near_;
+    Substrate substrate_;
+    double near_;
 };
 
-// Interaction::point: G = 1/(pi E* d), the free half-space (Boussinesq; paper, section 4). Interaction::none: G = 0.
+// Interaction::point: G = 1/(pi E* d) + s(d), the free body (Boussinesq; paper, section 4). Interaction::none: G = 0, self() = s(0).
 // A finite period: G = Gamma/(pi E*) + shift(), Gamma the sum over images less its mean (lattice.hpp): of a mode exp(i k x) of pressure
 // the half-space's answer 2/(E* |k|), of a uniform pressure none, for Z0 is measured from the mean plane of the deformed surface. Its
 // least value is 0, and self() = -2.28472/(pi E* L) on a square.
-// E_star: E* > 0, finite [force/length^2].
-std::shared_ptr<const Kernel> make_kernel(Interaction interaction, double E_star, Period period = {});
+std::shared_ptr<const Kernel> make_kernel(Interaction interaction, Substrate substrate, Period period = {});
 
 }  // namespace rsc

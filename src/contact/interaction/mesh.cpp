@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <optional>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/interaction/mesh_far.hpp"
@@ -27,6 +28,8 @@ double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * des
 
 // Far fields kept for later points take no more memory than this.
 constexpr std::size_t kKeptBytes = std::size_t{100} << 20;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The doubled mesh takes 16 bytes of memory per point at most; beyond this the near field does the rest.
 constexpr double kMeshPointsAtMost = 5e7;
@@ -69,21 +72,26 @@ private:
     std::vector<double> pairs_;
 };
 
+// What the modes of a smooth part come to, for a bound on those that a mesh does not carry.
+constexpr double kAliases = 100;
+
 struct Choice {
     double spacing = 0, pairs = 0, cost = 0;
 };
 
 // The mesh spacing of least cost. The longest side must be some cutoffs long, or there is no far field worth a mesh.
+// `resolved`: the largest spacing that resolves what else there is. No spacing (0) where that takes too many points.
 template <class Pairs>
-Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, double length_y, bool periodic, Pairs pairs) {
+Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, double length_y, bool periodic, double resolved,
+                      Pairs pairs) {
     Choice best;
     best.cost = std::numeric_limits<double>::infinity();
     // A mesh that repeats is wider than a window, and some cutoffs of any design wide.
-    const double largest = periodic ? std::min(length_x, length_y) / 32 : std::max(length_x, length_y) / 8;
+    const double largest = std::min(periodic ? std::min(length_x, length_y) / 32 : std::max(length_x, length_y) / 8, resolved);
     for (double spacing = largest; spacing > largest * 1e-7; spacing *= 0.84) {
         const double mesh =
             periodic ? length_x / spacing * (length_y / spacing) : FarField::points_needed(design, length_x / spacing, length_y / spacing);
-        if (mesh > kMeshPointsAtMost && best.spacing > 0) break;
+        if (mesh > kMeshPointsAtMost && (best.spacing > 0 || resolved < kInfinity)) break;
         const double near = pairs(design.cutoff * spacing);
         const double cost = kSecondsPerNearPair * near + kSecondsPerMeshPoint * mesh + seconds_per_point(design) * static_cast<double>(n);
         if (cost < best.cost) best = {spacing, near, cost};
@@ -91,17 +99,24 @@ Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, 
     return best;
 }
 
+// 1/d itself.
+std::shared_ptr<const Kernel> unit_kernel() {
+    static const auto unit = make_kernel(Interaction::point, 1 / std::numbers::pi);
+    return unit;
+}
+
 }  // namespace
 
 struct MeshPotential::Parts {
     std::size_t n = 0;
-    std::optional<Lattice> lattice;  // where everything repeats
-    PairSums direct;                 // for few points or points all at one place, instead of everything else
+    std::shared_ptr<const Kernel> kernel;
+    const Lattice* lattice;  // where everything repeats
+    PairSums direct;         // for few points, for all at one place, and where a mesh would be too fine, instead of everything else
 
     const MeshDesign* design = nullptr;
     Choice choice;
     double scale = 1;  // near-field coordinate units per length, a power of two
-    NearKernel kernel;
+    NearKernel near_part;
     MeshWindow window;
     std::shared_ptr<const FarField> far;
 
@@ -122,6 +137,14 @@ struct MeshPotential::Parts {
     mutable std::mutex mutex;
     mutable std::vector<std::unique_ptr<Scratch>> free_scratch;
 
+    explicit Parts(std::shared_ptr<const Kernel> kernel_) : kernel(std::move(kernel_)), lattice(kernel->lattice()), direct(*kernel) {}
+
+    // The largest spacing on which a smooth part has no more above the modes that the mesh carries than 1/d has.
+    double resolved(const MeshDesign& of) const {
+        const SmoothPart* smooth = kernel->smooth();
+        return smooth ? smooth->scale() * of.beta / of.cutoff / std::log(kAliases / of.error) : kInfinity;
+    }
+    void sum_directly(const double* px, const double* py);
     std::unique_ptr<Scratch> take_scratch() const;
     void give_back(std::unique_ptr<Scratch> scratch) const;
     void make_strips(const double* px, const double* py, double x0, double y0, double length_y);
@@ -131,9 +154,15 @@ struct MeshPotential::Parts {
     void near_field(const double* f, double* phi) const;
 };
 
-MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice,
+void MeshPotential::Parts::sum_directly(const double* px, const double* py) {
+    direct.assign(n, px, py);
+    choice.pairs = static_cast<double>(n) * static_cast<double>(n);
+    choice.cost = 1e-9 * choice.pairs;
+}
+
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel,
                              FarFields* kept)
-    : parts_(std::make_unique<Parts>()) {
+    : parts_(std::make_unique<Parts>(kernel ? std::move(kernel) : unit_kernel())) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
         throw Error(Failure::bad_input, "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())
@@ -147,31 +176,30 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         x_min = std::min(x_min, x[i]), x_max = std::max(x_max, x[i]);
         y_min = std::min(y_min, y[i]), y_max = std::max(y_max, y[i]);
     }
-    if (lattice) {
-        p.lattice = *lattice;
-        p.direct = PairSums(&*p.lattice);
-    }
-    if (n <= (lattice ? kDirectLattice : kDirect) || (x_max == x_min && y_max == y_min)) {
-        p.direct.assign(n, x, y);
-        p.choice.pairs = static_cast<double>(n) * static_cast<double>(n);
-        p.choice.cost = 1e-9 * p.choice.pairs;
+    if (n <= (p.lattice ? kDirectLattice : kDirect) || (x_max == x_min && y_max == y_min)) {
+        p.sum_directly(x, y);
         return;
     }
-    if (lattice) {
+    if (p.lattice) {
         p.repeat(n, x, y, relative_error, kept);
         return;
     }
+    p.design = &mesh_design(relative_error);
+    const double resolved = p.resolved(*p.design);
     // The kernel is symmetric in x and y.
     if (y_max - y_min > x_max - x_min) std::swap(x, y), std::swap(x_min, y_min), std::swap(x_max, y_max);
     const double length_x = x_max - x_min, length_y = y_max - y_min;
     if (!std::isfinite(length_x)) throw Error(Failure::bad_input, "mesh product: the extent of the points overflows");
-    p.design = &mesh_design(relative_error);
-    p.choice = choose_spacing(*p.design, n, length_x, length_y, false, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
+    p.choice = choose_spacing(*p.design, n, length_x, length_y, false, resolved, PairEstimate(n, x, y, x_min, y_min, length_x, length_y));
+    if (!(p.choice.spacing > 0)) {
+        p.sum_directly(x, y);
+        return;
+    }
     p.scale = std::ldexp(1.0, -std::ilogb(length_x) - 1);
     const double cutoff = p.design->cutoff * p.choice.spacing;
-    p.kernel = near_kernel(*p.design, cutoff * p.scale);
+    p.near_part = near_kernel(*p.design, cutoff * p.scale);
     p.window = mesh_window(*p.design);
-    p.far = std::make_shared<FarField>(*p.design, length_x / p.choice.spacing, length_y / p.choice.spacing);
+    p.far = std::make_shared<FarField>(*p.design, length_x / p.choice.spacing, length_y / p.choice.spacing, p.choice.spacing, *p.kernel);
     p.make_strips(x, y, x_min, y_min, length_y);
 }
 
@@ -181,12 +209,12 @@ MeshPotential& MeshPotential::operator=(MeshPotential&&) noexcept = default;
 
 void MeshPotential::Parts::make_strips(const double* px, const double* py, double x0, double y0, double length_y) {
     // Half a cutoff high at least: points of a strip meet those of two strips on each side.
-    double height = kernel.reach / scale / 2;
+    double height = near_part.reach / scale / 2;
     strips = static_cast<std::size_t>(length_y / height) + 1;
     if (lattice) height = length_y / static_cast<double>(--strips);
     std::vector<std::uint32_t> strip(n);
     const std::size_t whole = lattice ? strips + 2 : strips, all = lattice ? 2 * whole : strips;
-    const double reach = kernel.reach / scale;
+    const double reach = near_part.reach / scale;
     strip_size.assign(all, 0);
     // Calls visit(segment) for a point's strip and its copies.
     const auto segments = [&](std::size_t i, auto&& visit) {
@@ -261,11 +289,11 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
     };
     for (std::size_t i = 0; i < count; ++i) inside_x[i] = inside(px[i], period.x), inside_y[i] = inside(py[i], period.y);
     design = &mesh_design(relative_error);
-    choice = choose_spacing(*design, count, period.x, period.y, true,
+    choice = choose_spacing(*design, count, period.x, period.y, true, resolved(*design),
                             PairEstimate(count, inside_x.data(), inside_y.data(), 0, 0, period.x, period.y));
     scale = std::ldexp(1.0, -std::ilogb(std::max(period.x, period.y)) - 1);
     const double cutoff = design->cutoff * choice.spacing;
-    kernel = near_kernel(*design, cutoff * scale);
+    near_part = near_kernel(*design, cutoff * scale);
     window = mesh_window(*design);
     const std::pair<const MeshDesign*, double> key{design, choice.spacing};
     if (kept && kept->contains(key)) {
@@ -308,11 +336,11 @@ void MeshPotential::Parts::near_strip(std::size_t s, const double* f, double* ph
     const auto between = [&](std::size_t a, std::size_t b) {
         const std::size_t i = strip_begin[a], j = strip_begin[b];
         if (strip_size[a] == 0 || strip_size[b] == 0) return;
-        table.near_strips(kernel, strip_size[a], x.data() + i, y.data() + i, f + i, phi + i, strip_size[b], x.data() + j, y.data() + j,
+        table.near_strips(near_part, strip_size[a], x.data() + i, y.data() + i, f + i, phi + i, strip_size[b], x.data() + j, y.data() + j,
                           f + j, phi + j);
     };
     const std::size_t b = strip_begin[s], whole = lattice ? strips + 2 : strips;
-    table.near_own(kernel, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
+    table.near_own(near_part, strip_size[s], x.data() + b, y.data() + b, f + b, phi + b);
     if (lattice) between(s, whole + s);
     for (std::size_t t = s + 1; t < std::min(whole, s + 3); ++t) {
         between(s, t);
@@ -349,16 +377,16 @@ void MeshPotential::apply(const double* f, double* phi) const {
     p.near_field(sorted, near);
     p.spread(sorted, scratch->mesh.get());
     p.far->convolve(scratch->mesh.get());
-    const double far_unit = p.lattice ? 1 : 1 / p.choice.spacing;
+    const double unit = p.kernel->near(), near_unit = unit * p.scale, far_unit = p.lattice ? unit : unit / p.choice.spacing;
 #pragma omp parallel for schedule(static) if (p.n > kThreads)
     for (std::size_t s = 0; s < strips; ++s) {
         const std::size_t b = p.strip_begin[s];
         pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(),
                                    p.far->stride());
-        for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * p.scale + far[k] * far_unit;
+        for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * near_unit + far[k] * far_unit;
     }
     for (std::size_t s = strips; s < all; ++s)  // what the copies got
-        for (std::size_t k = p.strip_begin[s]; k < p.strip_begin[s] + p.strip_size[s]; ++k) phi[p.point[k]] += near[k] * p.scale;
+        for (std::size_t k = p.strip_begin[s]; k < p.strip_begin[s] + p.strip_size[s]; ++k) phi[p.point[k]] += near[k] * near_unit;
     p.give_back(std::move(scratch));
 }
 
@@ -373,11 +401,13 @@ double MeshPotential::cutoff() const { return parts_->far ? parts_->design->cuto
 double MeshPotential::near_pairs() const { return parts_->choice.pairs; }
 double MeshPotential::cost() const { return parts_->choice.cost; }
 
-double MeshPotential::estimated_cost(std::size_t n, double relative_error, double aspect_ratio) {
+double MeshPotential::estimated_cost(std::size_t n, double relative_error, double aspect_ratio, double scale) {
     if (n <= kDirect) return 1e-9 * static_cast<double>(n) * static_cast<double>(n);
     const double side = std::min(aspect_ratio, 1 / aspect_ratio), count = static_cast<double>(n);
     const auto pairs = [&](double radius) { return count * std::min(count, count * 3.14159 * radius * radius / side); };
-    return choose_spacing(mesh_design(relative_error), n, 1, side, false, pairs).cost;
+    const MeshDesign& design = mesh_design(relative_error);
+    const double resolved = scale < 1e300 ? scale * design.beta / design.cutoff / std::log(kAliases / design.error) : kInfinity;
+    return choose_spacing(design, n, 1, side, false, resolved, pairs).cost;
 }
 
 }  // namespace rsc

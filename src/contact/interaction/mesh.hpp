@@ -4,7 +4,7 @@
 // is band limited: forces are spread onto a mesh, convolved with F by Fourier transforms on a mesh of twice the size (free
 // boundary: nothing is periodic), and read off again. The error is one of the band limit and of the spreading window, the same at
 // every density of points. Where everything repeats, the sum over images less 1/d to the nearest one is smooth and goes to the mesh
-// with F, which needs no doubling then.
+// with F, which needs no doubling then. A smooth part of the kernel goes to the mesh, too, whose spacing then resolves it.
 //
 // By hand, over FFTW: libraries for such sums (multipole methods, Ewald sums) are made for points in three dimensions or for periodic
 // boxes, and the bits they give depend on the number of threads.
@@ -15,7 +15,7 @@
 #include <memory>
 #include <utility>
 
-#include "contact/interaction/lattice.hpp"
+#include "contact/interaction/kernel.hpp"
 
 namespace rsc {
 
@@ -30,16 +30,16 @@ public:
     // n points with finite coordinates [length]. relative_error, 1e-10 to 1e-2: wanted bound on |phi - exact| / |phi| in the
     // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
     // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
-    // With a lattice (it is copied) everything repeats: Gamma - Gamma's least value takes the place of 1/d, and a point acts on itself.
-    // `kept`: far fields made before with this lattice; what is missing is added, and all give way once they take much memory.
-    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, const Lattice* lattice = nullptr,
+    // Where the kernel repeats, a point acts on itself; so it does through a smooth part. No kernel: 1/d.
+    // `kept`: far fields made before with this kernel's lattice; what is missing is added, and all give way once they take much memory.
+    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr,
                   FarFields* kept = nullptr);
     ~MeshPotential();
     MeshPotential(MeshPotential&&) noexcept;
     MeshPotential& operator=(MeshPotential&&) noexcept;
 
     std::size_t size() const;
-    // phi[i] = sum_{j, d_ij > 0} f[j] / d_ij [force/length], in the order the points were given. A const object may be used by
+    // phi[i] = sum_j f[j] G_ij, in the order the points were given. A const object may be used by
     // several threads at once. Uses OpenMP threads when called outside of a parallel region; the bits do not depend on their
     // number.
     void apply(const double* f, double* phi) const;
@@ -50,8 +50,9 @@ public:
     double cutoff() const;            // radius of the near field [length]
     double near_pairs() const;        // estimated directed pairs of the near field
     double cost() const;              // estimated seconds a product on one core of some 3.4 GHz with AVX2
-    // The same for n points spread evenly over a rectangle with these sides.
-    static double estimated_cost(std::size_t n, double relative_error, double aspect_ratio = 1);
+    // The same for n points spread evenly over a rectangle with these sides; with a smooth part that changes little within `scale` times the
+    // longer side.
+    static double estimated_cost(std::size_t n, double relative_error, double aspect_ratio = 1, double scale = 1e300);
 
 private:
     struct Parts;

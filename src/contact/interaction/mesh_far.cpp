@@ -58,7 +58,7 @@ double FarField::points_needed(const MeshDesign& design, double length_x, double
     return period_needed(design, length_x) * period_needed(design, length_y);
 }
 
-FarField::FarField(const MeshDesign& design, double length_x, double length_y)
+FarField::FarField(const MeshDesign& design, double length_x, double length_y, double spacing, const Kernel& of)
     : period_x_(transform_length(period_needed(design, length_x))), period_y_(transform_length(period_needed(design, length_y))) {
     rows_ = static_cast<std::size_t>(length_y) + static_cast<std::size_t>(design.width) + 1;
     // A window is written kWindowWidth wide whatever its width.
@@ -74,7 +74,12 @@ FarField::FarField(const MeshDesign& design, double length_x, double length_y)
         return square;
     };
     const std::vector<double> x2 = squares(period_x_, length_x), y2 = squares(period_y_, length_y);
-    make_multiplier(design, [&](std::size_t m, std::size_t n) { return far_part(kernel, x2[m] + y2[n]); });
+    const SmoothPart* smooth = of.smooth();
+    const double unit = spacing / of.near(), square = spacing * spacing;
+    make_multiplier(design, [&](std::size_t m, std::size_t n) {
+        const double d2 = x2[m] + y2[n], far = far_part(kernel, d2);
+        return smooth ? far + unit * smooth->at_square(square * d2) : far;
+    });
 }
 
 FarField::FarField(const MeshDesign& design, const Lattice& lattice, double spacing, double cutoff)

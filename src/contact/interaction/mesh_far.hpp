@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 
-#include "contact/interaction/lattice.hpp"
+#include "contact/interaction/kernel.hpp"
 #include "contact/interaction/mesh_split.hpp"
 #include "rough/fftw_planner.hpp"
 
@@ -22,8 +22,8 @@ FftwArray fftw_array(std::size_t n);  // uninitialised; Error(no_memory)
 
 class FarField {
 public:
-    // Points within length_x times length_y mesh spacings.
-    FarField(const MeshDesign& design, double length_x, double length_y);
+    // Points within length_x times length_y mesh spacings [length]. The kernel's smooth part is taken with F, over its near().
+    FarField(const MeshDesign& design, double length_x, double length_y, double spacing, const Kernel& kernel);
     // Everything repeats: F = far part of the split for a cutoff [length], on a mesh of at least period_x/spacing x period_y/spacing
     // points; convolve() then gives the sum of f (F + Gamma's rest - its least value) [force/length].
     FarField(const MeshDesign& design, const Lattice& lattice, double spacing, double cutoff);

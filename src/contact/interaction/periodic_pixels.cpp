@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -74,7 +75,7 @@ typename PeriodicPixels<Real>::Memory PeriodicPixels<Real>::allocate(std::size_t
 }
 
 template <class Real>
-PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy)
+PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy, const std::function<double(double)>& share)
     : nx_(nx),
       ny_(ny),
       dx_(dx),
@@ -97,6 +98,17 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy)
     plans_->columns_backward = Fftw<Real>::columns(ny, block, FFTW_BACKWARD);
     if (!plans_->rows_forward || !plans_->rows_backward || !plans_->columns_forward || !plans_->columns_backward)
         throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " + std::to_string(ny) + " pixels");
+    if (!share) return;
+    const int columns = (nx / 2 + kColumns) / kColumns * kColumns, half = ny / 2 + 1;
+    layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
+    const double pi = std::numbers::pi;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int j = 0; j < half; ++j)
+        for (int i = 0; i < columns; ++i) {
+            const double k = 2 * pi * std::hypot(static_cast<double>(i) / nx / dx, static_cast<double>(j) / ny / dy);
+            layered_[static_cast<std::size_t>((i / kColumns * half + j) * kColumns + i % kColumns)] =
+                static_cast<Real>(k > 0 ? 1 + share(k) : 1.0);
+        }
 }
 
 template <class Real>
@@ -137,6 +149,12 @@ void PeriodicPixels<Real>::columns(Answer answer) {
                 for (int c = 0; c < kColumns; ++c) factor[c] = two / std::sqrt(kx2[c] + ky2[j]);
             else
                 for (int c = 0; c < kColumns; ++c) factor[c] = part * std::sqrt(kx2[c] + ky2[j]);
+            if (layered_) {
+                const std::size_t half = rows / 2 + 1, row = (static_cast<std::size_t>(b) * half + std::min(j, rows - j)) * kColumns;
+                const Real* const layered = layered_.get() + row;
+                for (int c = 0; c < kColumns; ++c)
+                    factor[c] = answer == Answer::deflection ? factor[c] * layered[c] : factor[c] / layered[c];
+            }
             if (b == 0 && j == 0) factor[0] = 0;
             Real* const value = block + j * width;
             for (int c = 0; c < kColumns; ++c) value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];

@@ -9,14 +9,14 @@ namespace rsc {
 
 // A half-space of modulus E* whose nx x ny pixels of sides dx, dy repeat in both directions. Pressures are the values of a band-limited
 // surface at the pixels' middles: each of the modes exp(i k x) that the pixels carry, |kx| <= pi/dx and |ky| <= pi/dy, answers with
-// 2/(E* |k|) of itself (Johnson 1985, section 13.2), k = 0 with none: deflections are those from the mean plane, whatever the mean pressure.
+// 2/(E* |k|) (1 + share(|k|)) of itself (Johnson 1985, section 13.2; kernel.hpp), k = 0 with none: deflections are those from the mean plane, whatever the mean pressure.
 // K is symmetric, and positive definite but for k = 0. Numbers are those of Real, float or double; results do not depend on the number
 // of threads.
 template <class Real>
 class PeriodicPixels {
 public:
-    // Throws Error(no_memory); bad_input for a grid too large.
-    PeriodicPixels(int nx, int ny, double dx, double dy);
+    // `share` takes wavenumbers in the unit 1/dx; none: a homogeneous half-space. Throws Error(no_memory); bad_input for a grid too large.
+    PeriodicPixels(int nx, int ny, double dx, double dy, const std::function<double(double)>& share = {});
     ~PeriodicPixels();
     PeriodicPixels(const PeriodicPixels&) = delete;
     PeriodicPixels& operator=(const PeriodicPixels&) = delete;
@@ -52,6 +52,7 @@ private:
     std::size_t stride_;
     bool threads_;
     Memory plane_;
+    Memory layered_;  // 1 + share of the modes with ky >= 0, [column block][row][column]; none for a homogeneous half-space
     std::unique_ptr<Plans> plans_;
 };
 

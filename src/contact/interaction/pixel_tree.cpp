@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/kernel.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
 
@@ -156,10 +156,17 @@ Layout make_layout(const std::vector<Pixel>& pixels, int rows) {
     return layout;
 }
 
+// The deflection at an offset from a pixel under unit pressure; offsets in units of the pixel's first side.
+struct PixelAnswer {
+    Substrate substrate;
+    double dx, dy;
+    double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy); }
+};
+
 // What interpolation of one number of points needs, for all layouts.
 class Interpolation {
 public:
-    Interpolation(int q, int rows, double aspect) : q_(q), rows_(rows), aspect_(aspect) {
+    Interpolation(int q, int rows, const PixelAnswer& answer) : q_(q), rows_(rows), aspect_(answer.dy / answer.dx), answer_(answer) {
         padded_ = (q * q + kLane - 1) / kLane * kLane;
         for (int i = 0; i < q; ++i) point_.push_back(chebyshev_point(q, i));
         columns_of_.resize(at(kTileColumns * q));
@@ -257,7 +264,7 @@ private:
                     for (int s = 0; s < n; ++s) {
                         const double x = half_x * (2 * ox + point_[at(s % q_)] - point_[at(t % q_)]);
                         const double y = half_y * (2 * oy + point_[at(s / q_)] - point_[at(t / q_)]);
-                        K[at(t) * at(n) + at(s)] = pixel_kernel(x, y, aspect_);
+                        K[at(t) * at(n) + at(s)] = answer_(x, y);
                     }
                 for (int sy = oy == 0 ? 1 : -1; sy <= 1; sy += 2)
                     for (int sx = ox == 0 ? 1 : -1; sx <= 1; sx += 2) {
@@ -281,6 +288,7 @@ private:
 
     int q_, rows_, padded_ = 0;
     double aspect_;
+    const PixelAnswer& answer_;
     std::vector<double> point_;                 // Chebyshev points
     std::vector<double> columns_of_, rows_of_;  // weights of a tile's columns and rows
     std::vector<double> child_[2];              // of the points of the lower and the upper half
@@ -289,20 +297,22 @@ private:
 
 class Tree final : public PixelProducts {
 public:
-    Tree(double E_star, double dx, double dy, double inner_error, double full_error)
-        : scale_(dx / (std::numbers::pi * E_star)),
+    Tree(const Substrate& substrate, double dx, double dy, double inner_error, double full_error)
+        : answer_{substrate, dx, dy},
           aspect_(dy / dx),
           rows_(rows_of(dy / dx)),
-          inner_(points_for(inner_error), rows_, aspect_),
-          full_(points_for(full_error), rows_, aspect_) {
+          inner_(points_for(inner_error), rows_, answer_),
+          full_(points_for(full_error), rows_, answer_) {
         table_.reach_x = 2 * kTileColumns;
         table_.reach_y = 2 * rows_;
         table_.stride = 2 * table_.reach_x + 1;
         near_.resize(at(table_.stride) * at(2 * table_.reach_y + 1));
-        for (int y = -table_.reach_y; y <= table_.reach_y; ++y)
-            for (int x = -table_.reach_x; x <= table_.reach_x; ++x)
-                near_[at((y + table_.reach_y) * table_.stride + x + table_.reach_x)] =
-                    pixel_kernel(std::abs(x), std::abs(y) * aspect_, aspect_);
+        for (int y = 0; y <= table_.reach_y; ++y)
+            for (int x = 0; x <= table_.reach_x; ++x) {
+                const double value = answer_(x, y * aspect_);
+                for (int v : {-y, y})
+                    for (int u : {-x, x}) near_[at((v + table_.reach_y) * table_.stride + u + table_.reach_x)] = value;
+            }
         table_.values = near_.data();
     }
 
@@ -337,9 +347,8 @@ public:
 
     double coefficient(int dx, int dy) const override {
         dx = std::abs(dx), dy = std::abs(dy);
-        if (dx <= table_.reach_x && dy <= table_.reach_y)
-            return scale_ * near_[at((dy + table_.reach_y) * table_.stride + dx + table_.reach_x)];
-        return scale_ * pixel_kernel(dx, dy * aspect_, aspect_);
+        if (dx <= table_.reach_x && dy <= table_.reach_y) return near_[at((dy + table_.reach_y) * table_.stride + dx + table_.reach_x)];
+        return answer_(dx, dy * aspect_);
     }
 
     double inner_error() const override { return interpolation_error(inner_.points()); }
@@ -351,7 +360,8 @@ private:
 
     void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w);
 
-    double scale_, aspect_;
+    PixelAnswer answer_;
+    double aspect_;
     int rows_;
     std::vector<double> near_;
     NearTable table_{};
@@ -455,13 +465,13 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                 if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
             }
     }
-    for (std::size_t k = 0; k < n; ++k) w[k] = scale_ * tiles_[layout.place[k]];
+    for (std::size_t k = 0; k < n; ++k) w[k] = tiles_[layout.place[k]];
 }
 
 }  // namespace
 
-std::unique_ptr<PixelProducts> make_tree_products(double E_star, double dx, double dy, double inner_error, double full_error) {
-    return std::make_unique<Tree>(E_star, dx, dy, inner_error, full_error);
+std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy, double inner_error, double full_error) {
+    return std::make_unique<Tree>(substrate, dx, dy, inner_error, full_error);
 }
 
 }  // namespace rsc

@@ -11,11 +11,7 @@ namespace {
 class Mesh final : public Products {
 public:
     Mesh(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error)
-        : Products(std::move(kernel)),
-          scale_(kernel_->near()),
-          full_error_(full_error),
-          inner_error_(inner_error),
-          pairs_(kernel_->lattice()) {}
+        : Products(std::move(kernel)), full_error_(full_error), inner_error_(inner_error), pairs_(*kernel_) {}
 
     void set_points(int n, const double* x, const double* y) override {
         const auto size = static_cast<std::size_t>(n);
@@ -41,7 +37,6 @@ public:
         if (!precise_ && static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
             ++count_;
             among().apply(f, phi);
-            for (std::size_t k = 0; k < active_.size(); ++k) phi[k] *= scale_;
             return;
         }
         everywhere(f, precise_);
@@ -63,7 +58,7 @@ public:
         constexpr double making = 3;  // and its one product, in products
         const double pairs = static_cast<double>(sources) * static_cast<double>(targets);
         if (pairs / direct_rate(*kernel_) < making * MeshPotential::estimated_cost(sources + targets, kElsewhere)) {
-            PairSums sums(kernel_->lattice());
+            PairSums sums(*kernel_);
             sums.assign(sources, xa.data(), ya.data());
             sums.onto(true, targets, x, y, f, phi);
         } else {
@@ -71,10 +66,9 @@ public:
             ya.insert(ya.end(), y, y + n);
             std::vector<double> force(f, f + sources), all(xa.size());
             force.resize(xa.size());
-            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_->lattice(), &far_).apply(force.data(), all.data());
+            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_, &far_).apply(force.data(), all.data());
             std::copy(all.begin() + static_cast<std::ptrdiff_t>(sources), all.end(), phi);
         }
-        for (int k = 0; k < n; ++k) phi[k] *= scale_;
     }
 
     void full(const double* f, double* phi) override {
@@ -93,7 +87,7 @@ private:
     static constexpr double kElsewhere = 1e-5;
 
     const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
-        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_->lattice(), &far_);
+        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
         return *mesh;
     }
 
@@ -107,7 +101,6 @@ private:
             pairs_.apply(f_.data(), phi_.data());
         else
             made(exact_, full_error_).apply(f_.data(), phi_.data());
-        for (double& phi : phi_) phi *= scale_;
     }
 
     // The mesh of the active points alone.
@@ -118,13 +111,13 @@ private:
                 xa.push_back(x_[static_cast<std::size_t>(k)]);
                 ya.push_back(y_[static_cast<std::size_t>(k)]);
             }
-            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_->lattice(), &far_);
+            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_, &far_);
             among_active_ = active_;
         }
         return *among_;
     }
 
-    double scale_, full_error_, inner_error_;
+    double full_error_, inner_error_;
     bool precise_ = false;
     std::vector<double> x_, y_, f_, phi_;
     FarFields far_;
@@ -136,6 +129,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Products> make_mesh_products(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error) {
+    if (kernel->none()) return make_direct_products(std::move(kernel));  // nothing to put on a mesh
     return std::make_unique<Mesh>(std::move(kernel), full_error, inner_error);
 }
 

@@ -61,13 +61,13 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     const std::size_t size = static_cast<std::size_t>(n);
     const auto K = allocate_matrix(size);
     std::vector<int> pivots;
-    PairSums pairs(kernel.lattice());
+    PairSums pairs(kernel);
     pairs.assign(size, set.x.data(), set.y.data());
 
     Vector slope(size), R(size), work(size), target(size);
     const auto penetrations = [&] {  // v = g0 - B F
         pairs.apply(force.data(), v.data());
-        for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - kernel.near() * v[i];
+        for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - v[i];
     };
     const auto residual = [&] {
         law.respond(n, set.asperity.data(), v.data(), target.data(), slope.data(), work.data());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "contact/solver/periodic_grid.hpp"
 #include "error.hpp"
@@ -33,7 +34,8 @@ ElementsOutcome solve_from_coarse(PeriodicGrid& grid, Given given, double tolera
 
 struct PeriodicElements::Impl {
     Relief relief;
-    double E_star, highest;
+    Substrate substrate;
+    double highest;
     // Heights are counted in `rms` from `zero`, both of the first heights, pressures in E* rms/dx: numbers of the order of 1.
     double zero = 0, rms = 0;
     double mean = 0;  // of the heights as they are
@@ -41,7 +43,7 @@ struct PeriodicElements::Impl {
     std::vector<Pixel> pixels;
     std::vector<double> pressures, gaps;
 
-    double pressure_unit() const { return E_star * (rms / relief.dx); }
+    double pressure_unit() const { return substrate.modulus() * (rms / relief.dx); }
     template <class F>
     double mean_of(F&& f) const;
     double mean_height() const {
@@ -69,8 +71,10 @@ void PeriodicElements::Impl::prepare() {
     mean_of([&](double z) { return largest = std::max(largest, std::abs(z - mean)); });
     if (!(largest > 0)) throw Error(Failure::bad_input, "the surface is flat: two flats without roughness touch everywhere");
     rms = largest * std::sqrt(mean_of([&](double z) { return (z - mean) / largest * ((z - mean) / largest); }));
+    PeriodicGrid::Share share;
+    if (substrate.smooth()) share = [this](double k) { return substrate.smooth()->share(k / relief.dx); };
     grid = std::make_unique<PeriodicGrid>(relief.nx, relief.ny, relief.dy / relief.dx, 1.0, highest / pressure_unit(),
-                                          StoredHeights{relief.z, relief.stride, zero, 1 / rms});
+                                          StoredHeights{relief.z, relief.stride, zero, 1 / rms}, std::move(share));
 }
 
 ElementsOutcome PeriodicElements::Impl::solve(Given given, double tolerance, int most_iterations) {
@@ -90,8 +94,8 @@ ElementsOutcome PeriodicElements::Impl::solve(Given given, double tolerance, int
     return outcome;
 }
 
-PeriodicElements::PeriodicElements(const Relief& relief, double E_star, double highest)
-    : impl_(std::make_unique<Impl>(Impl{relief, E_star, highest, 0, 0, 0, nullptr, {}, {}, {}})) {
+PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substrate, double highest)
+    : impl_(std::make_unique<Impl>(Impl{relief, substrate, highest, 0, 0, 0, nullptr, {}, {}, {}})) {
     impl_->prepare();
 }
 PeriodicElements::~PeriodicElements() = default;

@@ -27,7 +27,7 @@ class PeriodicElements {
 public:
     // Pressures are bounded by `highest` (the hardness; Infinity: none): where p = highest, w may be negative.
     // Throws Error(bad_input) for heights all the same, no_memory.
-    PeriodicElements(const Relief& relief, double E_star, double highest);
+    PeriodicElements(const Relief& relief, const Substrate& substrate, double highest);
     ~PeriodicElements();
 
     // The solution under a mean pressure > 0, or at a separation: Z0 from z = 0 to the flat, the mean of K p being 0. Throws

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace rsc {
 namespace {
@@ -26,22 +27,34 @@ constexpr int kShortest = 32;
 
 }  // namespace
 
-PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double highest, StoredHeights heights)
-    : nx_(nx), ny_(ny), aspect_(aspect), unit_(unit), highest_(highest), heights_(heights), inner_(nx, ny, 1, aspect) {
+PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double highest, StoredHeights heights, Share share_of)
+    : nx_(nx),
+      ny_(ny),
+      aspect_(aspect),
+      unit_(unit),
+      highest_(highest),
+      heights_(heights),
+      share_(std::move(share_of)),
+      inner_(nx, ny, 1, aspect, share()) {
     set_.begin.assign(at(ny) + 1, 0);
-    // K^-1 between pixels so many columns and rows apart, |k|/2 summed over the modes of a large period, times a window with a transform that
+    // K^-1 between pixels so many columns and rows apart, |k|/2/(1 + share) summed over the modes of a large period, times a window with a transform that
     // is nowhere negative: so is then the product's.
     constexpr int modes = 64;
     stencil_.assign(at((2 * kReach + 1) * kTaps), 0.0f);
     const auto window = [](int a) { return 1 - std::abs(a) / (kReach + 1.0); };
-    std::vector<double> part(at(modes * (kReach + 1)));
+    std::vector<double> inverse(at(modes * modes));
+    for (int j = 0; j < modes; ++j)
+        for (int i = 0; i < modes; ++i) {
+            const double k = std::numbers::pi / modes * std::hypot(i + 0.5, (j + 0.5) / aspect);
+            inverse[at(j * modes + i)] = 0.5 * k / (share_ ? 1 + share()(k) : 1);
+        }
     for (int b = 0; b <= kReach; ++b)
         for (int a = 0; a <= kReach; ++a) {
             double sum = 0;
             for (int j = 0; j < modes; ++j)
                 for (int i = 0; i < modes; ++i) {
                     const double kx = std::numbers::pi * (i + 0.5) / modes, ky = std::numbers::pi * (j + 0.5) / modes;
-                    sum += 0.5 * std::hypot(kx, ky / aspect) * std::cos(a * kx) * std::cos(b * ky);
+                    sum += inverse[at(j * modes + i)] * std::cos(a * kx) * std::cos(b * ky);
                 }
             const double value = sum / (modes * modes) * window(a) * window(b);
             for (int v : {-b, b})
@@ -49,8 +62,13 @@ PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double hi
         }
 }
 
+PeriodicGrid::Share PeriodicGrid::share() const {
+    if (!share_) return {};
+    return [this](double k) { return share_(k / unit_); };
+}
+
 PeriodicPixels<double>& PeriodicGrid::fine() {
-    if (!fine_) fine_ = std::make_unique<PeriodicPixels<double>>(nx_, ny_, 1, aspect_);
+    if (!fine_) fine_ = std::make_unique<PeriodicPixels<double>>(nx_, ny_, 1, aspect_, share());
     return *fine_;
 }
 
@@ -77,7 +95,7 @@ std::unique_ptr<PeriodicGrid> PeriodicGrid::coarsened(std::vector<double>& stora
         for (int i = 0; i < nx; ++i)
             storage[at(j) * at(nx) + at(i)] =
                 0.25 * (heights_(2 * j, 2 * i) + heights_(2 * j, 2 * i + 1) + heights_(2 * j + 1, 2 * i) + heights_(2 * j + 1, 2 * i + 1));
-    return std::make_unique<PeriodicGrid>(nx, ny, aspect_, 2 * unit_, highest_, StoredHeights{storage.data(), nx, 0, 1});
+    return std::make_unique<PeriodicGrid>(nx, ny, aspect_, 2 * unit_, highest_, StoredHeights{storage.data(), nx, 0, 1}, share_);
 }
 
 void PeriodicGrid::start(const PeriodicGrid& coarse) {

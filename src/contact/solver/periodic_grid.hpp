@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,8 +35,10 @@ struct PixelRows {
 
 class PeriodicGrid {
 public:
-    // `aspect` is dy/dx; K is `unit` times PeriodicPixels' own. Pressures are bounded by `highest`.
-    PeriodicGrid(int nx, int ny, double aspect, double unit, double highest, StoredHeights heights);
+    // `aspect` is dy/dx; K is `unit` times PeriodicPixels' own. `share` of a wavenumber over 1/dx of the grid with unit = 1: kernel.hpp.
+    // Pressures are bounded by `highest`.
+    using Share = std::function<double(double)>;
+    PeriodicGrid(int nx, int ny, double aspect, double unit, double highest, StoredHeights heights, Share share);
 
     // Half as many pixels a side, each as high as the mean of its four; `storage` takes them. Only where both sides are even.
     std::unique_ptr<PeriodicGrid> coarsened(std::vector<double>& storage) const;
@@ -69,6 +72,7 @@ private:
     template <class F>
     double over_rows(F&& f);
     PeriodicPixels<double>& fine();
+    Share share() const;  // in this grid's unit
 
     template <class Real>
     void evaluate(PeriodicPixels<Real>& pixels, Given given);
@@ -86,6 +90,7 @@ private:
     int nx_, ny_;
     double aspect_, unit_, highest_;
     StoredHeights heights_;
+    Share share_;
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
     std::vector<float> stencil_;  // of the preconditioner, (2 kReach + 1) rows of kTaps
