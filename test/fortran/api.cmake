@@ -16,28 +16,6 @@ set_tests_properties(fortran.api fortran.axes fortran.api_stop PROPERTIES LABELS
 set_tests_properties(fortran.api_stop PROPERTIES PASS_REGULAR_EXPRESSION "ERROR STOP rsc: [^\n]*sigma"
                      FAIL_REGULAR_EXPRESSION "went on after a failure")
 
-find_package(Python3 COMPONENTS Interpreter)
-if(Python3_FOUND)
-  add_test(NAME fortran.generated COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/modules/generate.py --check)
-  set_tests_properties(fortran.generated PROPERTIES LABELS fortran)
-
-  # Every argument of every routine in three languages (test/python: a fourth): the values of rsc.h, bit by bit.
-  add_executable(calls_c calls.cpp)
-  target_link_libraries(calls_c PRIVATE rsc::rsc rsc_warnings)
-  add_library(calls_common STATIC calls_common.f90)
-  add_executable(calls_fortran calls.f90)
-  target_link_libraries(calls_fortran PRIVATE rsc::fortran calls_common)
-  add_executable(calls_77 calls77.f90)
-  target_link_libraries(calls_77 PRIVATE rsc::rsc77 calls_common)
-  foreach(program calls_common calls_fortran calls_77)
-    target_compile_options(${program} PRIVATE -fcheck=all,no-array-temps -Wall)
-  endforeach()
-  add_test(NAME fortran.calls
-           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/compare_calls.py ${PROJECT_SOURCE_DIR} fortran $<TARGET_FILE:calls_c>
-                   $<TARGET_FILE:calls_fortran> $<TARGET_FILE:calls_77>)
-  set_tests_properties(fortran.calls PROPERTIES LABELS fortran TIMEOUT 60)
-endif()
-
 # Objects inside types and threads, optimised: there a compiler uses every freedom it has.
 find_package(OpenMP COMPONENTS Fortran)
 add_executable(test_objects test_objects.f90)
