@@ -4,15 +4,10 @@ target_link_libraries(test_api_fortran PRIVATE rsc::fortran)
 target_compile_options(test_api_fortran PRIVATE -fcheck=all,no-array-temps -Wall)
 add_test(NAME fortran.api COMMAND test_api_fortran)
 
-add_executable(test_axes test_axes.f90)
-target_link_libraries(test_axes PRIVATE rsc::fortran rsc::rsc77)
-target_compile_options(test_axes PRIVATE -fcheck=all -Wall)
-add_test(NAME fortran.axes COMMAND test_axes)
-
 add_executable(test_api_stop test_api_stop.f90)
 target_link_libraries(test_api_stop PRIVATE rsc::fortran)
 add_test(NAME fortran.api_stop COMMAND test_api_stop)
-set_tests_properties(fortran.api fortran.axes fortran.api_stop PROPERTIES LABELS fortran TIMEOUT 60)
+set_tests_properties(fortran.api fortran.api_stop PROPERTIES LABELS fortran TIMEOUT 60)
 set_tests_properties(fortran.api_stop PROPERTIES PASS_REGULAR_EXPRESSION "ERROR STOP rsc: [^\n]*sigma"
                      FAIL_REGULAR_EXPRESSION "went on after a failure")
 

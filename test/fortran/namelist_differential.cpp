@@ -1,5 +1,6 @@
 // rsc and gfortran's runtime read the same namelist inputs and must agree on every value, bit for bit, or both refuse.
-// Usage: namelist_differential READER FOLDER, where READER is the program of namelist_reader.f90.
+// Usage: namelist_differential READER FOLDER, where READER is the program of namelist_reader.f90
+//        namelist_differential --write FILE: the groups of that program
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -212,10 +213,67 @@ std::string difference(const std::string& text, const Reading& reading, const An
     return {};
 }
 
+// One group of the registry: declarations, namelist, defaults, the read, and every value printed.
+void write_group(std::ostream& out, const std::string& group) {
+    std::string names, declared, defaults, printed;
+    Case standing;
+    for (const Key& key : registry()) {
+        if (group != key.group) continue;
+        const std::string name = key.name, full = "'" + group + "%" + name + "', " + name;
+        const std::string shape = key.size > 1 ? "(" + std::to_string(key.size) + ")" : "";
+        const Slot slot = key.slot(standing);
+        std::string kind = "real(real64), save", value = "unset", call = "    call put_real(" + full + ")\n";
+        const auto real = [](double x) { return "transfer(int(z'" + bits(x) + "', int64), unset)"; };
+        if (auto* b = std::get_if<bool*>(&slot)) {
+            kind = "logical", value = **b ? ".true." : ".false.", call = "    call put_logical(" + full + ")\n";
+        } else if (auto* n = std::get_if<int*>(&slot)) {
+            kind = "integer(int32)", value = std::to_string(**n),
+            call = "    call put_integer(" + full.substr(0, full.rfind(' ')) + " int(" + name + ", int64))\n";
+        } else if (auto* m = std::get_if<std::int64_t*>(&slot)) {
+            kind = "integer(int64)", value = std::to_string(**m), call = "    call put_integer(" + full + ")\n";
+        } else if (key.type == Type::string || key.type == Type::choice) {
+            kind = "character(len=" + std::to_string(key.type == Type::choice ? 32 : key.length) + ")";
+            value = "'" + get_key(standing, group + "%" + name);
+            value = value.size() > 1 ? value.substr(1) : "''";  // get_key gives it in quotes
+            call = "    call put_text(" + full + ")\n";
+        } else if (key.list) {
+            call = "    call put_list(" + full + ")\n";
+        } else if (key.size > 1) {
+            call = "    do k = 1, " + std::to_string(key.size) + "\n      call put_real(" + full + "(k), k)\n    end do\n";
+        }
+        for (int i = 0; auto* x = std::get_if<double*>(&slot); ++i) {
+            if (i == key.size) break;
+            defaults += "    " + name + (key.size > 1 ? "(" + std::to_string(i + 1) + ")" : "") + " = " + real((*x)[i]) + "\n";
+        }
+        if (auto* o = std::get_if<std::optional<double>*>(&slot); o && **o) value = real(***o);
+        if (!std::holds_alternative<double*>(slot)) defaults += "    " + name + " = " + value + "\n";
+        names += (names.empty() ? "" : ", &\n      ") + name;
+        declared += "    " + kind + " :: " + name + shape + "\n";
+        printed += call;
+    }
+    out << "  subroutine read_" << group << "()\n"
+        << declared << "    integer :: ios, k\n    namelist /" << group << "/ " << names << "\n    k = 0\n"
+        << defaults << "    read (unit_in, nml=" << group << ", iostat=ios)\n    call status('" << group << "', ios)\n"
+        << printed << "  end subroutine\n\n";
+}
+
+int write_groups(const std::string& path) {
+    std::ofstream out(path);
+    std::string calls;
+    for (const std::string_view group : group_names()) {
+        if (group == "study") continue;
+        write_group(out, std::string(group));
+        calls += "    call read_" + std::string(group) + "()\n";
+    }
+    out << "  subroutine read_groups()\n" << calls << "  end subroutine\n";
+    return out.good() ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc != 3) return 2;
+    if (std::string(argv[1]) == "--write") return write_groups(argv[2]);
     const std::string reader = argv[1], folder = argv[2];
     const char* many = std::getenv("RSC_NAMELIST_CASES");  // more than the test's own, for a longer search
     const char* seed = std::getenv("RSC_NAMELIST_SEED");
