@@ -6,31 +6,41 @@
     python3 output/plot/plot.py output/study_manifest.nc          the members of a study as curves, and as maps where two keys vary
     python3 output/plot/plot.py FILE --format pdf --width single  for a journal (single, onehalf, double, or millimetres)
 
-Levels that are not to be relied on (variable `status`) carry a mark that the legend explains. Needs numpy, matplotlib and netCDF4
-(Debian: python3-matplotlib, python3-netcdf4).
+Levels that are not to be relied on (variable `status`) carry a mark that the legend explains; a band is the error that is expected, or the
+scatter over realizations. Needs numpy, matplotlib and netCDF4 (Debian: python3-matplotlib, python3-netcdf4); if this Python lacks them,
+another one of this machine that has them is taken.
 """
 
 import argparse
 import os
 import sys
-import textwrap
 from collections import namedtuple
 
+from plot_python import needs
+
+if __name__ == "__main__":
+    needs("numpy", "netCDF4", "matplotlib")
+
+import plot_area
 import plot_compare
 import plot_curves
 import plot_distributions
-import plot_maps
-import plot_sideways
+import plot_flats
+import plot_friction
+import plot_map
+import plot_radial
+import plot_spots
 import plot_study
+import plot_surface
 from plot_results import Result, members_of_manifest
 from plot_style import WIDTHS, plt
 
 # To add a picture, write a function of (results, options) that returns a figure, or None where the results do not hold what it draws.
-PICTURES = {"load": plot_curves.load, "area": plot_curves.area, "flats": plot_curves.flats, "study": plot_study.study,
-            "map": plot_maps.maps, "radial": plot_maps.radial, "spots": plot_maps.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions,
-            "spectrum": plot_distributions.spectrum, **plot_sideways.PICTURES}
+PICTURES = {"load": plot_curves.load, "area": plot_area.area, "flats": plot_flats.flats, "study": plot_study.study, "map": plot_map.maps, "radial": plot_radial.radial,
+            "spots": plot_spots.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions, "surface": plot_surface.surface, "stiffness": plot_curves.stiffness,
+            "resistance": plot_curves.resistance, "loop": plot_friction.loop, "stick": plot_friction.stick}
 
-Options = namedtuple("Options", "width step say", defaults=(150.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)))
+Options = namedtuple("Options", "width step say", defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)))
 
 
 def width(text):
@@ -50,8 +60,9 @@ def parse(words):
     parser.add_argument("--name", help="what the names of the pictures begin with (default: the name of the file, or of the first and last)")
     parser.add_argument("--only", metavar="PICTURE", action="append", choices=PICTURES, help="draw this picture only; repeatable: " + ", ".join(PICTURES))
     parser.add_argument("--step", type=int, metavar="N", help="draw maps, radial means, spots and friction of level N (from 1) only")
-    parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png", help="png has 300 dots per inch (default)")
-    parser.add_argument("--width", type=width, default=150.0, metavar="MM", help="width of the pictures: single (85 mm), onehalf (130), double (175) or a number of mm (default 150)")
+    parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png", help="png by default")
+    parser.add_argument("--dpi", type=int, default=150, metavar="N", help="dots per inch of a png: 150 fit a screen (default), 300 or more a journal")
+    parser.add_argument("--width", type=width, default=180.0, metavar="MM", help="width of the pictures: single (85 mm), onehalf (130), double (175) or a number of mm (default 180)")
     return parser.parse_args(words)
 
 
@@ -62,25 +73,17 @@ def open_results(paths):
         members = members_of_manifest(path)
         if members is None:
             try:
-                result = Result(path)
+                result = Result(path, in_si=True)
             except OSError as error:
                 sys.exit(f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file of rsc (NetCDF) is expected")
-            if not any(name in result for name in ("force", "wavenumber", "height")):
-                sys.exit(f"plot.py: {path!r} is no result file of rsc: it lacks the variable 'force'")
+            if not getattr(result.file, "source", "").startswith("rsc"):
+                sys.exit(f"plot.py: {path!r} is no result file of rsc: its attribute 'source' does not say so")
             opened.append(result)
             stems.append(os.path.splitext(os.path.basename(path))[0])
         else:
-            opened += [Result(member) for member in members]
+            opened += [Result(member, in_si=True) for member in members]
             stems.append(os.path.splitext(os.path.basename(path))[0].removesuffix("_manifest"))
     return opened, stems[0] if len(stems) == 1 else f"{stems[0]}_to_{stems[-1]}"
-
-
-def fit_title(figure):
-    """Breaks the lines of the title where the picture is too narrow for them: a character of 8 points is some 1.5 mm wide, symbols less than they look in the source."""
-    title = figure._suptitle
-    if title is not None:
-        columns = int(figure.get_size_inches()[0] * 25.4 / 1.5)
-        title.set_text("\n".join(part for line in title.get_text().split("\n") for part in textwrap.wrap(line, columns) or [""]))
 
 
 def main(words=None):
@@ -108,14 +111,15 @@ def main(words=None):
                 if arguments.only:
                     options.say(f"{name}: the file does not hold what this picture shows")
                 continue
-            fit_title(figure)
             path = os.path.join(folder, f"{arguments.name or stem}_{name}.{arguments.format}")
-            figure.savefig(path)
+            figure.savefig(path, dpi=arguments.dpi)
             plt.close(figure)
             print(path)
             drawn += 1
     except OSError as error:
         sys.exit(f"plot.py: cannot write the pictures: {error}")
+    if not drawn:
+        options.say(f"nothing to draw in {', '.join(arguments.result)}")
     return 0 if drawn else 1
 
 

@@ -2,104 +2,93 @@
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
+from matplotlib.colors import ListedColormap
 
 from plot_results import names
-from plot_style import STYLES, plt
-
-SIDE = 60  # pixels shown on either side of the one with the highest pressure
-
-
-def _spots(result, step):
-    """x, y, radius, force, ratio of the axes and angle of the asperities in contact at level `step`, and whether they yield; None where the file does not hold them."""
-    if "contact_asperity" not in result or int(result["contact_count"][step]) == 0:
-        return None
-    at = int(result["contact_start"][step]) - 1 + np.arange(int(result["contact_count"][step]))
-    asperity = np.asarray(result["contact_asperity"])[at].astype(int) - 1
-    ratio, angle = np.ones(asperity.size), np.zeros(asperity.size)
-    if "asperity_kappa1" in result and result.case.get("asperities%law", "'hertz'").strip("'") != "hertz":
-        ratio = (np.asarray(result["asperity_kappa1"])[asperity] / np.asarray(result["asperity_kappa2"])[asperity]) ** (2 / 3)  # near enough for a picture
-        angle = np.asarray(result["asperity_angle"])[asperity]
-    return (np.asarray(result["asperity_x"])[asperity], np.asarray(result["asperity_y"])[asperity], np.asarray(result["contact_radius"])[at],
-            np.asarray(result["contact_force"])[at], ratio, angle, np.asarray(result["contact_yields"])[at] if "contact_yields" in result else np.zeros(at.size))
+from plot_spots import spots_of
+from plot_style import Page, STYLES, amount, label
 
 
-def _line(spots, y, x0, x1):
+def shapes(result, step, count):
+    """Ratio of the axes of the spots of a level, and the angle of the longer one; circles where the law knows no others."""
+    if "asperity_kappa1" not in result or result.case.get("asperities%law", "'hertz'").strip("'") == "hertz":
+        return np.ones(count), np.zeros(count)
+    first = int(result["contact_start"][step]) - 1
+    which = result.window("contact_asperity", slice(first, first + count)).astype(int) - 1
+    return (result["asperity_kappa1"][which] / result["asperity_kappa2"][which]) ** (2 / 3), result["asperity_angle"][which]  # near enough for a picture
+
+
+def along_line(spots, ratio, angle, y, x0, x1):
     """Hertz's pressures of the spots along the line at y from x0 to x1; those that yield carry theirs everywhere."""
     x = np.linspace(x0, x1, 2000)
     p = np.zeros_like(x)
-    for sx, sy, a, f, ratio, angle, yields in zip(*spots):
-        major, minor = a * np.sqrt(ratio), a / np.sqrt(ratio)
-        u = (x - sx) * np.cos(angle) + (y - sy) * np.sin(angle)
-        v = -(x - sx) * np.sin(angle) + (y - sy) * np.cos(angle)
-        inside = 1 - (u / major) ** 2 - (v / minor) ** 2
+    for sx, sy, a, f, yields, r, t in zip(*spots, ratio, angle):
+        u = (x - sx) * np.cos(t) + (y - sy) * np.sin(t)
+        v = -(x - sx) * np.sin(t) + (y - sy) * np.cos(t)
+        inside = 1 - u**2 / (a * a * r) - v**2 * r / (a * a)
         p += np.where(inside > 0, f / (np.pi * a * a) * (1 if yields else 1.5 * np.sqrt(np.maximum(inside, 0))), 0)
     return x, p
 
 
 def compare(results, options):
     """What &compare found, of the first result that has it."""
-    with_elements = [r for r in results if "compare_step" in r]
-    if not with_elements:
+    having = [r for r in results if "compare_step" in r]
+    if not having:
         return None
-    result = with_elements[0]
-    if len(with_elements) > 1:
+    result = having[0]
+    if len(having) > 1:
         options.say(f"compare: {names(results)[results.index(result)]} is drawn, give one file at a time for the others")
-    steps = np.asarray(result["compare_step"]).astype(int) - 1
-    pixels = "compare_pixel_x" in result
-    figure, axes = plt.subplots(1, 3 if pixels else 1, figsize=(options.width / 25.4, options.width / 25.4 * (0.40 if pixels else 0.7)), constrained_layout=True, squeeze=False)
-    axes = axes[0]
-    errors = axes[-1]
-    for k, (name, label) in enumerate([("force_error", "$N$"), ("area_error", "$A$"), ("contacts_error", "contacts")]):
+    steps = result["compare_step"].astype(int) - 1
+    step, pixels, spots = int(steps[-1]), "compare_pixel_x" in result, spots_of(result, int(steps[-1]))
+    page = Page(options, 3 if pixels else 1, aspect=0.9 if pixels else 0.72)
+    errors = page.axes[-1]
+    for k, (name, text) in enumerate([("force_error", "$N$"), ("area_error", "$A$"), ("contacts_error", "contacts")]):
         marker, line, colour = STYLES[k]
-        errors.plot(np.asarray(result["separation_sigma"])[steps] if np.ndim(result["separation_sigma"]) == 1 else steps + 1, 100 * np.asarray(result[name]), marker + line, color=colour, ms=3,
-                    label=label)
+        errors.plot(result.mean("force")[steps], 100 * result[name], marker, ls=line, color=colour, ms=3.5, label=f"error of {text}")
     errors.axhline(0, color="k", lw=0.6)
-    errors.set_xlabel(r"$Z_0/\sigma$" if np.ndim(result["separation_sigma"]) == 1 else "level")
-    errors.set_ylabel("asperities over elements $-$ 1 [%]", fontsize=7)
-    errors.legend()
-    step = int(steps[-1])
+    errors.set_xscale("log")
+    label(errors, "x", "force $N$", result.dimension("force"))
+    label(errors, "y", "error [%]")
     if not pixels:
-        figure.suptitle(result.heading("Errors of the asperity model"), fontsize=8)
-        return figure
-    # Around the pixel of the highest pressure.
-    px, py, pressure = (np.asarray(result["compare_pixel_" + name]) for name in ("x", "y", "pressure"))
-    hx, hy = (float(result.attribute("compare_pixel_" + name, "pixel_size")[0]) for name in ("x", "y"))
-    spots = _spots(result, step)
-    peak = int(np.argmax(pressure))
-    if spots is not None and np.sum(pressure == pressure[peak]) > 1:  # many at the hardness: in the spot of the largest force
+        return page.finish(result.heading("Errors of the asperity model"))
+    px, py, pressure = (result["compare_pixel_" + name] for name in ("x", "y", "pressure"))
+    scale = result.factor("compare_pixel_x")
+    hx, hy = (float(result.attribute("compare_pixel_" + name, "pixel_size")[0]) * scale for name in ("x", "y"))
+    # Around the spot of the largest force, or where no spots are kept around the highest pressure.
+    peak, reach = int(np.argmax(pressure)), 0.0
+    if spots is not None:
         strongest = int(np.argmax(spots[3]))
-        peak = int(np.argmin(np.hypot(px - spots[0][strongest], py - spots[1][strongest])))
-    # As many pixels on either side of that one; their places are the middles of the cells of the image.
-    x0, x1, y0, y1 = px[peak] - (SIDE + 0.5) * hx, px[peak] + (SIDE + 0.5) * hx, py[peak] - (SIDE + 0.5) * hy, py[peak] + (SIDE + 0.5) * hy
+        peak, reach = int(np.argmin(np.hypot(px - spots[0][strongest], py - spots[1][strongest]))), 4 * spots[2][strongest]
+    n = int(np.clip(reach / hx, 20, 200))  # pixels on either side of that one
+    x0, x1, y0, y1 = px[peak] - (n + 0.5) * hx, px[peak] + (n + 0.5) * hx, py[peak] - (n + 0.5) * hy, py[peak] + (n + 0.5) * hy
     near = (px > x0) & (px < x1) & (py > y0) & (py < y1)
-    axis = axes[0]
-    image = np.zeros((2 * SIDE + 1, 2 * SIDE + 1))
+    axis, line = page.axes[:2]
+    image = np.full((2 * n + 1, 2 * n + 1), np.nan)
     image[((py[near] - y0) / hy).astype(int), ((px[near] - x0) / hx).astype(int)] = 1
-    axis.imshow(image, extent=(x0, x1, y0, y1), cmap="Greys", vmin=0, vmax=2, interpolation="nearest")
-    if spots is not None:
-        x, y, a, _, ratio, angle, _ = spots
-        reach = a * np.sqrt(ratio)
-        some = (x > x0 - reach) & (x < x1 + reach) & (y > y0 - reach) & (y < y1 + reach)
-        axis.add_collection(EllipseCollection(2 * (a * np.sqrt(ratio))[some], 2 * (a / np.sqrt(ratio))[some], np.degrees(angle)[some], units="x", offsets=np.c_[x, y][some],
-                                              transOffset=axis.transData, facecolors="none", edgecolors="#c1440e", linewidths=0.8))
-    axis.axhline(py[peak], color="#0b3c5d", lw=0.6, ls=":")
-    axis.set(xlim=(x0, x1), ylim=(y0, y1), xlabel=f"$x${result.unit('compare_pixel_x')}", ylabel=f"$y${result.unit('compare_pixel_y')}")
-    axis.set_title("grey: elements; red: asperities", fontsize=7)
-    axis.tick_params(labelsize=6)
-    line = axes[1]
+    axis.imshow(np.ma.masked_invalid(image), extent=(x0, x1, y0, y1), cmap=ListedColormap(["0.65"]), interpolation="nearest", aspect="auto", gid="pixels")
+    page.entry("elements", color="0.65", marker="s", ls="none")
+    values = np.zeros(2 * n + 1)
     at = near & (np.abs(py - py[peak]) < 0.25 * hy)
-    values = np.zeros(2 * SIDE + 1)
     values[((px[at] - x0) / hx).astype(int)] = pressure[at]
-    line.stairs(values, x0 + hx * np.arange(2 * SIDE + 2), color="#0b3c5d", label="elements")
-    top = values.max()
+    line.stairs(values, x0 + hx * np.arange(2 * n + 2), color="0.5", fill=True, alpha=0.5)
     if spots is not None:
-        x, p = _line(spots, py[peak], x0, x1)
-        line.plot(x, p, "--", color="#c1440e", label="asperities")
-        top = max(top, p.max())
-    line.set_ylim(0, 1.4 * top)  # room for the legend above the peak
-    line.ticklabel_format(axis="y", scilimits=(-2, 4), useMathText=True)
-    line.set(xlabel=f"$x${result.unit('compare_pixel_x')}", ylabel=f"pressure{result.unit('compare_pixel_pressure')}", xlim=(x0, x1))
-    line.tick_params(labelsize=6)
-    line.legend(loc="upper right")
-    figure.suptitle(result.heading(f"Spots and pressure at {result.level_name(step)}, errors of the asperity model"), fontsize=8)
-    return figure
+        x, y, a = spots[:3]
+        ratio, angle = shapes(result, step, x.size)
+        some = (abs(x - px[peak]) < n * hx + 3 * a) & (abs(y - py[peak]) < n * hy + 3 * a)
+        if some.any():
+            axis.add_collection(EllipseCollection(2 * (a * np.sqrt(ratio))[some], 2 * (a / np.sqrt(ratio))[some], np.degrees(angle)[some], units="xy", offsets=np.c_[x, y][some],
+                                                  transOffset=axis.transData, facecolors="none", edgecolors="#c1440e", linewidths=1.0, gid="spots"))
+        page.entry("asperities", color="#c1440e", ls="-", lw=1.0)
+        line.plot(*along_line([v[some] for v in spots], ratio[some], angle[some], py[peak], x0, x1), "-", color="#c1440e", lw=1.0)
+    axis.axhline(py[peak], color="#0b3c5d", lw=0.6, ls=":")
+    axis.set(xlim=(x0, x1), ylim=(y0, y1), title="spots around the strongest")
+    line.set(xlim=(x0, x1), title="pressure along the dotted line")
+    line.set_ylim(0, None)
+    errors.set_title("asperities over elements $-$ 1")
+    for panel in (axis, line):
+        panel.locator_params(axis="x", nbins=4)
+        label(panel, "x", "$x$", result.dimension("compare_pixel_x"))
+    label(axis, "y", "$y$", result.dimension("compare_pixel_y"))
+    label(line, "y", "pressure $p$", result.dimension("compare_pixel_pressure"))
+    force = "" if result.control() == "force" else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"
+    return page.finish(result.heading(f"Asperities and elements at {result.level_name(step)}{force}"))

@@ -1,15 +1,13 @@
-"""Result files for pictures: variables by name with absent values as NaN, units fit for a label, what a case says, and what tells
-several results apart."""
+"""Result files for pictures: variables by name with absent values as NaN, what a case says, and what tells several results apart."""
 
 import os
 import re
 import sys
 
-try:
-    import netCDF4
-    import numpy as np
-except ImportError as missing:
-    sys.exit(f"The Python module {missing.name!r} is missing; on Debian: apt install python3-numpy python3-matplotlib python3-netcdf4")
+import netCDF4
+import numpy as np
+
+from plot_style import FEW, STYLES, amount, plt, si
 
 # Keys that do not change what is computed.
 _NO_MATTER = ("run%title", "run%threads", "output%")
@@ -22,22 +20,12 @@ _SYMBOLS = {
 }
 
 
-def pretty_unit(text):
-    """ 'N mm-2' as 'N mm$^{-2}$'."""
-    return re.sub(r"(?<=[A-Za-z)])(-?\d+)\b", r"$^{\1}$", text)
-
-
-def plain(unit):
-    """' [N]' as ' N', behind a number."""
-    return unit.replace("[", "").replace("]", "")
-
-
 class Result:
-    """One result file. result[name] is a variable as an array of doubles; name in result; result.mean(name) over realizations. OSError if there is
-    no such file."""
+    """One result file. result[name] is a variable as an array of doubles; name in result; result.mean(name) over realizations. With in_si
+    everything is in SI units, whatever the units of the file. OSError if there is no such file."""
 
-    def __init__(self, path):
-        self.path = path
+    def __init__(self, path, in_si=False):
+        self.path, self.in_si = path, in_si
         self.file = netCDF4.Dataset(path)
         self.cache = {}
         self.title = getattr(self.file, "title", "")
@@ -53,19 +41,34 @@ class Result:
             self.cache[name] = self.window(name, Ellipsis)
         return self.cache[name]
 
+    def factor(self, name):
+        return si(self.unit(name))[0] if self.in_si else 1.0
+
     def window(self, name, *slices):
         """A part of a variable, without reading the rest."""
-        return np.ma.filled(np.ma.asarray(self.file.variables[name][slices]).astype(float), np.nan)
+        return np.ma.filled(np.ma.asarray(self.file.variables[name][slices]).astype(float), np.nan) * self.factor(name)
 
     def mean(self, name):
-        """A variable over steps: its mean over realizations where it has them."""
+        """A variable over steps: its mean over realizations where it has them, those without a value left out."""
         values = self[name]
-        return values.mean(axis=self.file.variables[name].dimensions.index("realization")) if "realization" in self.file.variables[name].dimensions else values
+        if "realization" not in self.file.variables[name].dimensions:
+            return values
+        axis = self.file.variables[name].dimensions.index("realization")
+        there = np.isfinite(values)
+        return np.where(there, values, 0).sum(axis=axis) / np.where(there.any(axis=axis), there.sum(axis=axis), np.nan)
+
+    def worst(self, name):
+        """The largest of a variable over realizations, over steps."""
+        return np.nan_to_num(self[name].reshape(-1, self.steps)).max(axis=0)
 
     def unit(self, name):
-        """' [mm]' for a label; empty for a pure number."""
+        """The unit in the file; empty for a pure number."""
         text = getattr(self.file.variables[name], "units", "1")
-        return "" if text == "1" else f" [{pretty_unit(text)}]"
+        return "" if text == "1" else text
+
+    def dimension(self, name):
+        """'N m-2' of a pressure: the SI unit of a variable."""
+        return si(self.unit(name))[1]
 
     def attribute(self, name, attribute):
         """One value a pdf level; absent values as NaN."""
@@ -73,7 +76,7 @@ class Result:
         return np.where(values > 9e36, np.nan, values)
 
     def number(self, key):
-        """A key of the case as a number; of several values the last (of R: the sphere's)."""
+        """A key of the case as a number, in the units of the case; of several values the last (of R: the sphere's)."""
         return float(self.case[key].split(",")[-1])
 
     def level(self, z):
@@ -82,32 +85,57 @@ class Result:
         return int(np.argmin(distance)) if distance.min() < 0.02 else None
 
     def depth(self):
-        """The separation of each level for an axis, (values, label): in sigma where the file knows it."""
+        """The separation of each level for an axis, (values, label, dimension): in sigma where the file knows it."""
         sigma = self.mean("separation_sigma") if "separation_sigma" in self else np.full(self.steps, np.nan)
         if np.isfinite(sigma).all():
-            return sigma, r"separation $Z_0/\sigma$"
-        return self.mean("separation"), "separation $Z_0$" + self.unit("separation")
+            return sigma, r"separation $Z_0/\sigma$", ""
+        return self.mean("separation"), "separation $Z_0$", self.dimension("separation")
+
+    def control(self):
+        """'separation', 'force' or 'pressure': what the levels are given as."""
+        return self.case.get("indentation%control", "separation").strip("'")
 
     def level_name(self, step):
-        values, label = self.depth()
-        name, _, unit = label.partition(" ")[2].partition(" [")
-        return f"{name} = {values[step]:.3g}" + (f" {unit[:-1]}" if unit else "")
+        """What a level is called: by the separation, force or pressure that the case asks for."""
+        if self.control() == "force" and "force" in self:
+            return f"$N$ = {amount(self.mean('force')[step], self.dimension('force'))}"
+        if self.control() == "pressure" and "pressure" in self:
+            return f"$p$ = {amount(self.mean('pressure')[step], self.dimension('pressure'))}"
+        values, text, dimension = self.depth()
+        return f"{text.partition(' ')[2]} = {amount(values[step], dimension)}"
 
     def level_status(self):
         """The worst status of each level over realizations, 0 where nothing touches, and the names of the numbers."""
         if "status" not in self:
             return np.zeros(self.steps, int), ["converged"]
-        variable = self.file.variables["status"]
-        return np.nan_to_num(self["status"].reshape(-1, self.steps)).max(axis=0).astype(int), [name.replace("_", " ") for name in variable.flag_meanings.split()]
+        return self.worst("status").astype(int), [name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()]
 
     def warning(self, step):
-        """What is to be said about a level, for a legend: ' (overlapping)'; nothing for a converged one."""
+        """What is to be said about a level: ' (overlapping)'; nothing for a converged one."""
         status, meanings = self.level_status()
         return f" ({meanings[status[step]]})" if status[step] > 0 else ""
 
     def loaded(self):
         """The levels with contact."""
-        return np.flatnonzero(self["force_mean"] > 0) if "force_mean" in self else np.array([], int)
+        return np.flatnonzero(np.nan_to_num(self.mean("force")) > 0) if "force" in self else np.array([], int)
+
+    def chosen(self, count, step):
+        """The level asked for, or `count` levels with contact, evenly spread and ending with the last; none where nothing touches."""
+        loaded = self.loaded()
+        if step is not None:
+            return [step - 1] if step - 1 in loaded else []
+        return sorted({int(s) for s in loaded[np.linspace(0, loaded.size - 1, count + 1).round().astype(int)[1:]]}) if loaded.size else []
+
+    def branches(self):
+        """The levels with contact as stretches in which the bodies only approach or only part, [(levels, parting)]. Where the answer does not
+        depend on the way to it, the levels in order of their separation are one stretch."""
+        at, z = self.loaded(), self.mean("separation") if "separation" in self else self.depth()[0]
+        remembers = self.case.get("solids%hardness", "Infinity") != "Infinity" or ("jumps" in self and self.worst("jumps").any())
+        if not remembers or at.size < 2:
+            return [(at[np.argsort(-z[at], kind="stable")], False)]
+        away = np.diff(z[at]) > 0
+        cuts = [0, *(np.flatnonzero(np.diff(away)) + 1), at.size - 1]
+        return [(at[a : b + 1], bool(away[a])) for a, b in zip(cuts[:-1], cuts[1:])]
 
     def heading(self, what):
         many = f"mean over {self.realizations} realizations" if self.realizations > 1 else "one realization"
@@ -116,6 +144,9 @@ class Result:
     def has_sphere(self):
         """False for a flat on a flat: nothing of Hertz then."""
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
+
+    def by_elements(self):
+        return "contact_x" in self or self.case.get("solver%model", "").strip("'") == "elements"
 
 
 def _keys(text):
@@ -165,6 +196,41 @@ def names(results):
             return texts
     titles = [result.title for result in results]
     return titles if len(set(titles)) == len(titles) and all(titles) else [os.path.splitext(os.path.basename(result.path))[0] for result in results]
+
+
+class Looks:
+    """Line and colour of each of several results, and its line in the legend: up to six by themselves. More are told apart by a colour scale
+    along the key that has most values, and by their lines along a second key."""
+
+    def __init__(self, results):
+        self.names = names(results)
+        self.scale = None
+        if len(results) <= FEW:
+            self.of = [(STYLES[k][1], STYLES[k][2], name if len(results) > 1 else None) for k, name in enumerate(self.names)]
+            return
+        keys = differing_keys(results)
+        keys = sorted(keys, key=lambda key: -len({r.case.get(key) for r in results}))
+        values = lambda key: sorted({r.case.get(key, "") for r in results}, key=_in_order)
+        if len(keys) in (1, 2) and len(values(keys[-1])) <= (len(STYLES) if len(keys) == 2 else len(results)):
+            first, shown = keys[0], values(keys[0])
+            symbol, unit = key_label(first, results[0])
+            texts, place = [value_text(v) for v in shown], [shown.index(r.case.get(first, "")) for r in results]
+            title = symbol + (f" [{unit}]" if unit else "")
+        else:
+            texts, place, title = [str(k + 1) for k in range(len(results))], list(range(len(results))), "member"
+        colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(texts)))
+        self.scale = title, texts, colours
+        second = keys[1] if len(keys) == 2 and title != "member" else None
+        lines = [STYLES[values(second).index(r.case.get(second, ""))][1] if second else "-" for r in results]
+        said = ["{} = {}{}".format(key_label(second, r)[0], value_text(r.case.get(second, "")), " " + key_label(second, r)[1] if key_label(second, r)[1] else "") if second else None for r in results]
+        self.of = [(line, colours[k], text) for line, k, text in zip(lines, place, said)]
+
+
+def _in_order(text):
+    try:
+        return 0, float(value_text(text).split(",")[-1]), text
+    except ValueError:
+        return 1, 0.0, text
 
 
 def members_of_manifest(path):

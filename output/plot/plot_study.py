@@ -1,55 +1,73 @@
-"""A study over two keys as maps: what the members give at one level."""
+"""A study as a whole: what its members give at one level over one or two keys."""
 
 import numpy as np
 
-from plot_results import differing_keys, key_label, value_text
-from plot_style import panels
+from plot_results import _in_order, differing_keys, key_label, value_text
+from plot_style import Page, STYLES, colour_bar, label
 
-QUANTITIES = [("force", "force $N$"), ("contact_area", "contact area $A$"), ("contacts", "number of contacts")]
-
-
-def _level(result, step):
-    """The level asked for, or the last."""
-    return result.steps - 1 if step is None else step - 1
+QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_sigma": r"separation $Z_0/\sigma$", "separation": "separation $Z_0$", "contact_area": "true contact area $A$",
+              "contacts": "number of contacts"}
 
 
-def table(results, keys, name, step):
-    """(values of the first key, of the second, array [first, second]) of the mean of a variable at a level; NaN where there is no member."""
-    texts = [[r.case[key] for key in keys] for r in results]
-    axes = [sorted({t[i] for t in texts}, key=lambda text: float(value_text(text).split(",")[-1]) if _is_number(text) else text) for i in (0, 1)]
-    values = np.full((len(axes[0]), len(axes[1])), np.nan)
-    for result, (first, second) in zip(results, texts):
-        values[axes[0].index(first), axes[1].index(second)] = result.mean(name)[_level(result, step)]
-    return axes[0], axes[1], values
-
-
-def _is_number(text):
-    try:
-        float(value_text(text).split(",")[-1])
-        return True
-    except ValueError:
-        return False
+def common_level(results, step):
+    """The level of each result that all have in common, as indices, and what it is called: the one asked for, or the last that names the same
+    separation, force or pressure in all of them. None where there is no such level."""
+    named = [{r.level_name(k): k for k in r.loaded()} for r in results]
+    if step is not None:
+        at = [step - 1] * len(results)
+        found = {r.level_name(step - 1) for r in results}
+        return at, found.pop() if len(found) == 1 else f"level {step} of each"
+    for name in reversed(list(named[0])):
+        if all(name in levels for levels in named):
+            return [levels[name] for levels in named], name
+    relative = {r.case.get("indentation%unit", "").strip("'") for r in results}
+    if all(r.control() == "pressure" for r in results) and relative == {"relative"} and len({r.steps for r in results}) == 1:
+        ends = {r.case.get(key) for r in results for key in ("indentation%stop",)}
+        return [r.steps - 1 for r in results], f"$p/(E^*h')$ = {ends.pop()}" if len(ends) == 1 and None not in ends else "the last level"
+    return [r.steps - 1 for r in results], "the last level of each"
 
 
 def study(results, options):
-    """Force, area and contacts at the last level (or --step) over two keys; nothing where other than two keys vary."""
-    results = [r for r in results if "force" in r]
-    keys = differing_keys(results) if len(results) > 3 else []
-    if len(keys) != 2:
+    """Area, contacts and force, where the force is given separation, at one level over the keys that vary: a curve over one key of numbers, maps
+    over two."""
+    results = [r for r in results if "force" in r and r.loaded().size]
+    keys = differing_keys(results) if len(results) > 2 else []
+    texts = [[r.case.get(key, "") for key in keys] for r in results]
+    if not 1 <= len(keys) <= 2 or len({tuple(t) for t in texts}) < len(texts):
         return None
-    figure, axes = panels(len(QUANTITIES), options.width, aspect=0.95)
-    for axis, (name, label) in zip(axes, QUANTITIES):
-        first, second, values = table(results, keys, name, options.step)
-        image = axis.imshow(values, cmap="cividis", aspect="auto")
-        figure.colorbar(image, ax=axis, location="bottom", pad=0.02, aspect=25, label=label + results[0].unit(name))
-        middle = np.nanmean([np.nanmin(values), np.nanmax(values)])
-        for (i, j), value in np.ndenumerate(values):
-            if np.isfinite(value) and values.size <= 36:
-                axis.text(j, i, f"{value:.3g}", ha="center", va="center", color="k" if value > middle else "w", fontsize=6)
-        for key, texts, place, set_label in ((keys[0], first, axis.set_yticks, axis.set_ylabel), (keys[1], second, axis.set_xticks, axis.set_xlabel)):
+    if len(keys) == 1 and any(_in_order(t[0])[0] for t in texts) or len(keys) == 2 and len(results) < 4:
+        return None
+    levels, name = common_level(results, options.step)
+    given = {"force": ["separation_sigma" if all("separation_sigma" in r for r in results) else "separation"], "pressure": ["separation_sigma"]}.get(results[0].control(), ["force"])
+    quantities = given + ["contact_area", "contacts"]
+    page = Page(options, 3, aspect=0.9)
+    for axis, quantity in zip(page.axes, quantities):
+        values = np.array([r.mean(quantity)[level] for r, level in zip(results, levels)])
+        dimension = results[0].dimension(quantity)
+        if len(keys) == 1:
+            x = np.array([_in_order(t[0])[1] for t in texts])
+            order = np.argsort(x)
+            axis.plot(x[order], values[order], STYLES[0][0], ls="-", color=STYLES[0][2], ms=3.5)
+            if x.min() > 0 and x.max() > 8 * x.min():
+                axis.set_xscale("log")
+            symbol, unit = key_label(keys[0], results[0])
+            label(axis, "x", symbol + (f" [{unit}]" if unit else ""))
+            label(axis, "y", QUANTITIES[quantity], dimension)
+            continue
+        ends = [sorted({t[i] for t in texts}, key=_in_order) for i in (0, 1)]
+        table = np.full((len(ends[0]), len(ends[1])), np.nan)
+        for (first, second), value in zip(texts, values):
+            table[ends[0].index(first), ends[1].index(second)] = value
+        image = axis.imshow(np.ma.masked_invalid(table), cmap="cividis", aspect="auto")
+        if np.nanmax(table) - np.nanmin(table) < 1e-9 * abs(np.nanmax(table)):
+            image.set_clim(0.9 * np.nanmin(table), 1.1 * np.nanmax(table))
+        bar = colour_bar(page.figure, image, axis, QUANTITIES[quantity], dimension, location="bottom", pad=0.02, aspect=22)
+        middle = np.nanmean([np.nanmin(table), np.nanmax(table)])
+        for (i, j), value in np.ndenumerate(table):
+            if np.isfinite(value) and table.size <= 36:
+                axis.text(j, i, f"{value / bar.size:.3g}", ha="center", va="center", color="k" if value > middle else "w", fontsize=7)
+        for key, shown, place, set_label in ((keys[0], ends[0], axis.set_yticks, axis.set_ylabel), (keys[1], ends[1], axis.set_xticks, axis.set_xlabel)):
             symbol, unit = key_label(key, results[0])
-            place(range(len(texts)), [value_text(t) for t in texts])
+            place(range(len(shown)), [value_text(t) for t in shown])
             set_label(symbol + (f" [{unit}]" if unit else ""))
-    levels = {r.level_name(_level(r, options.step)) for r in results}
-    figure.suptitle("Study at " + (levels.pop() if len(levels) == 1 else "the last level"), fontsize=8)
-    return figure
+    return page.finish(f"Study at {name}")

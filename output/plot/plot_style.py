@@ -1,78 +1,201 @@
-"""How pictures look: sizes for journals, styles of curves, marks of levels that are not to be relied on."""
+"""How pictures look: colours, units that fit, marks of levels, legends beside the data. Everything is drawn in SI units; axes and colour bars
+show it in the unit in which its numbers are short (nm, um, mm; mN, N, kN; MPa, GPa)."""
 
-import sys
+import re
 
-try:
-    import matplotlib
+import matplotlib
 
-    matplotlib.use("Agg")  # works without a screen
-    import matplotlib.pyplot as plt
-    import numpy as np
-    from matplotlib.lines import Line2D
-except ImportError as missing:
-    sys.exit(f"The Python module {missing.name!r} is missing; on Debian: apt install python3-numpy python3-matplotlib python3-netcdf4")
+matplotlib.use("Agg")  # works without a screen
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, MaxNLocator
 
-# Curves differ by marker and line style as well as by colour: the pictures are readable in grey.
+# Curves differ by line and marker as well as by colour: the pictures are readable in grey.
 STYLES = [("o", "-", "#0b3c5d"), ("s", "--", "#c1440e"), ("^", "-.", "#4b8b3b"), ("D", ":", "#6a4c93"), ("v", "-", "#777777"), ("P", "--", "#b08d00"),
           ("X", "-.", "#000000"), ("<", ":", "#1f9e9e"), (">", "-", "#a03060")]
+FEW = 6  # curves that are told apart by colours of their own
+GREY = "0.4"  # theories and laws drawn beside the results
 # The mark of a level by its status, from 1 on: the larger is the more serious.
 MARKS = ["", "o", "s", "^", "x"]
 WIDTHS = {"single": 85.0, "onehalf": 130.0, "double": 175.0}  # columns of journals [mm]
+# What is not touched is white.
+COLOURS = matplotlib.colormaps["viridis_r"].copy()
+COLOURS.set_bad("w")
 
-plt.rcParams.update({"figure.dpi": 150, "savefig.dpi": 300, "font.size": 8, "axes.titlesize": 8, "legend.fontsize": 7, "legend.framealpha": 0.9, "image.origin": "lower",
-                     "axes.grid": False, "svg.fonttype": "none", "pdf.fonttype": 42, "lines.linewidth": 1.2, "axes.linewidth": 0.7})
+plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "legend.fontsize": 7.5, "image.origin": "lower", "axes.formatter.useoffset": False, "svg.fonttype": "none",
+                     "pdf.fonttype": 42, "lines.linewidth": 1.3, "axes.linewidth": 0.7, "figure.titlesize": 9})
+
+# Units that pictures use, from small to large: (size in SI, text). Keys are what _reduced() makes of a unit.
+_SHOWN = {
+    "m": [(1e-9, "nm"), (1e-6, "µm"), (1e-3, "mm"), (1.0, "m")],
+    "m2": [(1e-18, "nm²"), (1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")],
+    "m4": [(1e-36, "nm⁴"), (1e-24, "µm⁴"), (1e-12, "mm⁴"), (1.0, "m⁴")],
+    "m-1": [(1.0, "1/m"), (1e3, "1/mm"), (1e6, "1/µm"), (1e9, "1/nm")],
+    "m-2": [(1.0, "1/m²"), (1e6, "1/mm²"), (1e12, "1/µm²"), (1e18, "1/nm²")],
+    "N": [(1e-9, "nN"), (1e-6, "µN"), (1e-3, "mN"), (1.0, "N"), (1e3, "kN"), (1e6, "MN")],
+    "N m": [(1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J"), (1e3, "kJ")],
+    "N m-1": [(1.0, "N/m"), (1e3, "N/mm"), (1e6, "N/µm"), (1e9, "kN/µm")],
+    "N m-2": [(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")],
+    "N-1 m2": [(1e-9, "1/GPa"), (1e-6, "1/MPa"), (1e-3, "1/kPa"), (1.0, "1/Pa")],
+    # A case does not say whether its resistivities are electrical or thermal.
+    "ohm": [(size, f"{p}Ω; thermal: {p}K/W") for size, p in ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))],
+}
+_PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
+_BASES = {prefix + base: (size, base) for base in ("m", "N", "ohm", "s") for prefix, size in _PREFIXES.items()}
 
 
-def style(k, count):
-    """Marker, line style and colour of curve k of `count`."""
-    if count <= len(STYLES):
-        return STYLES[k]
-    return STYLES[k % len(STYLES)][0], STYLES[k % 4][1], plt.get_cmap("viridis")(0.9 * k / max(count - 1, 1))
-
-
-def panels(count, width, aspect=0.78, least=62.0, entries=0):
-    """A figure `width` mm wide with `count` axes, as many side by side as are at least `least` mm wide each; aspect: height over width of one.
-    entries: lines of a legend below all of them, for more curves than an axis has room for; its axes come last."""
-    columns = max(1, min(count, int(width // least)))
-    rows = -(-count // columns)
-    heights = [width / columns * aspect] * rows + ([3.4 * -(-entries // max(1, int(width // 70))) + 4] if entries else [])
-    figure = plt.figure(figsize=(width / 25.4, (sum(heights) + 8) / 25.4), constrained_layout=True)
-    grid = figure.add_gridspec(len(heights), columns, height_ratios=heights)
-    axes = [figure.add_subplot(grid[k // columns, k % columns]) for k in range(count)]
-    if entries:
-        axes.append(figure.add_subplot(grid[-1, :]))
-        axes[-1].axis("off")
-    return figure, axes
-
-
-def mark_levels(axis, x, y, status, colour):
-    """Marks the levels that are flagged; returns the statuses met. At most some 20 marks of a kind, those of levels not converged all."""
-    met = set()
-    for value in range(1, len(MARKS)):
-        at = np.flatnonzero((status == value) & np.isfinite(x) & np.isfinite(y))
-        if at.size == 0:
+def si(text):
+    """(factor to SI, dimension) of a unit as result files write it: 'N mm-2' is (1e6, 'N m-2'). A unit that is not known here is its own
+    dimension, with factor 1."""
+    factor, powers = 1.0, {}
+    for word in text.split():
+        name, power = re.fullmatch(r"(.*?)(-?\d*)", word).groups()
+        if name == "" and power == "1":
             continue
-        met.add(value)
-        if value < len(MARKS) - 1:
-            at = at[:: -(-at.size // 20)]
-        axis.plot(np.asarray(x)[at], np.asarray(y)[at], MARKS[value], color="r" if value == len(MARKS) - 1 else colour, mfc="w", ms=5 if MARKS[value] == "x" else 3.5, mew=0.8, ls="none", zorder=3,
-                  gid="status")
-    return met
+        if name not in _BASES:
+            return 1.0, text
+        size, base = _BASES[name]
+        factor *= size ** int(power or 1)
+        powers[base] = powers.get(base, 0) + int(power or 1)
+    order = sorted((base for base in powers if powers[base]), key=["N", "ohm", "m", "s"].index)
+    return factor, " ".join(base + (str(powers[base]) if powers[base] != 1 else "") for base in order)
 
 
-def legend(axis, met=(), meanings=(), below=None, **how):
-    """The legend of a picture's curves, with a line for each kind of mark; in the axes `below` if given."""
-    handles, labels = axis.get_legend_handles_labels()
-    for value in sorted(met):
-        handles.append(Line2D([], [], ls="none", marker=MARKS[value], mfc="w", color="r" if value == len(MARKS) - 1 else "k", ms=4))
-        labels.append("level " + meanings[value])
-    if handles and below is not None:
-        width = below.figure.get_size_inches()[0] * 25.4
-        below.legend(handles, labels, loc="center", ncol=max(1, int(width // 70)), borderaxespad=0, **how)
-    elif handles:
-        axis.legend(handles, labels, **how)
+def fitting(dimension, values):
+    """(size in SI, text) of the unit in which the largest of the values is a short number."""
+    top = np.nanmax(np.abs(np.where(np.isfinite(values), values, 0.0)), initial=0.0)
+    known = _SHOWN.get(dimension)
+    if not known:
+        return 1.0, re.sub(r"(?<=[A-Za-z)])(-?\d+)\b", r"$^{\1}$", dimension)
+    return max((unit for unit in known if unit[0] <= top * 1.0001), key=lambda unit: unit[0], default=known[0]) if top > 0 else min(known, key=lambda unit: abs(np.log10(unit[0])))
 
 
-def few(count):
-    """The `entries` of panels() for `count` curves: none while they fit into an axis."""
-    return 0 if count <= 3 else count + 2
+def amount(value, dimension, digits=3):
+    """'4.53 N': a number with the unit that fits."""
+    size, text = fitting(dimension, np.array([value]))
+    return f"{value / size:.{digits}g} {text}".strip()
+
+
+class _LogTicks(LogFormatterSciNotation):
+    """Plain numbers near one, powers of ten elsewhere; which ticks have a label at all is matplotlib's choice."""
+
+    size = 1.0
+
+    def __call__(self, x, pos=None):
+        if x <= 0 or not super().__call__(x, pos):
+            return ""
+        value = x / self.size
+        if 0.9e-3 < value < 0.99e4:
+            return f"{value:.4g}"
+        power = int(np.floor(np.log10(value) + 1e-9))
+        lead = value / 10.0**power
+        return f"$10^{{{power}}}$" if abs(lead - 1) < 1e-6 else f"${lead:.3g}\\times10^{{{power}}}$"
+
+
+def label(axis, which, text, dimension="", values=None):
+    """Writes the label of an axis ('x' or 'y') and its numbers in the unit that fits what the axis shows, or the values given."""
+    side = getattr(axis, which + "axis")
+    lo, hi = sorted(getattr(axis, f"get_{which}lim")())
+    size, unit = fitting(dimension, np.array([lo, hi]) if values is None else np.ravel(values))
+    side.set_label_text(text + (f" [{unit}]" if unit else ""))
+    if side.get_scale() == "log":
+        for setter in (side.set_major_formatter, side.set_minor_formatter):
+            ticks = _LogTicks(minor_thresholds=(1.2, 0.45))
+            ticks.size = size
+            setter(ticks)
+    else:
+        side.set_major_formatter(FuncFormatter(lambda v, _: _number(v / size, hi / size)))
+
+
+def _number(value, top):
+    """A tick of a linear axis: a plain number, powers of ten only where it would be long."""
+    if abs(value) < 1e-9 * abs(top):
+        return "0"
+    if 1e-3 <= abs(top) < 1e5:
+        return f"{value:.6g}"
+    power = int(np.floor(np.log10(abs(top))))
+    return f"${value / 10.0**power:.3g}\\times10^{{{power}}}$"
+
+
+def colour_bar(figure, image, axes, text, dimension="", **how):
+    """A colour bar in the unit that fits, right of the axes."""
+    low, high = image.get_clim()
+    size, unit = fitting(dimension, np.array([low, high]))
+    bar = figure.colorbar(image, ax=axes, label=text + (f" [{unit}]" if unit else ""), format=FuncFormatter(lambda v, _: _number(v / size, high / size)), ticks=MaxNLocator(5), **how)
+    bar.size = size
+    return bar
+
+
+class Page:
+    """A figure of `count` panels of one height with a title and one legend below all of them, where it covers no data. With one panel the page
+    is not wider than 130 mm. aspect: height over width of a panel; columns: how many side by side."""
+
+    def __init__(self, options, count=1, aspect=0.72, columns=None, least=52.0):
+        self.width = min(options.width, 130.0) if count == 1 else options.width
+        columns = columns or max(1, min(count, int(self.width // least)))
+        self.rows = -(-count // columns)
+        self.body = self.rows * self.width / columns * aspect
+        self.figure = plt.figure(figsize=(self.width / 25.4, self.body / 25.4), constrained_layout=True)
+        self.outer = self.figure.add_gridspec(2, 1, height_ratios=[1, 1e-3])
+        grid = self.outer[0].subgridspec(self.rows, columns)
+        self.axes = [self.figure.add_subplot(grid[k // columns, k % columns]) for k in range(count)]
+        self.columns, self.entries, self.met, self.meanings = columns, {}, set(), []
+
+    def entry(self, text, **looks):
+        """A line of the legend."""
+        self.entries.setdefault(text, Line2D([], [], **looks))
+
+    def status(self, axis, x, y, status, meanings, colour):
+        """Marks the levels that are flagged, some 15 of a kind at most, but all of those that did not converge."""
+        for value in range(1, len(MARKS)):
+            at = np.flatnonzero((np.asarray(status) == value) & np.isfinite(x) & np.isfinite(y))
+            if at.size == 0:
+                continue
+            last = value == len(MARKS) - 1
+            if not last:
+                at = at[:: -(-at.size // 15)]
+            axis.plot(np.asarray(x)[at], np.asarray(y)[at], MARKS[value], color="r" if last else colour, mfc="w", ms=5 if last else 3.5, mew=0.8, ls="none", zorder=3, gid="status")
+            self.entry("level " + meanings[value], ls="none", marker=MARKS[value], mfc="w", color="r" if last else "k", ms=4)
+
+    def scale(self, scale):
+        """The colour scale of many results, (name of the key, texts of its values, colours), right of all panels."""
+        name, texts, colours = scale
+        colours = matplotlib.colors.ListedColormap(colours)
+        image = matplotlib.cm.ScalarMappable(matplotlib.colors.BoundaryNorm(np.arange(len(texts) + 1) - 0.5, len(texts)), colours)
+        bar = self.figure.colorbar(image, ax=self.axes, label=name, aspect=30, pad=0.01)
+        some = np.arange(0, len(texts), max(1, -(-len(texts) // 16)))
+        bar.set_ticks(some)
+        bar.set_ticklabels([texts[k] for k in some])
+        bar.ax.minorticks_off()
+
+    def finish(self, title):
+        """Writes title and legend and gives the figure the height that they need."""
+        for axis in self.axes:
+            for handle, text in zip(*axis.get_legend_handles_labels()):
+                self.entries.setdefault(text, handle)
+        columns = max(1, min(len(self.entries), int(self.width // (9 + 1.35 * max(map(len, self.entries), default=0)))))
+        strip = 4.0 * -(-len(self.entries) // columns) + 2 if self.entries else 0.1
+        chars = int(self.width / 1.65)
+        lines = [part for line in title.split("\n") if line for part in _wrapped(line, chars)]
+        self.figure.suptitle("\n".join(lines))
+        self.figure.set_size_inches(self.width / 25.4, (self.body + strip + 4.2 * len(lines)) / 25.4)
+        self.outer.set_height_ratios([self.body, strip])
+        if self.entries:
+            below = self.figure.add_subplot(self.outer[1])
+            below.axis("off")
+            below.legend(self.entries.values(), self.entries.keys(), loc="center", ncol=columns, borderaxespad=0, frameon=False)
+        return self.figure
+
+
+def _wrapped(line, columns):
+    """Parts of a line; what stands between dollars counts by what is seen of it."""
+    parts, used = [""], 0
+    for word in line.split(" "):
+        seen = len(re.sub(r"\\[a-z]+|[${}_^]", "", word)) + 1
+        if used and used + seen > columns:
+            parts.append("")
+            used = 0
+        parts[-1] += (" " if parts[-1] else "") + word
+        used += seen
+    return parts

@@ -1,94 +1,85 @@
-#!/usr/bin/env python3
-"""A measured map as rsc took it: heights, spectrum with its fit and with that of twins, distribution of heights.
+"""The rough surface: its heights, their spectrum with its fit, their distribution."""
 
-    python3 output/plot/plot_surface.py output/map.nc [output/map_twins.nc ...] [-o FILE]
+import numpy as np
 
-The first result is that of a map (surface%source = 'heights'); with &output heights = .true. the map itself is drawn. Further results of
-synthetic surfaces add the rms slope and curvature of their realizations to the title of the spectrum. Needs python3-matplotlib and python3-netcdf4.
-"""
-
-import argparse
-import pathlib
-import sys
-
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")  # works without a screen
-    import matplotlib.pyplot as plt
-    import numpy as np
-    from netCDF4 import Dataset
-except ImportError as missing:
-    sys.exit(f"The Python module {missing.name!r} is missing; on Debian: apt install python3-numpy python3-matplotlib python3-netcdf4")
+from plot_curves import title
+from plot_results import names
+from plot_spots import heights
+from plot_style import Page, STYLES, amount, colour_bar, label
 
 
-def draw_map(axis, result):
-    if "height" not in result.variables:
-        axis.text(0.5, 0.5, "the file holds no heights\n(&output heights = .true.)", ha="center", va="center", transform=axis.transAxes)
-        axis.set_axis_off()
-        return
-    z = result["height"]
-    y, x = (np.asarray(result[name][:]) for name in z.dimensions)
-    step = [x[1] - x[0], y[1] - y[0]]
-    extent = [x[0] - step[0] / 2, x[-1] + step[0] / 2, y[0] - step[1] / 2, y[-1] + step[1] / 2]
-    image = axis.imshow(np.asarray(z[:]), origin="lower", extent=extent, cmap="viridis")
-    axis.figure.colorbar(image, ax=axis, label=f"height [{z.units}]", shrink=0.8)
-    axis.set_xlabel(f"x [{z.units}]")
-    axis.set_ylabel(f"y [{z.units}]")
-    axis.set_title(f"Sq {float(result['sq'][...]):.3g} {z.units}, {int(result['filled_points'][...])} points filled")
+def surface(results, options):
+    """Heights, spectrum and distribution of heights of the first result that holds any of them; the spectra of further results beside its own,
+    and the rms slopes of all in the legend."""
+    first = next((r for r in results if "height" in r or "psd" in r), None)
+    if first is None:
+        return None
+    spectra = [r for r in results if "psd" in r and "wavenumber" in r]
+    drawn = [name for name, there in (("map", "height" in first), ("spectrum", spectra), ("distribution", "height_pdf" in first or "height" in first)) if there]
+    page = Page(options, len(drawn), aspect=0.82 if len(drawn) > 1 else 0.72)
+    for axis, name in zip(page.axes, drawn):
+        {"map": _map, "spectrum": _spectrum, "distribution": _distribution}[name](page, axis, first, results)
+    slopes = [(name, r["rms_slope"]) for name, r in zip(names(results), results) if "rms_slope" in r] if len(results) > 1 else []
+    for name, slope in slopes:
+        page.entry(f"{name}: rms slope {np.mean(slope):.3g}" + (f" ± {np.std(slope, ddof=1):.2g} ({slope.size} surfaces)" if slope.size > 1 else ""), ls="none")
+    return page.finish(first.title if len(results) == 1 else title(results, "Surfaces"))
 
 
-def draw_spectrum(axis, result, twins):
-    k, psd = np.asarray(result["wavenumber"][:]), np.asarray(result["psd"][:])
-    axis.loglog(k, psd, ".", ms=3, color="#0b3c5d", label="measured")
-    if "psd_fit" in result.variables:
-        fit = result["psd_fit"]
-        inside = np.asarray(fit[:]) > 0
-        axis.loglog(k[inside], np.asarray(fit[:])[inside], "-", color="#c1440e",
-                    label=f"fit: H = {fit.hurst:.2f} ± {fit.hurst_error:.2f}, $\\lambda_s$ = {2 * np.pi / fit.ks:.3g}, $\\lambda_l$ = {2 * np.pi / fit.kl:.3g}")
-        power = np.asarray(fit[:])[inside]
-        axis.set_ylim(max(psd[psd > 0].min(), power.min() * 1e-4), psd.max() * 5)
-    for path, twin in twins:
-        slope = np.asarray(twin["rms_slope"][:])
-        axis.plot([], [], " ", label=f"{path.name}: rms slope {slope.mean():.3g}" + (f" ± {slope.std(ddof=1):.2g} ({slope.size})" if slope.size > 1 else ""))
-    axis.plot([], [], " ", label=f"map: rms slope {float(result['sdq'][...]):.3g}, {float(result['points_per_wave'][...]):.1f} points a wave")
-    axis.set_xlabel(f"wavenumber k [{result['wavenumber'].units}]")
-    axis.set_ylabel(f"power spectral density [{result['psd'].units}]")
-    axis.legend(fontsize=6)
+def _map(page, axis, result, _):
+    image = heights(result, axis)
+    image.set_cmap("viridis")
+    low, high = np.nanpercentile(np.ma.filled(image.get_array(), np.nan), [0.1, 99.9])
+    image.set_clim(low, high)
+    colour_bar(page.figure, image, axis, "height", result.dimension("height"), fraction=0.06, pad=0.03, aspect=20, extend="both")
+    axis.locator_params(nbins=5)
+    for which in "xy":
+        label(axis, which, f"${which}$", result.dimension("height_" + which if "height_" + which in result else which))
+    sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result["height"]))
+    filled = int(result["filled_points"]) if "filled_points" in result else 0
+    axis.set_title(f"rms height {amount(sq, result.dimension('height'))}" + (f", {filled} points filled" if filled else ""))
 
 
-def draw_heights(axis, result):
-    z, density = np.asarray(result["height_bin"][:]), np.asarray(result["height_pdf"][:])
-    sq, ssk, sku = (float(result[name][...]) for name in ("sq", "ssk", "sku"))
-    axis.stairs(density, np.append(z, 2 * z[-1] - z[-2]) - (z[1] - z[0]) / 2, fill=True, color="#0b3c5d", alpha=0.4, label="measured")
-    axis.plot(z, np.exp(-z**2 / (2 * sq**2)) / (np.sqrt(2 * np.pi) * sq), color="#c1440e", label="Gaussian of this rms")
-    axis.set_xlabel(f"height about the mean [{result['height_bin'].units}]")
-    axis.set_ylabel(f"probability density [{result['height_pdf'].units}]")
-    axis.set_title(f"skewness {ssk:.2f} (0), kurtosis {sku:.2f} (3)")
-    axis.legend(fontsize=6)
+def _spectrum(page, axis, _, results):
+    results = [r for r in results if "psd" in r and "wavenumber" in r]
+    axis.set(xscale="log", yscale="log")
+    lows, tops = [], []
+    for k, (result, name) in enumerate(zip(results, names(results))):
+        marker, line, colour = STYLES[k % len(STYLES)]
+        q, psd = result["wavenumber"], result["psd"].reshape(-1, result["wavenumber"].size).mean(axis=0)
+        good = (q > 0) & (psd > 0)
+        axis.plot(q[good], psd[good], marker, ms=2, mew=0.5, mfc="none", color=colour)
+        page.entry("measured" if len(results) == 1 else name, color=colour, marker=marker, ls="none", mfc="none", ms=3)
+        lows, tops = lows + [psd[psd > 1e-12 * psd.max()].min()], tops + [psd.max()]  # what is smaller is rounding
+        if "psd_fit" in result:
+            fit, about = np.ravel(result["psd_fit"])[: q.size], result.file.variables["psd_fit"]
+            axis.plot(q[fit > 0], fit[fit > 0], line, color=STYLES[1][2] if len(results) == 1 else colour, gid="fit", zorder=3)
+            if len(results) == 1 and "hurst" in about.ncattrs():
+                waves = [2 * np.pi / (getattr(about, name) * result.factor("wavenumber")) for name in ("ks", "kl")]
+                page.entry(f"fit: $H$ = {about.hurst:.2f}" + (f" ± {about.hurst_error:.2f}" if "hurst_error" in about.ncattrs() else "") + rf", waves {amount(waves[0], 'm')} to {amount(waves[1], 'm')}",
+                           color=STYLES[1][2], ls="-")
+            lows.append(max(fit[fit > 0].min() * 1e-4, lows[-1]) if (fit > 0).any() else lows[-1])
+    axis.set_ylim(max(lows) / 3, max(tops) * 3)
+    axis.set_title("power spectral density")
+    label(axis, "x", "wavenumber $k$", results[0].dimension("wavenumber"))
+    label(axis, "y", r"$\Phi$", results[0].dimension("psd"))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("result", type=pathlib.Path)
-    parser.add_argument("twins", type=pathlib.Path, nargs="*")
-    parser.add_argument("-o", "--output", type=pathlib.Path, help="the picture (png, pdf, svg); NAME_surface.png by default")
-    arguments = parser.parse_args()
-    plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "savefig.dpi": 200})
-    try:
-        result, twins = Dataset(arguments.result), [(path, Dataset(path)) for path in arguments.twins]
-    except OSError as error:
-        sys.exit(f"plot_surface: {error}")
-    if "psd" not in result.variables:
-        sys.exit(f"plot_surface: {arguments.result} is no result of a measured map: it holds no psd")
-    figure, axes = plt.subplots(1, 3, figsize=(11, 3.4), constrained_layout=True)
-    draw_map(axes[0], result)
-    draw_spectrum(axes[1], result, twins)
-    draw_heights(axes[2], result)
-    picture = arguments.output or arguments.result.with_name(arguments.result.stem + "_surface.png")
-    figure.savefig(picture)
-    print(picture)
-
-
-if __name__ == "__main__":
-    main()
+def _distribution(page, axis, result, _):
+    if "height_pdf" in result:
+        z, density = result["height_bin"], result["height_pdf"]
+        edges, sq = np.append(z, 2 * z[-1] - z[-2]) - (z[1] - z[0]) / 2, float(result["sq"])
+        words = f"skewness {float(result['ssk']):.2f}, kurtosis {float(result['sku']):.2f}"
+    else:
+        heights_ = result["height"][np.isfinite(result["height"])]
+        heights_ = heights_ - heights_.mean()
+        density, edges = np.histogram(heights_, 60, density=True)
+        z, sq = (edges[1:] + edges[:-1]) / 2, heights_.std()
+        words = f"skewness {np.mean((heights_ / sq) ** 3):.2f}, kurtosis {np.mean((heights_ / sq) ** 4):.2f}"
+    axis.stairs(density, edges, fill=True, color=STYLES[0][2], alpha=0.4)
+    axis.plot(z, np.exp(-(z**2) / (2 * sq**2)) / (np.sqrt(2 * np.pi) * sq), color=STYLES[1][2])
+    page.entry("heights", color=STYLES[0][2], alpha=0.4, lw=5)
+    page.entry("Gaussian of the same rms", color=STYLES[1][2])
+    axis.set(ylim=(0, None), title=words)
+    axis.locator_params(axis="x", nbins=5)
+    label(axis, "x", "height about the mean", "m" if "height_bin" not in result else result.dimension("height_bin"))
+    label(axis, "y", "probability density", "m-1")

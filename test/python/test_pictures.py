@@ -1,11 +1,12 @@
-"""The numbers that plot.py and plot_surface.py hand to matplotlib, computed here from the variables of the file, and one run of the
-commands. How a picture looks is not tested here.
+"""The pictures of plot.py: the numbers that they hand to matplotlib, computed here from the variables of the file, and how they look once this
+machine's matplotlib has drawn them: no colour covers what it should not, and everything that is drawn is seen.
 
 usage: test_pictures.py FOLDER_OF_PLOT        (RSC_PROGRAM in the environment: the program that makes the results)
 """
 import contextlib
 import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,25 +16,32 @@ import unittest.mock
 import netCDF4
 import numpy as np
 
-sys.path.insert(0, sys.argv.pop(1))
+PLOT = sys.argv.pop(1)
+sys.path.insert(0, PLOT)
 import plot  # noqa: E402
 import plot_compare  # noqa: E402
-import plot_surface  # noqa: E402
-from plot_results import Result, names  # noqa: E402
+import plot_python  # noqa: E402
+import plot_style  # noqa: E402
+from plot_results import Looks, Result, names  # noqa: E402
 from plot_style import plt  # noqa: E402
 
 SURFACE = "&surface n=256 L=1200.0 L_lambda_l=8 L_lambda_s=64 sigma=12.0 / &run length_unit='um' force_unit='mN' REALIZATIONS /"
 BALL = "&solids E=78.0,200.0 R=Infinity,3000.0 nu=0.42,0.3 resistivity=2.0e-5,3.0e-5 /"
+SMALL = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / "
 CASES = {
     "one": SURFACE + BALL + "&indentation centre=500.0,680.0 start=5.0 stop=0.0 steps=26 / &output map_cells=23 heights=.true. pdf_levels=0.0,0.6 /",
     "many": SURFACE.replace("REALIZATIONS", "realizations=5") + BALL + "&indentation start=3.5 stop=0.5 steps=13 / &output map_cells=21 /",
     "slid": SURFACE + BALL.replace("resistivity", "friction=0.3 resistivity") + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
-    "compared": "&surface n=128 L=1.3 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / &asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
+    "back": SMALL + "&solids hardness=1.5e4 / &indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /",
+    "compared": SMALL + "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
+    "elements": SMALL + "&solver model='elements' / &indentation control='force' start=1.0 stop=20.0 steps=3 spacing='log' /",
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / &solids R=Infinity,Infinity / &run realizations=3 /"
                "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
     "study": SURFACE + BALL + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 surface%hurst=0.5,0.8 /",
+    "forced": SMALL + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
     "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
+TO_SI = {"um": 1e-6, "mm": 1e-3, "mN": 1e-3, "N": 1.0, "ohm": 1.0, "radian": 1.0}
 
 
 def path(name):
@@ -62,10 +70,22 @@ def setUpModule():
 
 
 def raw(name):
-    """{variable: doubles} of a file, and {(variable, attribute): value}."""
+    """{variable: doubles in SI units} of a file, and {(variable, attribute): value} as it stands there."""
     with netCDF4.Dataset(path(name)) as file:
-        values = {key: np.ma.filled(np.ma.asarray(v[...]).astype(float), np.nan) for key, v in file.variables.items()}
+        values = {}
+        for key, v in file.variables.items():
+            units = getattr(v, "units", "1")
+            factor = np.prod([TO_SI[unit] ** int(power or 1) for unit, power in re.findall(r"([a-zA-Z]+)(-?\d*)", units)]) if units != "1" else 1.0
+            values[key] = np.ma.filled(np.ma.asarray(v[...]).astype(float), np.nan) * factor
         return values, {(key, a): v.getncattr(a) for key, v in file.variables.items() for a in v.ncattrs()}
+
+
+def results(*files):
+    return [Result(path(name), in_si=True) for name in files]
+
+
+def members(name, count):
+    return [f"{name}_{k:03}" for k in range(1, count + 1)]
 
 
 def run(*words):
@@ -79,13 +99,15 @@ def run(*words):
     return status, out.getvalue()
 
 
-class Numbers(unittest.TestCase):
+class Drawn(unittest.TestCase):
     def figure(self, picture, *files, step=None):
-        figure = plot.PICTURES[picture]([Result(path(name)) for name in files], plot.Options(step=step, say=lambda text: None))
+        figure = plot.PICTURES[picture](results(*files), plot.Options(step=step, say=lambda text: None))
         self.addCleanup(plt.close, figure)
         self.assertIsNotNone(figure)
         return figure
 
+
+class Numbers(Drawn):
     def has_curve(self, figure, x, y, tolerance=1e-9):
         """Some line of the figure is this one."""
         good = np.isfinite(x) & np.isfinite(y)
@@ -100,7 +122,7 @@ class Numbers(unittest.TestCase):
     def has_image(self, figure, values, extent=None):
         for image in (image for axis in figure.axes for image in axis.get_images()):
             shown = np.ma.filled(np.ma.asarray(image.get_array()).astype(float), np.nan)
-            if shown.shape == values.shape and np.allclose(shown, values, rtol=1e-9, equal_nan=True):
+            if shown.shape == values.shape and np.allclose(shown, values, rtol=1e-9, atol=0, equal_nan=True):
                 self.assertEqual(image.origin, "lower")
                 if extent is not None:
                     self.assertTrue(np.allclose(image.get_extent(), extent), image.get_extent())
@@ -116,11 +138,24 @@ class Numbers(unittest.TestCase):
             for quantity in ("force", "contacts"):
                 self.has_curve(load, z[at], v[quantity].mean(axis=0)[at])
             self.has_curve(self.figure("area", name), force[at], area[at])
-            self.has_curve(self.figure("stiffness", name), z[at], -v["stiffness"].mean(axis=0)[at])
-            # R = (rho_1 + rho_2)/L by the electrical analogy.
-            with np.errstate(divide="ignore"):
-                ohm = (5.0e-5 / v["conductance_length"][:, at]).mean(axis=0)
-            self.has_curve(self.figure("resistance", name), force[at], np.where(np.isfinite(ohm), ohm, np.nan))
+            self.has_curve(self.figure("stiffness", name), force[at], -v["stiffness"].mean(axis=0)[at])
+        # R = (rho_1 + rho_2)/L by the electrical analogy.
+        v, _ = raw("one")
+        at = np.flatnonzero(v["force"][0] > 0)
+        self.has_curve(self.figure("resistance", "one"), v["force"][0, at], 5.0e-5 * 1e-6 / v["conductance_length"][0, at])
+
+    def test_there_and_back(self):
+        v, _ = raw("back")
+        figure = self.figure("area", "back")
+        for part, gid in ((slice(0, 4), "curve"), (slice(3, 8), "unloading")):
+            drawn = [line for line in figure.axes[0].get_lines() if line.get_gid() == gid]
+            self.assertEqual(len(drawn), 1)
+            force = v["force"][0, part]
+            self.assertTrue(np.allclose(drawn[0].get_xdata(), force[force > 0]))
+        texts = [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
+        first = v["force"][0][v["plastic_contacts"][0] > 0].min()
+        self.assertIn("unloading", texts)
+        self.assertTrue(any(f"yield from {first:.3g} N" in text for text in texts), texts)
 
     def test_laws_of_the_area(self):
         v, _ = raw("one")
@@ -129,17 +164,18 @@ class Numbers(unittest.TestCase):
         x, y = next(data for label, data in drawn.items() if "Hertz" in label)
         self.assertTrue(np.allclose(y, np.pi * (3 * float(v["r_star"]) * x / (4 * float(v["e_star"]))) ** (2 / 3)))
         self.assertLessEqual(x[0], force.min())
-        x, y = next(data for label, data in drawn.items() if r"\beta=0.2" in label)
+        x, y = next(data for label, data in drawn.items() if "A_{II}" in label)
         self.assertTrue(np.allclose(y, 0.2 * np.sqrt(np.pi / float(v["m2_theory"])) * x / float(v["e_star"]), rtol=1e-5))
 
     def test_flats(self):
         v, _ = raw("pressed")
         x = v["pressure"].mean(axis=0) / (float(v["e_star"]) * v["rms_slope"].mean())
-        figure = self.figure("flats", "pressed")
-        for name in ("area_persson", "area_bgt"):
+        figure, area = self.figure("flats", "pressed"), self.figure("area", "pressed")
+        for name in ("area_persson", "area_bgt", "area_gw"):
             self.has_curve(figure, x, v[name] / x)
+            self.has_curve(area, v["force"].mean(axis=0), v[name] * 1e-6)  # shares of 1 mm2
         self.has_curve(figure, x, v["area_fraction"].mean(axis=0) / x)
-        self.has_curve(figure, x, v["separation_sigma"].mean(axis=0) if v["separation_sigma"].ndim > 1 else v["separation_sigma"])
+        self.assertFalse(any("N^*" in line.get_label() or "A_I" in line.get_label() for line in area.axes[0].get_lines()))
 
     def test_maps(self):
         v, _ = raw("one")
@@ -150,12 +186,14 @@ class Numbers(unittest.TestCase):
             self.has_image(figure, np.where(v[name][21] > 0, v[name][21], np.nan), extent)
         p, r = v["radial_pressure"][21], v["radius"]
         self.has_curve(self.figure("radial", "one", step=22), r[np.isfinite(p)], p[np.isfinite(p)])
+        many = self.figure("map", *members("forced", 12))
+        self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 12)
 
     def test_spots(self):
         v, _ = raw("one")
         part = slice(int(v["contact_start"][21]) - 1, int(v["contact_start"][21] + v["contact_count"][21]) - 1)
         which, a = v["contact_asperity"][part].astype(int) - 1, v["contact_radius"][part]
-        drawn = [c for c in self.figure("spots", "one", step=22).axes[0].collections if hasattr(c, "_widths")]
+        drawn = [c for c in self.figure("spots", "one", step=22).axes[1].collections if hasattr(c, "_widths")]
         self.assertTrue(any(np.allclose(c.get_offsets(), np.column_stack([v["asperity_x"][which], v["asperity_y"][which]])) and np.allclose(c._widths, a) for c in drawn))
 
     def test_friction(self):
@@ -168,67 +206,129 @@ class Numbers(unittest.TestCase):
         full = 1.5 * 0.3 * N / (2 * E * (3 * N * R / (4 * E)) ** (1 / 3) * m)
         x, Q = next(line.get_data() for line in figure.axes[0].get_lines() if "Mindlin" in line.get_label())
         self.assertAlmostEqual(np.interp(0.5 * full, x[:60], Q[:60]) / (0.3 * N * (1 - 0.5**1.5)), 1, delta=1e-3)
-        self.figure("stick", "slid", step=40)
 
     def test_compare(self):
         v, _ = raw("compared")
         steps = v["compare_step"].astype(int) - 1
         figure = self.figure("compare", "compared")
         for name in ("force", "contact_area", "contacts"):
-            self.has_curve(figure, v["separation_sigma"][steps], 100 * (v[name][0, steps] / v["compare_" + name] - 1))
+            self.has_curve(figure, v["force"][0, steps], 100 * (v[name][0, steps] / v["compare_" + name] - 1))
         # The pressure of one elliptic spot along all lines adds up to its force.
         lines = np.linspace(-0.8, 0.8, 401)
-        drawn = [plot_compare._line([[0.0], [0.0], [0.5], [3.0], [1.5], [0.4], [0]], line, -0.8, 0.8) for line in lines]
+        drawn = [plot_compare.along_line([[0.0], [0.0], [0.5], [3.0], [0]], [1.5], [0.4], line, -0.8, 0.8) for line in lines]
         self.assertAlmostEqual(sum(p.sum() * (x[1] - x[0]) for x, p in drawn) * (lines[1] - lines[0]) / 3.0, 1, delta=2e-3)
 
     def test_distributions(self):
-        v, of = raw("one")
+        v, _ = raw("one")
         figure = self.figure("distributions", "one")
         for name in ("pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"):
             p, density = v[name.replace("_pdf", "_bin")], v[name][0]
             self.has_curve(figure, p[density > 0], density[density > 0])
+        with netCDF4.Dataset(path("one")) as file:
+            mean = float(np.ravel(file["spot_area_pdf"].mean)[0]) * 1e-12
         x = np.linspace(v["spot_area_bin"][0] / 10, v["spot_area_bin"][v["spot_area_pdf"][0] > 0].max(), 300)
-        mean = float(np.ravel(of["spot_area_pdf", "mean"])[0])
         self.has_curve(figure, x, np.exp(-x / mean) / mean, 1e-6)
 
-    def test_spectrum(self):
+    def test_surface(self):
         v, _ = raw("map")
         k, psd, fit = v["wavenumber"], v["psd"], v["psd_fit"]
-        figure = self.figure("spectrum", "map")
+        figure = self.figure("surface", "map")
         self.has_curve(figure, k[psd > 0], psd[psd > 0])
         self.has_curve(figure, k[fit > 0], fit[fit > 0])
-        figures = []
-        with unittest.mock.patch.object(plt.Figure, "savefig", lambda figure, to: figures.append(figure)), unittest.mock.patch("builtins.print"), \
-                unittest.mock.patch.object(sys, "argv", ["plot_surface.py", path("map")]):
-            plot_surface.main()
-        self.has_image(figures[0], v["height"])
-        self.has_curve(figures[0], k[fit > 0], fit[fit > 0])
+        self.has_image(figure, v["height"])
 
     def test_study(self):
-        files = [f"study_00{k}" for k in range(1, 7)]
-        figure = self.figure("study", *files, step=2)
+        figure = self.figure("study", *members("study", 6), step=2)
         for name in ("force", "contact_area", "contacts"):
-            self.has_image(figure, np.array([raw(file)[0][name][0, 1] for file in files]).reshape(3, 2).T)  # sigma varies slowest
-        members, stem = plot.open_results([path("study_manifest")])
-        self.assertEqual((len(set(names(members))), stem), (6, "study"))
+            self.has_image(figure, np.array([raw(file)[0][name][0, 1] for file in members("study", 6)]).reshape(3, 2).T)  # sigma varies slowest
+        self.assertIn("1.5", figure._suptitle.get_text())
+        forced = self.figure("study", *members("forced", 12))  # the force is the same everywhere: the separation is drawn instead
+        self.assertIn("10 N", forced._suptitle.get_text())
+        self.assertIn("Z_0", forced.axes[0].get_ylabel())
+        opened, stem = plot.open_results([path("study_manifest")])
+        self.assertEqual((len(set(names(opened))), stem), (6, "study"))
+        looks = Looks(results(*members("forced", 12)))
+        self.assertEqual((len({tuple(colour) for _, colour, _ in looks.of}), looks.scale[1]), (12, [str(k) for k in range(1, 13)]))
+
+    def test_units(self):
+        for text, factor, dimension in (("N mm-2", 1e6, "N m-2"), ("um2", 1e-12, "m2"), ("mN um-1", 1e3, "N m-1"), ("mN-1 um2", 1e-9, "N-1 m2"), ("1", 1.0, ""), ("inch", 1.0, "inch")):
+            self.assertEqual((round(plot_style.si(text)[0] / factor, 12), plot_style.si(text)[1]), (1.0, dimension))
+        for value, dimension, shown in ((2.5e-7, "m", "250 nm"), (3e-5, "m", "30 µm"), (4e9, "N m-2", "4 GPa"), (0.02, "N", "20 mN"), (0.5, "", "0.5"), (3e-10, "m2", "300 µm²")):
+            self.assertEqual(plot_style.amount(value, dimension), shown)
+
+
+# What fills an axes: pictures of values, and bands. Elsewhere no colour but white has more than a tenth of it.
+def fills(axis):
+    return axis.get_images() or any(patch.get_alpha() for patch in axis.patches) or any(c.get_gid() in ("scatter", "error", "yields") for c in axis.collections) or \
+        any(type(patch).__name__ == "StepPatch" for patch in axis.patches)
+
+
+class Pixels(Drawn):
+    FILES = {"load": ["one", "many", "back", "pressed"], "area": ["one", "many", "back", "compared", "elements", "pressed"], "flats": ["pressed"], "map": ["many", "pressed"], "radial": ["one"],
+             "spots": ["one", "back", "elements", "compared"], "compare": ["compared"], "distributions": ["one"], "surface": ["one", "map"], "stiffness": ["one", "back"], "resistance": ["one"],
+             "loop": ["slid"], "stick": ["slid"]}
+
+    @staticmethod
+    def render(figure):
+        figure.canvas.draw()
+        return np.asarray(figure.canvas.buffer_rgba())[:, :, :3].copy()
+
+    def check(self, figure, where):
+        figure.set_dpi(60)
+        self.render(figure)
+        figure.set_layout_engine("none") if hasattr(figure, "set_layout_engine") else figure.set_constrained_layout(False)
+        whole = self.render(figure)
+        wide, high = figure.get_size_inches()
+        self.assertTrue(wide * 150 < 1300 and high * 150 < 1000, f"{where}: {wide:.1f} x {high:.1f} inches fit no screen")
+        for axis in figure.axes:
+            if not axis.get_visible() or hasattr(axis, "_colorbar"):
+                continue
+            x0, y0, x1, y1 = (int(round(v)) for v in axis.get_window_extent().extents)
+            inside = whole[whole.shape[0] - y1 + 2 : whole.shape[0] - y0 - 2, x0 + 2 : x1 - 2].reshape(-1, 3)
+            colours, counts = np.unique(inside, axis=0, return_counts=True)
+            coloured = counts[colours.min(axis=1) < 250]
+            if axis.axison and not fills(axis):
+                (left, right), (low, high_) = axis.get_xlim(), axis.get_ylim()
+                discs = sum(np.pi * (c._widths * c._heights).sum() for c in axis.collections if hasattr(c, "_widths")) / abs((right - left) * (high_ - low))
+                self.assertLess(coloured.max(initial=0), (0.1 + min(discs, 0.8)) * len(inside), f"{where}: one colour covers {coloured.max(initial=0) / len(inside):.0%} of an axes")
+            for artist in [*axis.lines, *axis.collections]:
+                artist.set_visible(False)
+                self.assertTrue((self.render(figure) != whole).any(), f"{where}: {artist} ({artist.get_label()}, {artist.get_gid()}) is not seen")
+                artist.set_visible(True)
+
+    def test_every_picture(self):
+        self.assertEqual(set(self.FILES) | {"study"}, set(plot.PICTURES))
+        for picture, files in self.FILES.items():
+            for name in files:
+                with self.subTest(picture=picture, file=name):
+                    self.check(self.figure(picture, name), f"{picture} of {name}")
+        for picture in ("study", "load", "map"):
+            for name, count in (("study", 6), ("forced", 12)):
+                with self.subTest(picture=picture, file=name):
+                    self.check(self.figure(picture, *members(name, count)), f"{picture} of {name}")
 
 
 class Command(unittest.TestCase):
     def test_run(self):
-        status, text = run(path("one"), "-o", os.path.join(FOLDER, "pictures"))
-        files = [word for word in text.split() if word.endswith(".png")]
-        self.assertEqual(status, 0)
-        self.assertGreater(len(files), 5)
-        for file in files:
-            self.assertGreater(np.std(plt.imread(file)), 0.01, file)
+        status, text = run(path("one"), "-o", os.path.join(FOLDER, "pictures"), "--only", "load", "--only", "spots")
+        self.assertEqual((status, [os.path.basename(word) for word in text.split()]), (0, ["one_load.png", "one_spots.png"]))
         status, text = run(path("one"), "-o", FOLDER, "--only", "load", "--format", "pdf", "--width", "single", "--name", "mine")
         self.assertEqual((status, text.strip()), (0, os.path.join(FOLDER, "mine_load.pdf")))
 
     def test_refused(self):
         for words, word in (([path("one"), "--step", "99"], "1 to 26"), ([path("one"), "--step", "0"], "1 to 26"), ([path("nothing")], "nothing"), ([path("one"), "--width", "7"], "millimetres"),
-                            ([path("one"), "--only", "nonsense"], "nonsense"), ([__file__], "read"), ([path("one"), "--only", "loop", "-o", FOLDER], "loop")):
+                            ([path("one"), "--only", "nonsense"], "nonsense"), ([__file__], "read"), ([path("heights")], "no result"), ([path("one"), "--only", "loop", "-o", FOLDER], "loop")):
             status, text = run(*words)
             self.assertTrue(status not in (0, None) and word in text + str(status), (words, status, text))
+
+    def test_python_without_modules(self):
+        """-S leaves out where the modules are: the script goes on with a Python that has them; where there is none it names the packages."""
+        words = [sys.executable, "-S", os.path.join(PLOT, "plot.py"), path("compared"), "--only", "load", "-o", FOLDER]
+        done = subprocess.run(words, text=True, capture_output=True, env={**os.environ, "PYTHON": sys.executable})
+        self.assertEqual((done.returncode, done.stdout.strip()), (0, os.path.join(FOLDER, "compared_load.png")), done.stderr)
+        with unittest.mock.patch("shutil.which", return_value=None), self.assertRaises(SystemExit) as stop:
+            plot_python.needs("numpy", "a_module_that_is_not_there")
+        self.assertIn("python3-numpy", str(stop.exception.code))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,89 @@
+"""True contact area against force, beside what theory says of it, and from which force on the material yields."""
+
+import numpy as np
+
+from plot_curves import band, begin, curve, title
+from plot_style import GREY, amount, label
+
+
+def area(results, options):
+    """A(N). Of one result with the smooth sphere (Hertz) and the two regimes of the paper with their crossing, of two flats with the theories of
+    Persson, of Bush, Gibson and Thomas, of Greenwood and Williamson."""
+    results = [r for r in results if "contact_area" in r and (np.nan_to_num(r.mean("contact_area")) > 0).any()]
+    if not results:
+        return None
+    page, looks = begin(results, options)
+    axis, alone = page.axes[0], len(results) == 1
+    axis.set(xscale="log", yscale="log")
+    for result, look in zip(results, looks):
+        if alone:
+            page.entry("rsc", color=look[1], ls=look[0])
+            _theories(page, result)
+        force, values = result.mean("force"), result.mean("contact_area")
+        if alone and result.realizations > 2:
+            _scatter(page, axis, result, look[1])
+        curve(page, axis, result, look, force, values, error="area_error_expected", alone=alone)
+        if "compare_force" in result:
+            axis.plot(np.ravel(result["compare_force"]), np.ravel(result["compare_contact_area"]), "D", color=look[1], mfc="w", ms=5, zorder=4, gid="compare")
+            page.entry("the same by elements", color=look[1], ls="none", marker="D", mfc="w")
+        if alone:
+            _elastic_until(page, axis, result)
+    label(axis, "x", "force $N$", results[0].dimension("force"))
+    label(axis, "y", "true contact area $A$", results[0].dimension("contact_area"))
+    return page.finish(title(results, "True contact area against force"))
+
+
+def _scatter(page, axis, result, colour):
+    """Two thirds of the realizations at given forces, the curve of each interpolated between its levels."""
+    at = result.loaded()
+    force, curves = np.sort(result.mean("force")[at]), []
+    for n, a in zip(result["force"], result["contact_area"]):
+        good = (n > 0) & (a > 0)
+        if good.sum() < 2:
+            return
+        order = np.argsort(n[good])
+        curves.append(np.interp(np.log(force), np.log(n[good][order]), np.log(a[good][order]), left=np.nan, right=np.nan))
+    low, high = np.percentile(np.exp(curves), [16, 84], axis=0)
+    band(page, axis, force, low, high, colour)
+
+
+def _theories(page, result):
+    axis, at = page.axes[0], result.loaded()
+    order = at[np.argsort(result.mean("force")[at])]
+    force = result.mean("force")[order]
+    if not result.has_sphere():
+        for name, line, text in (("area_persson", "--", "Persson"), ("area_bgt", ":", "Bush, Gibson, Thomas"), ("area_gw", "-.", "Greenwood, Williamson")):
+            if name in result and np.isfinite(result.mean(name)[order]).any():  # shares of the nominal area
+                nominal = result.mean("contact_area")[order] / result.mean("area_fraction")[order]
+                axis.plot(force, nominal * result.mean(name)[order], line, color=GREY, lw=1.0, label=text)
+        return
+    top = order[-1]
+    ends = np.array([force.min(), force.max()])
+    crossing = float(result["transition_force"]) if "transition_force" in result else np.nan
+    near = np.isfinite(crossing) and ends[0] / 30 < crossing < ends[1] * 30 and not result.by_elements()
+    if near:
+        ends = np.array([min(ends[0], crossing / 2), max(ends[1], crossing * 2)])
+    laws = [("area_hertz", 2 / 3, ":", "smooth sphere (Hertz)")]
+    if not result.by_elements():  # the regimes are those of asperities that are far from merging
+        laws += [("area_I", 2 / 3, "--", r"$A_I\propto N^{2/3}$, one asperity"), ("area_II", 1, "-.", r"$A_{II}\propto N$, many")]
+    for name, exponent, line, text in laws:
+        value = result[name][top] if name in result else np.nan
+        if np.isfinite(value) and value > 0:
+            axis.plot(ends, value * (ends / result.mean("force")[top]) ** exponent, line, color=GREY, lw=1.0, label=text)
+    if near and "area_II" in result and np.isfinite(result["area_II"][top]):
+        axis.plot(crossing, result["area_II"][top] * crossing / result.mean("force")[top], "k*", ms=8, mfc="w", ls="none", label=f"crossing, $N^*$ = {amount(crossing, result.dimension('force'))}")
+
+
+def _elastic_until(page, axis, result):
+    """Where the first contacts yield: the highest force without, and the lowest with a yielding contact lie on either side of it."""
+    if "plastic_contacts" not in result:
+        return
+    at, force, yields = result.loaded(), result.mean("force"), result.worst("plastic_contacts") > 0
+    dimension, hardness = result.dimension("force"), result.case.get("solids%hardness", "")
+    if not yields[at].any():
+        page.entry(f"elastic up to {amount(force[at].max(), dimension)}: nothing reaches the hardness {hardness}", ls="none")
+        return
+    begins = force[at[yields[at]]].min()
+    below = force[at][force[at] < begins]
+    axis.axvspan(begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0)
+    page.entry(f"contacts yield from {amount(begins, dimension)} on" + (f" (none at {amount(below.max(), dimension)})" if below.size else ""), color="#f2b400", alpha=0.3, lw=6)

@@ -1,0 +1,72 @@
+"""Friction: the loop of tangential force beside that of a smooth sphere under the same load, and which spots stick and slip."""
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+
+from plot_style import Page, STYLES, amount, label
+
+
+def _level(results, options):
+    """The result and the level to draw: the one asked for, otherwise the last with a loop; None where there is none."""
+    if len(results) != 1 or "tangential_force" not in results[0]:
+        return None
+    loops = np.flatnonzero(np.isfinite(results[0]["tangential_force"][:, -1]))
+    step = options.step - 1 if options.step is not None else int(loops[-1]) if loops.size else None
+    return (results[0], step) if step in loops else None
+
+
+def _slide_per_depth(result, step):
+    """mu/m: the slide that full slip takes, over the approach since first touch; m is the tangential over the normal stiffness."""
+    return result.number("solids%friction") / (result["tangential_stiffness"][step] / -result["stiffness"].reshape(-1, result.steps)[0][step])
+
+
+def loop(results, options):
+    """The loop of friction of a level, beside Mindlin's for a smooth sphere of the same radius, moduli and load."""
+    found = _level(results, options)
+    if not found:
+        return None
+    result, step = found
+    page = Page(options)
+    axis = page.axes[0]
+    x, Q = result["tangential_displacement"][step], result["tangential_force"][step]
+    axis.plot(x, Q, color=STYLES[0][2], label="rough")
+    N, mu = result.mean("force")[step], result.number("solids%friction")
+    R, E = float(result["r_star"]), float(result["e_star"])
+    if np.isfinite(R) and R < 1e27:
+        full = _slide_per_depth(result, step) * (3 * N / (4 * E * np.sqrt(R))) ** (2 / 3)
+        drop = lambda t: mu * N * (1 - np.clip(1 - t, 0, None) ** 1.5)
+        t, back, reach = np.linspace(0, 1, 61), np.linspace(0, 0.9, 61), drop(0.9)
+        axis.plot(full * np.concatenate([t, 0.9 - 2 * back, -0.9 + 2 * back]), np.concatenate([drop(t), reach - 2 * drop(back), -reach + 2 * drop(back)]), STYLES[1][1], color=STYLES[1][2],
+                  label="smooth sphere (Mindlin)")
+    label(axis, "x", "tangential displacement", result.dimension("tangential_displacement"))
+    label(axis, "y", "tangential force $Q$", result.dimension("tangential_force"))
+    return page.finish(result.heading(f"Friction at {result.level_name(step)}, $N$ = {amount(N, result.dimension('force'))}"))
+
+
+def stick(results, options):
+    """Spots of a level as a map: what sticks and what slips at about half of the slide to full slip. The part that sticks is the spot of an earlier
+    level, Z0', the slide being (mu/m) (Z0' - Z0)."""
+    found = _level(results, options)
+    if not found or "contact_radius" not in found[0]:
+        return None
+    result, step = found
+    Z, count, start = result.mean("separation"), result["contact_count"].astype(int), result["contact_start"].astype(int) - 1
+    full = result["tangential_displacement"][step].max()
+    slides = _slide_per_depth(result, step) * (Z - Z[step])
+    inner = int(np.argmin(abs(slides - 0.5 * full)))
+    if not 0 < slides[inner] < full or count[step] == 0 or count[inner] == 0:
+        return None
+    page = Page(options, aspect=0.85)
+    axis = page.axes[0]
+    for level, colour, text in ((step, STYLES[1][2], "slips"), (inner, STYLES[0][2], "sticks")):
+        part = slice(start[level], start[level] + count[level])
+        which = result["contact_asperity"][part].astype(int) - 1
+        x, y, wide = result["asperity_x"][which], result["asperity_y"][which], 2 * result["contact_radius"][part]
+        axis.add_collection(EllipseCollection(wide, wide, 0 * wide, units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData, facecolors=colour, edgecolors="none", gid=text))
+        page.entry(text, marker="o", color=colour, ls="none")
+        if level == step:
+            half, cx, cy = 0.55 * max(np.ptp(x) + wide.max(), np.ptp(y) + wide.max()), (x.min() + x.max()) / 2, (y.min() + y.max()) / 2
+            axis.set(xlim=(cx - half, cx + half), ylim=(cy - half, cy + half), aspect="equal")
+    for which in "xy":
+        label(axis, which, f"${which}$", result.dimension("asperity_" + which))
+    return page.finish(result.heading(f"Spots at {result.level_name(step)}, slide {slides[inner] / full:.0%} of full slip"))

@@ -1,0 +1,93 @@
+"""Where the contact is: maps of the share of area in contact and of the pressure."""
+
+import numpy as np
+
+from plot_results import names
+from plot_style import COLOURS, amount, colour_bar, label, plt, _wrapped
+
+MOST = 36  # maps of several results on one page
+
+
+def hertz_radius(result, step):
+    return float(np.sqrt(result["area_hertz"][step] / np.pi)) if result.has_sphere() else np.nan
+
+
+def shown(results, options):
+    """(result, level, name) of the panels: three levels of one result, or one level of each of several."""
+    if len(results) == 1:
+        count = 3 if options.width >= 120 else 2
+        return [(results[0], level, results[0].level_name(level) + results[0].warning(level)) for level in results[0].chosen(count, options.step)]
+    return [(r, level, f"{name}, {r.level_name(level)}{r.warning(level)}") for r, name in zip(results, names(results)) for level in r.chosen(1, options.step)]
+
+
+def contact_window(x, y, field, side, margin=0.15):
+    """(x0, x1, y0, y1) of the smallest square that holds the cells where `field` is above zero, and a margin; cut to the map."""
+    rows, columns = np.nonzero(np.nan_to_num(field) > 0)
+    whole = (x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2)
+    if rows.size == 0:
+        return whole
+    ends = np.array([x[columns.min()] - side / 2, x[columns.max()] + side / 2, y[rows.min()] - side / 2, y[rows.max()] + side / 2])
+    half = max(ends[1] - ends[0], ends[3] - ends[2], 4 * side) * (0.5 + margin)
+    cx, cy = (ends[0] + ends[1]) / 2, (ends[2] + ends[3]) / 2
+    return max(cx - half, whole[0]), min(cx + half, whole[1]), max(cy - half, whole[2]), min(cy + half, whole[3])
+
+
+def maps(results, options):
+    """Area fraction and pressure in the cells at some levels of one result, or the pressure of several; cropped to the contact. The circle is the
+    contact of the smooth sphere under the same force."""
+    panels = shown([r for r in results if "map_pressure" in r], options)
+    if not panels:
+        return None
+    if len(panels) > MOST:
+        options.say(f"map: {MOST} of {len(panels)} results are drawn, evenly spread")
+        panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
+    one = len(results) == 1
+    quantities = [("map_area_fraction", "area fraction $A'$"), ("map_pressure", "pressure $p$")] if one else [("map_pressure", "pressure $p$")]
+    columns = len(panels) if one else int(np.ceil(np.sqrt(1.6 * len(panels))))
+    rows = -(-len(panels) // columns)
+    size = options.width / columns
+    small = size < 40  # too small for a colour bar and axes of its own
+    figure, axes = plt.subplots(rows * len(quantities), columns, figsize=(options.width / 25.4, ((0.8 if not small else 1.05) * size * rows * len(quantities) + (14 if one else 8 * rows)) / 25.4),
+                                constrained_layout=True, squeeze=False)
+    for axis in axes.ravel():
+        axis.set_visible(False)
+    images = []
+    for k, (result, level, name) in enumerate(panels):
+        for q, (variable, text) in enumerate(quantities):
+            axis = axes[k // columns + rows * q, k % columns]
+            axis.set_visible(True)
+            image = _map(axis, result, level, variable)
+            images.append(image)
+            if not small:
+                colour_bar(figure, image, axis, text, result.dimension(variable), extend=image.extend, fraction=0.06, pad=0.03, aspect=16)
+                label(axis, "y", "$y$", result.dimension("y"))
+                label(axis, "x", "$x$", result.dimension("x"))
+            else:
+                axis.set(xticks=[], yticks=[])
+            if q == 0:
+                force = f"\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}" if not name.startswith("$N$") and not small else ""
+                axis.set_title("\n".join(_wrapped(name, int(size / 1.5))) + force, fontsize=7 if not small else 5.5)
+    if small:  # one scale for all
+        end = max(image.get_clim()[1] for image in images)
+        for image in images:
+            image.set_clim(0, end)
+        colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
+    what = ("Area fraction and pressure" if one else "Pressure") + ("; dashed: smooth sphere under the same force" if any(r.has_sphere() for r, _, _ in panels) else "")
+    figure.suptitle("\n".join(part for line in (results[0].heading(what) if one else what).split("\n") if line for part in _wrapped(line, int(options.width / 1.65))))
+    return figure
+
+
+def _map(axis, result, level, name):
+    field, x, y, side = result.window(name, level), result["x"], result["y"], float(result["map_cell_side"])
+    # A hundredth of the cells may be above the end of the scale: they would hide all others.
+    end = np.percentile(field[field > 0], 99) if (field > 0).any() else 1.0
+    image = axis.imshow(np.ma.masked_where(~(field > 0), field), extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2], cmap=COLOURS, vmin=0, vmax=end,
+                        interpolation="nearest")
+    image.extend = "max" if np.nanmax(field, initial=0) > end else "neither"
+    radius = hertz_radius(result, level)
+    if np.isfinite(radius):
+        axis.add_patch(plt.Circle((float(result["tip_x"]), float(result["tip_y"])), radius, fill=False, ls="--", lw=1.0, color="r"))
+    window = contact_window(x, y, result.window("map_pressure", level), side)
+    axis.set(xlim=window[:2], ylim=window[2:])
+    axis.locator_params(nbins=4)
+    return image

@@ -1,0 +1,43 @@
+"""Pressure about the tip."""
+
+import numpy as np
+
+from plot_map import hertz_radius, shown
+from plot_curves import title
+from plot_style import FEW, Page, STYLES, label, plt
+
+
+def radial(results, options):
+    """Radial mean of the pressure, linear and logarithmic, with Hertz for the same force."""
+    results = [r for r in results if "radial_pressure" in r and r.has_sphere()]
+    panels = shown(results, options)
+    if not panels:
+        return None
+    page = Page(options, 2)
+    many = len(panels) > FEW
+    if many:
+        page.scale(("result", [str(k + 1) for k in range(len(panels))], plt.get_cmap("viridis")(np.linspace(0, 0.9, len(panels)))))
+    end, all_pressures = 0.0, []
+    for k, (result, level, name) in enumerate(panels):
+        marker, line, colour = STYLES[k] if not many else ("o", "-", plt.get_cmap("viridis")(0.9 * k / (len(panels) - 1)))
+        radius, pressure, a = result["radius"], result["radial_pressure"][level], hertz_radius(result, level)
+        all_pressures.append(pressure[pressure > 0])
+        end = max(end, radius[pressure > 0].max(initial=0), 1.3 * a)
+        for axis, logarithmic in zip(page.axes, (False, True)):
+            good = pressure > 0 if logarithmic else np.isfinite(pressure)
+            axis.plot(radius[good], pressure[good], marker, ms=2.5, color=colour, mfc="none", mew=0.7)
+            r = a * np.sin(np.linspace(0, np.pi / 2, 200)[: -1 if logarithmic else None])
+            axis.plot(r, 1.5 * result.mean("force")[level] / (np.pi * a * a) * np.sqrt(1 - (r / a) ** 2), line, color=colour, gid="hertz")
+        if not many:
+            page.entry(name, color=colour, marker=marker, ls=line, mfc="none", ms=3)
+    positive = np.concatenate(all_pressures)
+    page.axes[1].set_yscale("log")
+    if positive.size:
+        page.axes[1].set_ylim(max(positive.min(), positive.max() * 1e-4) / 2, positive.max() * 2)
+    for axis in page.axes:
+        axis.set_xlim(0, min(1.05 * end, results[0]["radius"][-1]))
+        label(axis, "x", "distance from the tip $r$", results[0].dimension("radius"))
+    page.axes[0].set_ylim(bottom=0)
+    for axis in page.axes:
+        label(axis, "y", "pressure $p$", results[0].dimension("radial_pressure"))
+    return page.finish(title(results, "Radial mean of the pressure; points: rsc, lines: smooth sphere (Hertz)"))

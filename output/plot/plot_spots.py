@@ -1,0 +1,121 @@
+"""The contact spots of a level over the heights."""
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import ListedColormap
+
+from plot_style import Page, amount, colour_bar, label
+
+ELASTIC, YIELDING = "#d62728", "#f2b400"
+
+
+def heights(result, axis, window=None, bright=0.0, most=900):
+    """Draws the heights in a window, at most `most` points each way; returns the image, or None where the file holds none. bright: how much of
+    the darker end of the colours is left to other things."""
+    if "height" not in result:
+        return None
+    hx, hy = (result[next(n for n in found if n in result)] for found in (("height_x", "x"), ("height_y", "y")))
+    window = window or (hx[0], hx[-1], hy[0], hy[-1])
+    i, j = np.flatnonzero((hx >= window[0]) & (hx <= window[1])), np.flatnonzero((hy >= window[2]) & (hy <= window[3]))
+    if i.size < 2 or j.size < 2:
+        return None
+    stride = max(1, max(i.size, j.size) // most)
+    z = result.window("height", slice(j[0], j[-1] + 1, stride), slice(i[0], i[-1] + 1, stride))
+    dx, dy = hx[1] - hx[0], hy[1] - hy[0]
+    low, high = float(np.nanmin(z)), float(np.nanmax(z))
+    return axis.imshow(z, vmin=low - bright * (high - low), vmax=high, extent=[hx[i[0]] - dx / 2, hx[i[-1]] + dx / 2, hy[j[0]] - dy / 2, hy[j[-1]] + dy / 2], cmap="gray", interpolation="nearest")
+
+
+def spots_of(result, step):
+    """x, y, radius, force and whether they yield of the spots of a level; None where the file keeps none."""
+    if "contact_start" not in result or "contact_radius" not in result or not result["contact_count"][step] > 0:
+        return None
+    first, count = int(result["contact_start"][step]) - 1, int(result["contact_count"][step])
+    span = slice(first, first + count)
+    if "contact_x" in result:
+        x, y = result.window("contact_x", span), result.window("contact_y", span)
+    elif "contact_asperity" in result:
+        which = result.window("contact_asperity", span).astype(int) - 1
+        x, y = result["asperity_x"][which], result["asperity_y"][which]
+    else:
+        return None
+    yields = result.window("contact_yields", span) > 0 if "contact_yields" in result else np.zeros(count, bool)
+    return x, y, result.window("contact_radius", span), result.window("contact_force", span), yields
+
+
+def pixels_of(result, step):
+    """(extent, pressure) on the points of a level solved by elements, NaN where nothing touches, from the fields of the file; None where it
+    holds none of this level."""
+    if "field_pressure" not in result:
+        return None
+    at = np.flatnonzero(result["field_step"].astype(int) == step + 1)
+    if at.size == 0:
+        return None
+    x, y, p = result["field_x"], result["field_y"], result.window("field_pressure", int(at[0]))
+    dx, dy = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
+    return (x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy), np.where(p > 0, p, np.nan)
+
+
+def draw_spots(axis, spots, least=0.0, edge=0.0):
+    """Spots as discs, elastic and yielding ones in colours of their own; least: the smallest radius drawn."""
+    x, y, a, _, yields = spots
+    for some, colour, name in ((~yields, ELASTIC, "spots"), (yields, YIELDING, "yielding spots")):
+        if some.any():  # matplotlib 3.6 draws an empty EllipseCollection as one big ellipse
+            wide = 2 * np.maximum(a[some], least)
+            axis.add_collection(EllipseCollection(wide, wide, 0 * wide, units="xy", offsets=np.column_stack([x[some], y[some]]), transOffset=axis.transData, facecolors=colour, edgecolors="k",
+                                                  linewidths=edge, gid=name))
+
+
+def spots(results, options):
+    """The contact spots of a level over the heights: all of them, and those around the largest, true to size."""
+    result = results[0]
+    if len(results) > 1 or "contact_count" not in result or not (result["contact_count"] > 0).any():
+        return None
+    step = options.step - 1 if options.step is not None else int(np.flatnonzero(result["contact_count"] > 0)[-1])
+    found = spots_of(result, step)
+    if found is None:
+        return None
+    x, y, a, _, yields = found
+    big = int(np.argmax(a))
+    low, high = np.array([(x - a).min(), (y - a).min()]), np.array([(x + a).max(), (y + a).max()])
+    half = 0.54 * (high - low).max()
+    near = min(max(14 * np.median(a), 4 * a[big]), half)
+    page = Page(options, 2, aspect=0.86)
+    pixels = pixels_of(result, step)
+    image = None
+    for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big], y[big]])), (half, near)):
+        if "x" in result:  # stay on the surface where it is large enough
+            side = float(result["map_cell_side"]) / 2
+            ends = np.array([[result["x"][0] - side, result["x"][-1] + side], [result["y"][0] - side, result["y"][-1] + side]])
+            centre = np.where(ends[:, 1] - ends[:, 0] > 2 * h, np.clip(centre, ends[:, 0] + h, ends[:, 1] - h), centre)
+        window = (centre[0] - h, centre[0] + h, centre[1] - h, centre[1] + h)
+        drawn = heights(result, axis, window, bright=0.8)
+        image = image or drawn
+        if pixels:
+            axis.imshow(np.ma.masked_invalid(pixels[1] * 0 + 1), extent=pixels[0], cmap=ListedColormap([ELASTIC]), interpolation="nearest", gid="pixels")
+        else:
+            draw_spots(axis, found, least=0.006 * h if axis is page.axes[0] else 0.0, edge=0.0 if axis is page.axes[0] else 0.3)
+        if axis is page.axes[1] and "asperity_x" in result:
+            ax, ay = result["asperity_x"], result["asperity_y"]
+            inside = (abs(ax - centre[0]) <= h) & (abs(ay - centre[1]) <= h)
+            axis.plot(ax[inside], ay[inside], "+", color="#0b6fa4", ms=4, mew=0.7, label="summits")
+        axis.set(xlim=window[:2], ylim=window[2:], aspect="equal")
+        axis.locator_params(nbins=5)
+        label(axis, "x", "$x$", result.dimension("x") if "x" in result else "m")
+        label(axis, "y", "$y$", result.dimension("y") if "y" in result else "m")
+    if drawn is not None:
+        drawn.set_clim(image.get_clim())
+        low, high = image.get_array().min(), image.get_array().max()
+        bar = colour_bar(page.figure, image, page.axes[1], "height $z$", result.dimension("height"), shrink=0.85, aspect=25)
+        bar.ax.set_ylim(low, high)  # the darker half of the greys is left to the spots
+    if result.has_sphere() and max(abs(float(result["tip_x"]) - sum(page.axes[0].get_xlim()) / 2), abs(float(result["tip_y"]) - sum(page.axes[0].get_ylim()) / 2)) < half:
+        page.axes[0].plot(float(result["tip_x"]), float(result["tip_y"]), "kx", ms=6, label="tip", ls="none", zorder=4)
+    if (~yields).any():
+        page.entry("elastic" if "contact_yields" in result else "contact", marker="o", color=ELASTIC, ls="none", ms=5)
+    if yields.any():
+        page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
+    what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels else "true to size"
+    page.axes[0].set_title(f"{x.size} spots" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))
+    page.axes[1].set_title(f"around the largest: {what}")
+    force = "" if result.control() == "force" else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"
+    return page.finish(result.heading(f"Contact spots at {result.level_name(step)}{force}{result.warning(step)}"))
