@@ -16,11 +16,14 @@ import os
 import re
 import sys
 
-try:
-    import netCDF4
-    import numpy as np
-except ImportError as missing:
-    sys.exit(f"law.py: the Python module {missing.name!r} is missing; on Debian: apt install python3-numpy python3-netcdf4")
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plot"))
+    from plot_python import needs
+
+    needs("numpy", "netCDF4")
+
+import netCDF4
+import numpy as np
 
 NOT_CONVERGED = 4  # of the variable status
 

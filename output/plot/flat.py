@@ -11,6 +11,11 @@ import argparse
 import os
 import sys
 
+from plot_python import needs
+
+if __name__ == "__main__":
+    needs("numpy", "scipy", "netCDF4", "matplotlib")
+
 import numpy as np
 
 from paper_common import STYLES, Report, mean_and_error, members, plt, save

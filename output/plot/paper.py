@@ -11,6 +11,11 @@ import argparse
 import os
 import sys
 
+from plot_python import needs
+
+if __name__ == "__main__":
+    needs("numpy", "scipy", "netCDF4", "matplotlib")
+
 from paper_common import Report, Result
 import paper_contact
 import paper_laws

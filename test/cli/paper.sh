@@ -64,8 +64,8 @@ done
 
 report=$folder/paper/report.txt
 [ -s "$report" ] || { fail "no report"; exit 1; }
-# It begins with ten lines of verdict, made from its own rows.
-head -n 10 "$report" > "$folder/verdict.txt"
+# It begins with a verdict, made from its own rows.
+head -n 25 "$report" > "$folder/verdict.txt"
 head -n 1 "$report" | grep -q '^Verdict: of [0-9]* numbers of the paper, [0-9]* agree .* [0-9]* do not\. SHORTENED' || fail "the report does not begin with a verdict"
 [ "$(grep -c ': agrees$\|: does not agree, [-+][0-9]* %$' "$folder/verdict.txt")" -eq 9 ] || fail "not nine verdicts: $(cat "$folder/verdict.txt")"
 grep -q 'area over load, beta .*does not agree' "$folder/verdict.txt" || fail "beta of the paper is taken for right"
