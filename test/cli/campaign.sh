@@ -1,25 +1,8 @@
 #!/bin/bash
 # Campaigns and studies from outside: bash campaign.sh TEST RSC RSC_MPI FOLDER, RSC_MPI empty where it is not built.
-# Exit status 0: passed, 77: skipped, anything else: failed.
-set -u
 test=$1 rsc=$2 rsc_mpi=$3 folder=$4
-export SOURCE_DATE_EPOCH=1700000000   # files are equal to the last byte then
-umask 022
-rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
+. "$(dirname "$0")/common.sh"
 
-fail() { echo "failed: $*"; exit 1; }
-# expect STATUS command...: the exit status; stdout and stderr go to the file `said`.
-expect() {
-    local wanted=$1 got
-    shift
-    "$@" > said 2>&1
-    got=$?
-    [ $got -eq "$wanted" ] || { cat said; fail "exit status $got instead of $wanted: $*"; }
-}
-says() { grep -q -- "$1" said || { cat said; fail "it does not say: $1"; }; }
-# in_folder NAME command...: in a folder of that name, so that the result file can have one name everywhere.
-in_folder() { mkdir -p "$1" && (cd "$1" && shift && "$@"); }
-same() { cmp "$1" "$2" || fail "$1 and $2 differ"; }
 ranks() {
     local n=$1
     shift
@@ -65,7 +48,6 @@ test_threads() {
 
 # The same bits whatever the number of ranks, and an interrupted job is finished by another number of them.
 test_ranks() {
-    [ -n "$rsc_mpi" ] || exit 77
     campaign 60
     expect 0 in_folder one "$rsc" -s run%threads=1 ../case.nml
     for n in 1 2 3; do
@@ -127,8 +109,7 @@ test_kills() {
     expect 0 "$rsc" --resume ../case.nml
     same ../whole/out.nc out.nc
     [ "$(ls)" = "$(printf 'out.nc\nsaid')" ] || fail "something is left beside out.nc: $(ls)"
-    [ $kept -ge 5 ] || fail "too few kills left work behind ($kept): the test proves little"
-    echo "$kills kills in $runs runs, $kept with work kept"
+    [ $kept -ge 5 ] || fail "too few kills left work behind: $kept of $kills"
 }
 
 # A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing (faults.sh).
@@ -140,23 +121,8 @@ test_signals() {
         kill -s $signal $!
         wait $!
         [ $? -eq $([ $signal = INT ] && echo 130 || echo 143) ] || fail "exit status"
-        says "^rsc: stopped by SIG$signal; [0-9]* of 20000 realizations are finished and kept in 'out.nc.checkpoint': the same command with --resume goes on from there$"
+        says "SIG$signal; [0-9]* of 20000 realizations.*out.nc.checkpoint.*--resume"
         [ -s out.nc.checkpoint ] && [ ! -e out.nc ] || fail "the state is not as it should be"
-    done
-    # While the result is written: it is finished, and nothing else is left.
-    rm out.nc.checkpoint
-    campaign 4
-    for signal in TERM INT; do
-        env --default-signal=INT "$rsc" -q -s indentation%steps=60 -s output%map_cells=300 -s output%compression=9 case.nml > said 2>&1 &
-        until ls | grep -q "out.nc.part"; do
-            kill -0 $! 2> /dev/null || { cat said; fail "it was not seen to write"; }
-            sleep 0.01
-        done
-        kill -s $signal $!
-        wait $! || fail "exit status"
-        ncdump -h out.nc > /dev/null || fail "the file is not whole"
-        rm out.nc
-        [ "$(ls)" = "$(printf 'case.nml\nsaid')" ] || fail "something is left: $(ls)"
     done
 }
 
@@ -189,7 +155,7 @@ test_refused() {
     "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
     until_state "$(stat -c %s out.nc.checkpoint)" $!
     expect 2 "$rsc" --resume long.nml
-    says "^'out.nc.checkpoint': another rsc is at work on this campaign$"
+    says "another rsc"
     kill %1
     wait
     # Another number of threads, and another format, are the same case.
@@ -208,12 +174,10 @@ test_grow() {
     expect 0 in_folder whole "$rsc" -q ../case.nml
     mkdir grown && cd grown
     expect 0 "$rsc" -q -s run%realizations=11 ../case.nml
-    expect 0 "$rsc" --resume -s run%title="'x'" -s run%realizations=11 ../case.nml   # only the title: nothing is computed
-    says "11 realizations of 20 levels.*; 11 of them are done"
     expect 0 "$rsc" --resume -s run%realizations=18 ../case.nml
-    says "18 realizations of 20 levels.*; 11 of them are done"
+    says "11 of them"
     expect 0 "$rsc" --resume ../case.nml
-    says "30 realizations of 20 levels.*; 18 of them are done"
+    says "18 of them"
     same ../whole/out.nc out.nc
     # A growth that is interrupted goes on from its own state, without the result.
     sed 's/= 30 /= 30000 /' ../case.nml > long.nml
@@ -230,8 +194,8 @@ test_grow() {
     # Another case, or fewer: told, and computed.
     expect 0 "$rsc" -q ../case.nml
     expect 0 "$rsc" --resume -s surface%hurst=0.75 ../case.nml
-    says "is not the first part of this campaign (surface%hurst: 0.7 there, 0.75 now): all realizations are computed"
-    grep -q "are done" said && fail "realizations of another case were taken"
+    says "surface%hurst: 0.7 there, 0.75 now"
+    silent_on "are done"
     expect 0 "$rsc" --resume -s surface%hurst=0.75 -s run%realizations=5 ../case.nml
     says "run%realizations: 30 there, 5 now"
     expect 0 "$rsc" --resume -s surface%hurst=0.75 -s run%realizations=9 -s run%first_realization=1 ../case.nml
@@ -280,51 +244,30 @@ test_merge() {
     part flats2 5 3 $flats
     expect 0 in_folder flats12 "$rsc" -q --merge ../flats2/out.nc ../flats1/out.nc -o out.nc
     same flats/out.nc flats12/out.nc
-    part law 14 4 -s "asperities%law='elliptic'" -s solver%tolerance=1e-7
+    part law 14 4 -s "asperities%law='elliptic'"
     part cells 14 4 -s output%map_cells=10
-    part grid 14 4 -s surface%n=512
     part one 14 1
     part classic 14 3 -s "output%format='classic'"
     study
     expect 0 in_folder study "$rsc" -q ../case.nml
     echo text > text.nc
-    refused() { expect 2 "$rsc" --merge "$@" -o new.nc; [ ! -e new.nc ] || fail "a refusal has written"; }
-    refused a/out.nc law/out.nc
-    says "'law/out.nc' is of another case than 'a/out.nc'"
-    says "asperities%law: 'hertz' in 'a/out.nc', 'elliptic' in 'law/out.nc'"
-    says "solver%tolerance: 1e-06 in"
-    refused a/out.nc cells/out.nc
-    says "output%map_cells: 20 in 'a/out.nc', 10 in 'cells/out.nc'"
-    refused a/out.nc grid/out.nc
-    says "surface%n: 256 in"
-    refused a/out.nc one/out.nc
-    says "^--merge: 'one/out.nc' holds a single realization, not a campaign$"
-    refused a/out.nc study/out/rsc_manifest.nc
-    says "^--merge: 'study/out/rsc_manifest.nc' is the manifest of a study, not the result of a campaign$"
-    refused a/out.nc text.nc
-    says "'text.nc' is no result of rsc"
-    refused a/out.nc a/../a/out.nc
-    says "realizations 3 to 13 are in 'a/out.nc' and in 'a/../a/out.nc'"
-    refused a/out.nc merged/out.nc
-    says "realizations 3 to 13 are in"
-    refused a/out.nc merged/later.nc b/out.nc
-    says "realizations 14 to 16 are in"
-    refused a/out.nc c/out.nc
-    says "realizations 14 to 16 of the campaign are in none of the files"
+    refused() { local word=$1; shift; expect 2 "$rsc" --merge "$@" -o new.nc; says "$word"; [ ! -e new.nc ] || fail "a refusal has written"; }
+    refused "asperities%law: 'hertz' in 'a/out.nc', 'elliptic' in 'law/out.nc'" a/out.nc law/out.nc
+    refused "output%map_cells: 20 in 'a/out.nc', 10 in 'cells/out.nc'" a/out.nc cells/out.nc
+    refused "one/out.nc.*single" a/out.nc one/out.nc
+    refused "rsc_manifest.nc.*manifest" a/out.nc study/out/rsc_manifest.nc
+    refused "text.nc.*no result of rsc" a/out.nc text.nc
+    refused "realizations 3 to 13 .*'a/out.nc'.*'a/../a/out.nc'" a/out.nc a/../a/out.nc
+    refused "realizations 14 to 16" a/out.nc merged/later.nc b/out.nc
+    refused "realizations 14 to 16 .*none" a/out.nc c/out.nc
     sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' classic/out.nc
-    refused a/out.nc classic/out.nc
-    says "'classic/out.nc' is of another version (rsc 0.0.9)"
+    refused "classic/out.nc.*0.0.9" a/out.nc classic/out.nc
     expect 2 "$rsc" --merge a/out.nc b/out.nc -o text.nc
-    says "text.nc.*is no result of rsc"
     grep -q text text.nc || fail "a file of somebody else was replaced"
-    expect 2 "$rsc" --merge a/out.nc b/out.nc -o b/out.nc
-    says "this is an input of the run"
-    expect 2 "$rsc" --merge a/out.nc -o new.nc
-    says "two result files or more"
-    expect 2 "$rsc" --merge a/out.nc b/out.nc
-    says "--output"
-    expect 2 "$rsc" --merge a/out.nc b/out.nc -o new.nc -s run%seed=2
-    says "computes nothing"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc -o b/out.nc; says "input of the run"
+    expect 2 "$rsc" --merge a/out.nc -o new.nc; says "two"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc; says "--output"
+    expect 2 "$rsc" --merge a/out.nc b/out.nc -o new.nc -s run%seed=2; says "computes nothing"
 }
 
 # A study in one go and as an array of jobs: the same files. A bad member is refused before anything runs.
@@ -357,7 +300,7 @@ test_study() {
     touch -d @1000000000 out/rsc_00*.nc
     expect 0 "$rsc" --resume ../case.nml
     says "member 2 .*is there and whole"
-    rm said && cd ..
+    cd ..
     [ "$(find array/out -name 'rsc_00*.nc' -newermt @1000000001 | wc -l)" -eq 1 ] || fail "one member should have been made"
     diff -r one array || fail "the resumed study differs"
     # One from another case is made again.
@@ -405,33 +348,6 @@ test_memory() {
         esac
     done
     [ $refused -ge 3 ] || fail "memory was refused $refused times only: the test proves little"
-    echo "refused $refused times, from $least KiB on"
-}
-
-# A disk that is full, where this user may mount one.
-test_full_disk() {
-    mkdir disk
-    mount -t tmpfs -o size=512k none disk 2> /dev/null || exit 77
-    trap 'umount "$folder/disk"' EXIT
-    campaign 300
-    expect 0 in_folder whole "$rsc" -q ../case.nml
-    expect 1 in_folder disk "$rsc" -q ../case.nml
-    says "^cannot write 'out.nc.checkpoint': the disk is full (No space left on device); make room there$"
-    says "^[0-9]* of 300 realizations are finished and kept in 'out.nc.checkpoint': the same command with --resume goes on from there$"
-    [ "$(ls disk)" = out.nc.checkpoint ] || fail "found: $(ls disk)"
-    expect 1 in_folder disk "$rsc" -q --resume ../case.nml
-    mount -o remount,size=64m disk || exit 77
-    expect 0 in_folder disk "$rsc" --resume ../case.nml
-    same whole/out.nc disk/out.nc
-    # The result alone finds no room: the work is kept all the same.
-    rm disk/out.nc
-    mount -o remount,size=3m disk
-    dd if=/dev/zero of=disk/ballast bs=1k count=600 2> /dev/null
-    expect 1 in_folder disk "$rsc" -q -s output%map_cells=200 -s output%compression=0 ../case.nml
-    [ ! -e disk/out.nc ] || fail "there is a file under the final name"
-    rm disk/ballast
-    mount -o remount,size=64m disk
-    expect 0 in_folder disk "$rsc" -q --resume -s output%map_cells=200 -s output%compression=0 ../case.nml
 }
 
 "test_$test"

@@ -1,23 +1,8 @@
 #!/bin/bash
-# What a run does to files, and what it says of them: bash files.sh TEST RSC FOLDER.
-# Exit status 0: passed, 77: skipped, anything else: failed.
-set -u
+# What a run does to files, and what it refuses because of files, surfaces and places, with status 2 and nothing written:
+# bash files.sh TEST RSC FOLDER.
 test=$1 rsc=$2 folder=$3
-export SOURCE_DATE_EPOCH=1700000000   # files are equal to the last byte then
-rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
-
-fail() { echo "failed: $*"; exit 1; }
-# expect STATUS command...: the exit status; stdout and stderr go to the file `said`.
-expect() {
-    local wanted=$1 got
-    shift
-    "$@" > "$folder/said" 2>&1
-    got=$?
-    [ $got -eq "$wanted" ] || { cat "$folder/said"; fail "exit status $got instead of $wanted: $*"; }
-}
-says() { grep -qF -- "$1" "$folder/said" || { cat "$folder/said"; fail "it does not say: $1"; }; }
-silent_on() { ! grep -qF -- "$1" "$folder/said" || { cat "$folder/said"; fail "it says: $1"; }; }
-same() { cmp "$1" "$2" || fail "$1 and $2 differ"; }
+. "$(dirname "$0")/common.sh"
 
 cat > case.nml << 'END'
 &surface     n = 128  L_lambda_l = 4  L_lambda_s = 32 /
@@ -25,27 +10,39 @@ cat > case.nml << 'END'
 &output      file = 'out.nc'  map_cells = 10 /
 END
 cp case.nml before.nml
+# Heights as text with its four summits, and a list of two.
+for row in "0 0 0 0 0 0 0" "0 3 0 0 0 2 0" "0 0 0 0 0 0 0" "0 0 0 4 0 0 0" "0 0 0 0 0 0 0" "0 1 0 0 0 5 0" "0 0 0 0 0 0 0"; do echo "$row"; done > map.txt
+printf '0.2 0.3 0.010 0.05\n0.6 0.8 0.012 0.04\n' > list.txt
+# from SOURCE FILE: the case is of that file.
+from() { sed "s/n = 128.*32/source = '$1' file = '$2'/" before.nml > case.nml; }
+# refused WORD arguments...: the case with these, checked and run.
+refused() {
+    local word=$1
+    shift
+    ls -A | grep -v '^said$' > "$folder.before"
+    expect 2 "$rsc" case.nml "$@"; says "$word"
+    expect 2 "$rsc" --check case.nml "$@"; says "$word"
+    ls -A | grep -v '^said$' | cmp -s - "$folder.before" || fail "something was written: $*"
+}
+taken() { expect 0 "$rsc" --check -q case.nml "$@"; }
 
 # The case, by whatever name, and what is no result of rsc are never overwritten.
 test_lost() {
-    expect 2 "$rsc" case.nml -o case.nml; says "file='case.nml': this is an input of the run ('case.nml')"
-    expect 2 "$rsc" -o case.nml < case.nml; says "this is an input of the run"
     ln -s case.nml link.nc
-    expect 2 "$rsc" case.nml -o link.nc; says "this is an input of the run"
     ln case.nml hard.nc
-    expect 2 "$rsc" case.nml -o ./hard.nc; says "this is an input of the run"
+    for name in case.nml link.nc ./hard.nc; do expect 2 "$rsc" case.nml -o $name; says "input of the run"; done
+    expect 2 "$rsc" -o case.nml < case.nml; says "input of the run"
     same case.nml before.nml
     echo "my thesis" > thesis.tex
-    expect 2 "$rsc" case.nml -o thesis.tex; says "file='thesis.tex': this file exists and is no result of rsc; it is left alone"
-    expect 2 "$rsc" --check case.nml -o thesis.tex; says "it is left alone"
     : > empty.nc
-    expect 2 "$rsc" case.nml -o empty.nc; says "no result of rsc"
-    [ "$(cat thesis.tex)" = "my thesis" ] || fail "thesis.tex is lost"
-    # A campaign likewise, and its state is no place for other files.
+    refused "no result of rsc" -o thesis.tex
+    refused "no result of rsc" -o empty.nc
     expect 2 "$rsc" case.nml -s run%realizations=3 -o thesis.tex; says "no result of rsc"
+    [ "$(cat thesis.tex)" = "my thesis" ] || fail "thesis.tex is lost"
+    # The state of a campaign is no place for other files.
     for text in "my notes" "n"; do
         echo "$text" > c.nc.checkpoint
-        expect 2 "$rsc" case.nml -s run%realizations=3 -o c.nc; says "no checkpoint of rsc"
+        expect 2 "$rsc" case.nml -s run%realizations=3 -o c.nc; says "checkpoint"
         [ "$(cat c.nc.checkpoint)" = "$text" ] || fail "c.nc.checkpoint is lost"
     done
 }
@@ -54,19 +51,16 @@ test_lost() {
 test_lost_maps() {
     command -v ncgen > /dev/null || exit 77
     printf 'netcdf m {\ndimensions: y=4; x=5;\nvariables: double height(y,x);\ndata: height=0,0,0,0,0, 0,1,0,1,0, 0,0,0,2,0, 0,0,0,0,0;\n}\n' > m.cdl
-    ncgen -o m.nc m.cdl && cp m.nc before.nc
-    heights=(-s "surface%source='heights'" -s "surface%file='m.nc'" -s surface%L=1)
-    cat > measured.nml << 'END'
-&indentation steps = 4  start = 1  stop = 0.5 /
-&output      file = 'out.nc'  map_cells = 10 /
-END
-    expect 0 "$rsc" measured.nml "${heights[@]}"
-    expect 2 "$rsc" measured.nml "${heights[@]}" -o m.nc; says "file='m.nc': this is an input of the run ('m.nc')"
+    ncgen -o m.nc m.cdl && cp m.nc unchanged.nc
     expect 2 "$rsc" case.nml -o m.nc; says "no result of rsc"
-    same m.nc before.nc
+    from heights m.nc
+    expect 0 "$rsc" case.nml -s surface%L=1 -s indentation%start=1 -s indentation%stop=0.5
+    refused "input of the run" -s surface%L=1 -o m.nc
+    same m.nc unchanged.nc
     # A result as the next one's input.
-    expect 0 "$rsc" case.nml -s output%heights=T
-    expect 2 "$rsc" measured.nml -s "surface%source='heights'" -s "surface%file='out.nc'"; says "this is an input of the run ('out.nc')"
+    expect 0 "$rsc" before.nml -s output%heights=T
+    from heights out.nc
+    refused "input of the run"
 }
 
 # A result takes the place of an older one, and the screen says so.
@@ -74,92 +68,209 @@ test_replaced() {
     for realizations in 1 3; do
         expect 0 "$rsc" case.nml -s run%realizations=$realizations -o r$realizations.nc; silent_on "replaces"
         cp r$realizations.nc first.nc
-        expect 0 "$rsc" case.nml -s run%realizations=$realizations -o r$realizations.nc
-        says "result: r$realizations.nc (replaces the result that was there)"
+        expect 0 "$rsc" case.nml -s run%realizations=$realizations -o r$realizations.nc; says "r$realizations.nc (replaces"
         same r$realizations.nc first.nc
     done
 }
 
 # --resume leaves a result alone that is there, unless the file it was read from is newer.
 test_newer_input() {
-    printf '0.4 0.5 0.010 0.01\n0.6 0.5 0.011 0.01\n' > list.txt
-    resumed=(-s "surface%source='asperities'" -s "surface%file='list.txt'" -s surface%L=1 --resume -o list.nc)
-    sed 's/n = 128.*32//' before.nml > list.nml
-    expect 0 "$rsc" list.nml "${resumed[@]}"; says "result: list.nc"
-    cp list.nc first.nc
-    expect 0 "$rsc" list.nml "${resumed[@]}"; says "'list.nc' is there and whole: nothing to do"
-    same list.nc first.nc
-    printf '0.4 0.5 0.010 0.01\n0.6 0.5 0.012 0.01\n' > list.txt
-    expect 0 "$rsc" list.nml "${resumed[@]}"; says "replaces the result"
-    cmp -s list.nc first.nc && fail "the newer list was not read"
-    return 0
+    from asperities list.txt
+    expect 0 "$rsc" case.nml -s surface%L=1 --resume
+    cp out.nc first.nc
+    expect 0 "$rsc" case.nml -s surface%L=1 --resume; says "whole"
+    same out.nc first.nc
+    sed -i 's/0.012/0.013/' list.txt
+    expect 0 "$rsc" case.nml -s surface%L=1 --resume; says "replaces"
+    ! cmp -s out.nc first.nc || fail "the newer list was not read"
 }
 
-# A study: its manifest, and every member.
+# A study: its manifest says what each member is, in the units of the case; what is in the way is refused.
 test_study() {
-    printf "&study surface%%sigma=0.01, 0.02 /\n" >> case.nml
-    expect 0 "$rsc" case.nml; silent_on "replaced"
-    expect 0 "$rsc" case.nml; says "rsc: the results of 2 of the members are there already and will be replaced"
-    expect 0 "$rsc" case.nml --resume; silent_on "replaced"
-    rm out_002.nc && echo mine > out_002.nc
-    expect 2 "$rsc" case.nml; says "member 2 (surface%sigma=0.02): &output file='out_002.nc': this file exists and is no result of rsc"
-    rm out_00?.nc && echo mine > out_manifest.txt
-    expect 2 "$rsc" case.nml; says "the manifest of the study, 'out_manifest.txt': this file exists and is no manifest of rsc"
-    [ "$(cat out_manifest.txt)" = mine ] || fail "out_manifest.txt is lost"
-    rm out_manifest.txt && echo mine > out_manifest.nc
-    expect 2 "$rsc" case.nml; says "'out_manifest.nc': this file exists and is no manifest of rsc"
-    cp case.nml out_manifest.txt && rm out_manifest.nc
-    expect 2 "$rsc" out_manifest.txt; says "this is an input of the run"
+    printf "&study surface%%sigma = 0.01, 0.02  solids%%R(2) = 2, Infinity /\n" >> case.nml
+    echo mine > out_manifest.txt; refused "out_manifest.txt.*no manifest of rsc"
+    mv out_manifest.txt out_manifest.nc; refused "out_manifest.nc.*no manifest of rsc"
+    rm out_manifest.nc
+    cp case.nml out_manifest.txt
+    expect 2 "$rsc" out_manifest.txt; says "input of the run"
+    rm out_manifest.txt
+    mkdir out_003.nc; refused "member 3 (surface%sigma=0.02 solids%R(2)=2).*folder"
+    rmdir out_003.nc
+    expect 0 "$rsc" case.nml -s "run%length_unit='um'"; silent_on "replaced"
+    [ "$(cat out_manifest.txt)" = "$(printf '# member\tfile\tsurface%%sigma\tsolids%%R(2)\n1\tout_001.nc\t0.01\t2\n2\tout_002.nc\t0.01\tInfinity\n3\tout_003.nc\t0.02\t2\n4\tout_004.nc\t0.02\tInfinity')" ] ||
+        fail "the manifest: $(cat out_manifest.txt)"
+    if command -v ncdump > /dev/null; then
+        ncdump out_manifest.nc > cdl
+        for words in 'member = 1, 2, 3, 4 ;' '"out_001.nc",' '"out_004.nc" ;' 'surface_sigma:units = "um"' 'surface_sigma:key = "surface%sigma"' \
+            'surface_sigma = 0.01, 0.01, 0.02, 0.02 ;' 'solids_R_2:key = "solids%R(2)"' '"Infinity",'; do
+            grep -qF -- "$words" cdl || fail "the manifest lacks $words: $(cat cdl)"
+        done
+        # Each member is what its line on the screen says: force, area, separation.
+        for k in 1 2 3 4; do
+            sed -n "s/^member $k (.*): N = \([^ ]*\) N, A = \([^ ]*\) um2 at Z0 = \([^ ]*\) um; out_00$k.nc\$/\1 \2 \3/p" said > line
+            [ -s line ] || fail "no line of member $k: $(cat said)"
+            ncdump -v force,contact_area,separation -p 9,15 out_00$k.nc | awk '
+                /^data:/ { data = 1 } !data || /}/ { next }
+                /=/ { name = $1; sub(/.*=/, "") }
+                { gsub(/[;,]/, " "); for (i = 1; i <= NF; i++) last[name] = $i }
+                END { getline line < "line"; split(line, t, " ")
+                      exit !(sprintf("%.8g", last["force"]) == t[1] && sprintf("%.8g", last["contact_area"]) == t[2] && sprintf("%.6g", last["separation"]) == t[3]) }' ||
+                fail "member $k: $(cat line)"
+        done
+    fi
+    expect 0 "$rsc" case.nml -q -s "run%length_unit='um'"; says "4 of the members.*replaced"
+    expect 0 "$rsc" case.nml -q --resume --member 2 -s "run%length_unit='um'"; says "member 2.*whole"
+    expect 0 "$rsc" --list case.nml
+    [ "$(sed -n 3p said)" = "3  out_003.nc  surface%sigma=0.02 solids%R(2)=2" ] || fail "--list: $(cat said)"
+    expect 2 "$rsc" --member 5 case.nml; says "4 members"
+    # Lists side by side; numbers in different units have none.
+    { cat before.nml; echo "&study solids%E(1) = 1e4, 2e4  run%force_unit = 'kN', 'N'  mode = 'zip' /"; } > units.nml
+    expect 0 "$rsc" units.nml -q -o units.nc
+    ! command -v ncdump > /dev/null || { ncdump units_manifest.nc | grep -q 'solids_E_1 = 10000, 20000 ;' && ! ncdump -h units_manifest.nc | grep -q 'solids_E_1:units'; } || fail "the manifest of two units"
 }
 
 # --check does all that can fail before the first level, runs nothing, and says how long the run may take.
 test_check() {
-    heights=(-s "surface%source='heights'" -s surface%L=1)
-    expect 0 "$rsc" --check case.nml; says "expected to take about "; says "'out.nc'"
-    expect 0 "$rsc" --check -q case.nml; silent_on "expected to take"
-    expect 2 "$rsc" --check case.nml "${heights[@]}" -s "surface%file='absent.txt'"; says "absent.txt: No such file"
+    for threads in 1 2; do expect 0 "$rsc" --check case.nml -s run%threads=$threads; says "about .* with $threads thread"; done
+    expect 0 "$rsc" --check -q case.nml; silent_on "about"
+    from heights absent.txt; refused "absent.txt"
     printf '1 2 3 4 5\n1 2 nan 4 5\n1 2 3 4 5\n' > bad.txt
-    expect 2 "$rsc" --check case.nml "${heights[@]}" -s "surface%file='bad.txt'"; says "bad.txt:2: 'nan' in column 3 is not finite"
-    expect 2 "$rsc" --check case.nml -o /nowhere/at/all/out.nc; says "folder '/nowhere/at/all' does not exist"
-    expect 2 "$rsc" --check case.nml -o case.nml; says "this is an input of the run"
-    expect 2 "$rsc" --check case.nml -s run%realizations=2 -s "output%contacts='all'"; says "contacts are kept for one realization only"
+    from heights bad.txt; refused "bad.txt:2: 'nan' in column 3" -s surface%L=1
     printf "&study surface%%file='bad.txt', 'absent.txt' /\n" >> case.nml
-    expect 2 "$rsc" --check case.nml "${heights[@]}"; says "member 1 (surface%file='bad.txt'): bad.txt:2:"
-    expect 2 "$rsc" --check --member 2 case.nml "${heights[@]}"; says "member 2 (surface%file='absent.txt'): absent.txt: No such file"
-    expect 2 "$rsc" --check --member 3 case.nml "${heights[@]}"; says "--member 3: the study has 2 members"
-    [ "$(ls)" = "$(printf 'bad.txt\nbefore.nml\ncase.nml\nsaid')" ] || fail "something was written: $(ls)"
+    expect 2 "$rsc" --check case.nml -s surface%L=1; says "member 1 (surface%file='bad.txt'): bad.txt:2:"
+    expect 2 "$rsc" --check --member 2 case.nml -s surface%L=1; says "member 2 (surface%file='absent.txt'): absent.txt"
+    left . "bad.txt before.nml case.nml list.txt map.txt said"
 }
 
-# The case inside a result: shown, and run again to the same file.
+# The case inside a result: shown, and run again to the same file. What is no case is named.
 test_case() {
     expect 0 "$rsc" case.nml -s surface%sigma=0.02 -o made.nc
     "$rsc" --case made.nc > shown.nml || fail "--case fails"
     grep -q 'sigma *= 0.02' shown.nml || fail "--case does not show the case"
     if command -v ncdump > /dev/null; then
         (unset SOURCE_DATE_EPOCH && "$rsc" -q case.nml -s run%seed=3)
-        ncdump -h out.nc | grep -q ':history = ".*Z rsc -q case.nml -s run%seed=3"' || fail "history: $(ncdump -h out.nc | grep history)"
+        ncdump -h out.nc | grep -q ':history = ".*rsc -q case.nml -s run%seed=3"' || fail "history: $(ncdump -h out.nc | grep history)"
     fi
-    mkdir a b
-    (cd a && expect 0 "$rsc" ../shown.nml) || exit 1
-    (cd b && expect 0 "$rsc" ../made.nc) || exit 1
+    expect 0 in_folder a "$rsc" ../shown.nml
+    expect 0 in_folder b "$rsc" ../made.nc
     same a/made.nc b/made.nc
-    expect 2 "$rsc" made.nc; says "this is an input of the run"
-    expect 2 "$rsc" < made.nc; says "<stdin>: is a NetCDF file"
+    expect 2 "$rsc" made.nc; says "input of the run"
+    expect 2 "$rsc" < made.nc; says "NetCDF"
     printf '\377\376&\000r\000' > utf16.nml
-    expect 2 "$rsc" utf16.nml; says "utf16.nml: is text in UTF-16"
-    expect 2 env OMPI_COMM_WORLD_SIZE=4 "$rsc" case.nml; says "use rsc_mpi"
+    expect 2 "$rsc" utf16.nml; says "UTF-16"
+    expect 2 "$rsc" --case case.nml; says "no result of rsc"
+    for option in --list "--member 1"; do expect 2 "$rsc" $option case.nml; says "no &study"; done
+    for launcher in OMPI_COMM_WORLD_SIZE=4 PMI_SIZE=3 MPI_LOCALNRANKS=2; do expect 2 env $launcher "$rsc" case.nml; says "use rsc_mpi"; done
+    expect 0 env PMI_SIZE=1 "$rsc" --check -q case.nml
 }
 
-# A campaign that was interrupted may go on as a larger one.
+# A campaign that was interrupted may go on as a larger one; the result that finds no room is written by the next run.
 test_growth() {
-    expect 0 "$rsc" case.nml -s run%realizations=12 -o out.nc
-    mv out.nc whole.nc
-    # No room for the result: the state stays.
-    mkdir ro && (ulimit -f 40; "$rsc" case.nml -s run%realizations=5 -o out.nc > said 2>&1)
+    expect 0 "$rsc" case.nml -s run%realizations=12 -o whole.nc
+    (ulimit -f 40; "$rsc" case.nml -s run%realizations=5 > said 2>&1)
     [ -e out.nc.checkpoint ] || { cat said; fail "no state of the smaller campaign"; }
-    expect 2 "$rsc" --resume case.nml -s run%realizations=3 -o out.nc; says "run%realizations: 5 there, 3 now"
-    expect 0 "$rsc" --resume case.nml -s run%realizations=12 -o out.nc; says "of them are done"
-    same out.nc whole.nc
+    expect 2 "$rsc" --resume case.nml -s run%realizations=3; says "run%realizations: 5 there, 3 now"
+    expect 0 "$rsc" --resume case.nml -s run%realizations=12 -s output%file="'out.nc'"; says "are done"
+    ncdump whole.nc 2> /dev/null | sed 1d | grep -v 'file *=\|history' > a; ncdump out.nc 2> /dev/null | sed 1d | grep -v 'file *=\|history' > b
+    same a b
+}
+
+test_paths() {
+    mkdir folder
+    refused "folder/rsc.nc" -o folder
+    refused "none/.*file name" -o none/
+    refused "map.txt.*not a folder" -o map.txt/out.nc
+    refused "/nowhere/at.*does not exist" -o /nowhere/at/out.nc
+    refused "/dev/null.*plain file" -o /dev/null
+    taken -o new/folder/out.nc
+    for kept in last all; do refused "contacts.*one realization" -s run%realizations=2 -s "output%contacts='$kept'"; done
+    taken -s run%realizations=2 -s "output%contacts='none'"
+}
+
+# What a surface does not hold or does not reach; the neighbour of each that is right is taken.
+test_surfaces() {
+    from heights map.txt
+    refused "map.txt.*L.*must be given"
+    taken -s surface%L=7
+    refused "no summit 6 or more points" -s surface%L=7 -s "asperities%law='elliptic'"
+    refused "indentation%centre.*x = 7.1, y = 3 .*from x = 0 to 7 and from y = 0 to 7" -s surface%L=7 -s indentation%centre=7.1,3
+    taken -s surface%L=7 -s indentation%centre=7,0
+    head -n 6 map.txt > six.txt
+    from heights six.txt
+    refused "from x = 0 to 7 and from y = 0 to 6" -s surface%L=7 -s indentation%centre=3,6.5
+    taken -s surface%L=7 -s indentation%centre=6.5,3
+    from heights 'm?p.txt'
+    refused "up to 2.*1 files" -s surface%L=7 -s run%realizations=2
+    refused "realization 2.*1 files" -s surface%L=7 -s run%first_realization=2
+    from heights 'x*.txt'; refused "no file" -s surface%L=7
+    printf '1 1 1 1 1\n1 1 1 1 1\n1 1 1 1 1\n' > flat.txt
+    from heights flat.txt; refused "no summit" -s surface%L=1
+    from asperities list.txt
+    refused "surface%L = 0.49.*0.5" -s surface%L=0.49
+    taken -s surface%L=0.51
+    refused "x = 4.*from x = 0.15 to 0.65 and from y = 0.3 to 0.8" -s indentation%centre=4,0.55
+    refused "elliptic.*curvatures" -s "asperities%law='elliptic'"
+    flats=(-s solids%R=Infinity,Infinity -s "indentation%boundary='periodic'" -s "indentation%control='pressure'")
+    refused "slope" "${flats[@]}" -s "indentation%unit='relative'" -s indentation%levels=0.1 -s surface%L=2
+    printf '0.2 0.3 0.01 0.05\n0.6 0.8 0.01 0.04\n' > level.txt
+    from asperities level.txt
+    refused "sigma > 0"
+    taken -s surface%sigma=0.01
+    # E* sqrt(2 m2) of a wave 0.1 cos(2 pi x/8) on 8 points of step 1 by forward differences is 0.1 sqrt(2) sin(pi/8) = 0.0541196.
+    for j in 1 2 3 4 5 6 7 8; do echo "0.1 0.0707106781 0 -0.0707106781 -0.1 -0.0707106781 0 0.07071067811$j"; done > wave.txt
+    from heights wave.txt
+    flats+=(-s solids%E=1,Infinity -s solids%nu=0,0 -s "solver%model='elements'" -s "indentation%unit='pressure'" -s surface%L=8 -s "surface%detrend='none'")
+    refused "0.0542 .*0.0541196" "${flats[@]}" -s indentation%levels=0.01,0.0542
+    taken "${flats[@]}" -s indentation%levels=0.0541
+}
+
+# Maps of a campaign must be of one size, to less than a thousandth; what is done until then is kept.
+test_sizes() {
+    for k in 1 2; do awk -v k=$k '{ for (i = 1; i <= NF; i++) printf "%g %.6f %g\n", i - 1, (NR - 1) * (k == 1 ? 1 : 1.0005), $i }' map.txt > t$k.txt; done
+    from heights 't?.txt'
+    for model in asperities elements; do
+        expect 1 "$rsc" case.nml -q -s run%realizations=2 -s run%threads=1 -s "solver%model='$model'" -s "indentation%levels=4,3.5"
+        says "realization 2 is 7.000000 x 7.003500"
+        says "1 of 2 realizations"
+        rm -f out.nc.checkpoint
+    done
+}
+
+# Results that are no part of a campaign, told where --resume would go on with them; and parts that are not of one whole.
+test_parts() {
+    sed -i "s/steps = 4/levels = 3, 2/" case.nml before.nml
+    expect 0 "$rsc" case.nml -q -s run%realizations=2 -s "output%format='classic'"
+    sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' out.nc
+    expect 0 "$rsc" case.nml -q --resume -s run%realizations=3 -s "output%format='classic'"; says "out.nc.*another version"
+    expect 0 "$rsc" case.nml -q -o one.nc
+    expect 0 "$rsc" case.nml -q --resume -o one.nc; says "whole"
+    expect 0 "$rsc" case.nml -q --resume -o one.nc -s run%seed=5; silent_on "whole"
+    expect 0 "$rsc" case.nml -q --resume -o one.nc -s run%seed=5 -s run%threads=1; says "whole"
+    for k in 1 2 3 4; do sed "s/5/$k.5/" map.txt > m$k.txt; done
+    from heights 'm[1-4].txt'
+    maps=(case.nml -q -s surface%L=7 -s run%realizations=2)
+    expect 0 "$rsc" "${maps[@]}" -o a.nc
+    sleep 0.02; touch m2.txt
+    expect 0 "$rsc" "${maps[@]}" -o a.nc --resume; says "a.nc.*input has changed"
+    # The first map of each part says what sigma is, and where bins lie.
+    expect 0 "$rsc" "${maps[@]}" -o b.nc -s run%first_realization=3
+    expect 2 "$rsc" -q --merge a.nc b.nc -o whole.nc; says "b.nc.*not the same"
+    expect 0 "$rsc" "${maps[@]}" -o c.nc -s run%first_realization=2
+    expect 2 "$rsc" -q --merge a.nc c.nc -o new.nc; says "realization 2 .*a.nc.*c.nc"
+}
+
+# A study that is stopped says how far it came: as many members as there are results.
+test_stopped() {
+    printf "&study run%%seed = 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 /\n" >> case.nml
+    "$rsc" -q case.nml -s surface%n=1024 -s surface%L_lambda_s=256 -s indentation%steps=60 -s run%threads=1 > said 2>&1 &
+    until ls | grep -q 'out_002.nc$'; do kill -0 $! || break; sleep 0.01; done
+    kill -TERM $!
+    wait $!
+    [ $? -eq 143 ] || fail "status"
+    local there
+    there=$(ls | grep -c 'out_0[0-9]*.nc$')
+    [ $there -lt 12 ] || exit 77
+    says "SIGTERM; \($there\|$((there - 1))\) of 12 members"  # the signal may come when a result is in place and not yet counted
 }
 
 "test_$test"

@@ -1,0 +1,23 @@
+# Shared by the scripts of this folder: . common.sh after test, rsc and folder are set. Works in an empty folder. Exit status of a
+# script: 0 passed, 77 skipped, anything else failed.
+set -u
+export SOURCE_DATE_EPOCH=1700000000   # files are equal to the last byte then
+umask 022
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
+
+fail() { echo "failed: $*"; exit 1; }
+# expect STATUS command...: the exit status; stdout and stderr go to the file `said`.
+expect() {
+    local wanted=$1 got
+    shift
+    "$@" > "$folder/said" 2>&1
+    got=$?
+    [ $got -eq "$wanted" ] || { cat "$folder/said"; fail "exit status $got instead of $wanted: $*"; }
+}
+says() { grep -q -- "$1" "$folder/said" || { cat "$folder/said"; fail "it does not say: $1"; }; }
+silent_on() { ! grep -q -- "$1" "$folder/said" || { cat "$folder/said"; fail "it says: $1"; }; }
+same() { cmp "$1" "$2" || fail "$1 and $2 differ"; }
+# left FOLDER NAMES: what is there, and nothing else.
+left() { [ "$(ls -A "$1" | tr '\n' ' ')" = "${2:+$2 }" ] || fail "left in $1: $(ls -A "$1"); expected: $2"; }
+# in_folder NAME command...: in a folder of that name, so that the result file can have one name everywhere.
+in_folder() { mkdir -p "$1" && (cd "$1" && shift && "$@"); }
