@@ -1,9 +1,13 @@
-// The whole test framework: checks that say what failed and go on, and a summary as the exit status.
+// The whole test framework: checks that say what failed and go on, and a summary as the exit status. The tests of a file
+// test/unit/test_NAME.cpp begin at its TESTS { ... }, and `test_unit NAME` runs them.
 #pragma once
 
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace check {
 
@@ -33,6 +37,17 @@ inline double worse(double worst, std::initializer_list<double> errors) {
     return worst;
 }
 
+// The files' tests by name, and what stands behind the name on the command line.
+inline std::map<std::string, void (*)()>& tests() {
+    static std::map<std::string, void (*)()> all;
+    return all;
+}
+inline bool add(const std::string& file, void (*run)()) {
+    const std::size_t begin = file.rfind("test_") + 5;
+    return tests().emplace(file.substr(begin, file.rfind('.') - begin), run).second;
+}
+inline std::vector<std::string> arguments;
+
 inline int summary() {
     std::printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 ? 0 : 1;
@@ -40,6 +55,10 @@ inline int summary() {
 
 }  // namespace check
 
+#define TESTS                                                        \
+    static void run_tests();                                         \
+    static const bool tests_added = check::add(__FILE__, run_tests); \
+    static void run_tests()
 #define CHECK(condition) check::that((condition), #condition, __FILE__, __LINE__)
 #define CHECK_CLOSE(a, b, tolerance) check::close((a), (b), (tolerance), #a " = " #b, __FILE__, __LINE__)
 #define CHECK_RELATIVE(a, b, tolerance) check::close((a), (b), (tolerance)*std::abs(b), #a " = " #b " (relative)", __FILE__, __LINE__)

@@ -1,6 +1,6 @@
 // Load and contact area of rough surfaces under a sphere against boundary elements by other hands (bem/compare.py in Python, whose
-// results are data/boundary_elements.txt): rsc's elements, which are to give the same, and asperities by every law. How far these lie
-// from the truth is recorded here; the test holds them there, and prints the table.
+// results are data/boundary_elements.txt): rsc's elements, which are to give the same, and asperities by every law, fourth_order within
+// 2 to 3 per cent.
 //
 // The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l = 24, H = 0.8, R = 2.5 mm),
 // grid 4096, areas corrected by their perimeter. Its own error, from the grid twice as coarse: 0.1 % in N, 1 % in A.
@@ -44,18 +44,6 @@ std::map<std::pair<int, int>, std::vector<Row>> reference(int grid) {
     return rows;
 }
 
-// Distances from the reference in per cent, means over both seeds and the levels 2.5, 2, 1.5, 1 sigma: of N and of A, and the
-// largest of any level. At 3 sigma a surface has a contact or two, some without a summit that a grid finds: printed, not held.
-struct Recorded {
-    int ratio;
-    LawKind law;
-    double N, A, worst_N, worst_A;
-};
-const Recorded kRecorded[] = {
-    {64, LawKind::hertz, -2.59, -2.73, 3.09, 5.61},       {64, LawKind::elliptic, -1.67, -4.77, 2.24, 6.19},
-    {64, LawKind::fourth_order, -0.38, 0.03, 0.53, 1.61}, {128, LawKind::hertz, -4.23, -4.89, 6.44, 6.66},
-    {128, LawKind::elliptic, -2.93, -8.67, 4.93, 11.30},  {128, LawKind::fourth_order, -0.91, -0.40, 2.45, 2.81},
-};
 // What is asked of fourth_order at each of these levels on each surface, per cent. Tried for the same purpose, without a constant fitted,
 // the largest distances in N and A over all four surfaces in brackets, areas of spots summed (as they are united: 2.5, 2.8; summed: 2.5,
 // 3.5): the quartic profile alone (2.0, 8.0), its coefficient times kappa_g/kappa_a (2.3, 4.4), with the measured sextic term too (2.5,
@@ -64,10 +52,6 @@ const Recorded kRecorded[] = {
 // cubic and higher terms, is the best for single spots (some 2 % each) and counts spots that hold two summits twice (0.9, 7.2).
 constexpr double wanted_N(int ratio) { return ratio == 64 ? 2 : 3; }
 constexpr double kWantedA = 3;
-// What rounding, the solver's tolerance and other compilers may change; a better law or detection of summits changes more, and is
-// recorded anew.
-constexpr double kMargin = 0.15;  // per cent
-
 // The same pixels, another code: both stop at 1e-6 of the mean overlap, and pixels at the noise may be counted by one and not by the other.
 void elements(double E_star) {
     for (const auto& [key, levels] : reference(kCoarse)) {
@@ -99,7 +83,7 @@ const char* name(LawKind law) { return law == LawKind::hertz ? "hertz" : law == 
 
 }  // namespace
 
-int main() {
+TESTS {
     const double E_star = equivalent_modulus({78.0e3, __builtin_huge_val()}, {0.42, 0.0});
     elements(E_star);
     const auto rows = reference(kFinest);
@@ -136,18 +120,13 @@ int main() {
             std::printf("; %ld pairs overlap, %ld contacts beyond the law at the last\n", last.overlapping_pairs, last.beyond_law);
         }
     }
-    for (const Recorded& recorded : kRecorded) {
-        const Distance& d = distances[{recorded.ratio, recorded.law}];
+    for (const auto& [key, d] : distances) {
+        const auto [ratio, law] = key;
         CHECK(d.count == 8);
-        std::printf("{%d, LawKind::%s, %.2f, %.2f, %.2f, %.2f},\n", recorded.ratio, name(recorded.law), d.N / d.count, d.A / d.count,
-                    d.worst_N, d.worst_A);
-        CHECK_CLOSE(d.N / d.count, recorded.N, kMargin);
-        CHECK_CLOSE(d.A / d.count, recorded.A, kMargin);
-        CHECK_CLOSE(d.worst_N, recorded.worst_N, 2 * kMargin);
-        CHECK_CLOSE(d.worst_A, recorded.worst_A, 2 * kMargin);
-        if (recorded.law != LawKind::fourth_order) continue;
-        CHECK(d.worst_N <= wanted_N(recorded.ratio));
+        std::printf("L/lambda_s %d, %s: N %.2f, A %.2f on the mean, %.2f and %.2f at most\n", ratio, name(law), d.N / d.count,
+                    d.A / d.count, d.worst_N, d.worst_A);
+        if (law != LawKind::fourth_order) continue;
+        CHECK(d.worst_N <= wanted_N(ratio));
         CHECK(d.worst_A <= kWantedA);
     }
-    return check::summary();
 }

@@ -10,7 +10,7 @@
 #include "contact/solver/newton.hpp"
 #include "contact/start.hpp"
 #include "error.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -66,52 +66,6 @@ void two_equal_asperities() {
         const Level level = press(a, 0.0, options(method, 1e-13), kFlat);
         CHECK_RELATIVE(level.force, 2 * low, 1e-12);
         CHECK(level.asperity.size() == 2);
-    }
-}
-
-// Translation, rotation by 90 degrees and renumbering change loads by rounding only.
-void symmetries() {
-    const Asperities a = random_asperities(400, 0.012, 0.01, 5e-4, 0.5, 1);
-    constexpr double tolerance = 1e-9;  // of the loads, as the solver is asked for 1e-12
-    for (Method method : kMethods) {
-        const SolverOptions o = options(method, 1e-12);
-        const Level level = press(a, -0.005, o);
-        CHECK(level.asperity.size() > 30);
-        Asperities moved = a, turned = a, renumbered = a;
-        for (std::size_t k = 0; k < a.size(); ++k) {
-            moved.x[k] += 3.7;
-            moved.y[k] -= 11.3;
-            turned.x[k] = 1 - a.y[k];
-            turned.y[k] = a.x[k];
-        }
-        for (auto* v : {&renumbered.x, &renumbered.y, &renumbered.z, &renumbered.radius}) std::reverse(v->begin(), v->end());
-        CHECK_RELATIVE(press(moved, -0.005, o, 2.5, 0.5 + 3.7, 0.5 - 11.3).force, level.force, tolerance);
-        CHECK_RELATIVE(press(turned, -0.005, o).force, level.force, tolerance);
-        const Level other = press(renumbered, -0.005, o);
-        CHECK_RELATIVE(other.force, level.force, tolerance);
-        for (std::size_t k = 0; k < level.f.size() && other.f.size() == level.f.size(); ++k) {
-            CHECK_CLOSE(other.f[level.f.size() - 1 - k], level.f[k], tolerance * level.force);
-        }
-    }
-}
-
-// All lengths by s: forces by s^2, areas by s^2. The modulus by t: forces by t. Exact but for rounding and the tolerance.
-void scaling() {
-    const Asperities a = random_asperities(300, 0.012, 0.01, 5e-4, 0.5, 2);
-    for (Method method : kMethods) {
-        SolverOptions o = options(method, 1e-12);
-        const Level level = press(a, 0.005, o);
-        Asperities large = a;
-        const double s = 1024.0;
-        for (auto* v : {&large.x, &large.y, &large.z, &large.radius}) {
-            for (double& value : *v) value *= s;
-        }
-        o.sigma *= s;
-        const Level scaled = AsperityContact(large, {kE, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.005 * s);
-        CHECK_RELATIVE(scaled.force, s * s * level.force, 1e-10);
-        CHECK_RELATIVE(scaled.area, s * s * level.area, 1e-10);
-        o.sigma /= s;
-        CHECK_RELATIVE(AsperityContact(a, {3 * kE, 2.5, 0.5, 0.5}, o).at_separation(0.005).force, 3 * level.force, 1e-10);
     }
 }
 
@@ -421,12 +375,10 @@ void a_force_over_which_N_jumps() {
 
 }  // namespace
 
-int main() {
+TESTS {
     a_force_over_which_N_jumps();
     one_asperity_is_hertz();
     two_equal_asperities();
-    symmetries();
-    scaling();
     regularisation_leaves_no_trace();
     overlap_selection_loses_nothing();
     without_interaction();
@@ -440,5 +392,4 @@ int main() {
     asperities_that_nearly_coincide();
     CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
     CHECK_THROWS(AsperityContact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);
-    return check::summary();
 }

@@ -45,7 +45,7 @@ double load(const Asperities& a, const Spectrum& s, LawKind law) {
 
 }  // namespace
 
-int main() {
+TESTS {
     for (const double L_lambda_s : {64.0, 128.0}) {
         Spectrum s;
         s.L_lambda_l = 4, s.L_lambda_s = L_lambda_s;
@@ -84,5 +84,4 @@ int main() {
             CHECK_CLOSE(change(k, 2), 0, 1e-6);
         }
     }
-    return check::summary();
 }

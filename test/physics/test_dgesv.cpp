@@ -6,7 +6,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/ranking.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 #include "rough/detection.hpp"
 #include "rough/spectrum.hpp"
 #include "rough/synthesis.hpp"
@@ -161,10 +161,9 @@ void says_what_it_did() {
 
 }  // namespace
 
-int main() {
+TESTS {
     well_separated();
     default_surface();
     matrix();
     says_what_it_did();
-    return check::summary();
 }

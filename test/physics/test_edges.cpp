@@ -10,7 +10,7 @@
 #include "contact/ranking.hpp"
 #include "contact/solver/newton.hpp"
 #include "error.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -239,31 +239,6 @@ void radii_and_tolerances() {
     }
 }
 
-// The same contact in m, nm, light years; E* in any unit. Loads, areas scale; statuses and counts stay.
-void units() {
-    const Asperities a = random_asperities(200, 0.02, 0.01, 5e-4, 0.5, 14);
-    for (Method method : kMethods) {
-        const Level reference = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
-        for (double s : {1e-30, 1e-12, 1e-9, 1e-3, 1e6, 1e9, 1e30}) {
-            for (double e : {1e-20, 1.0, 1e20}) {
-                Asperities scaled = a;
-                for (auto* v : {&scaled.x, &scaled.y, &scaled.z, &scaled.radius}) {
-                    for (double& value : *v) value *= s;
-                }
-                SolverOptions o = options(method);
-                o.sigma *= s;
-                const Level level = AsperityContact(scaled, {kE * e, 2.5 * s, 0.5 * s, 0.5 * s}, o).at_separation(0.0);
-                sane(level, "units");
-                CHECK(level.status == reference.status);
-                CHECK(level.f.size() == reference.f.size());
-                if (method == Method::dgesv) CHECK(std::abs(level.iterations - reference.iterations) <= 1);  // it ends for the same reason
-                CHECK_RELATIVE(level.force / e / s / s, reference.force, 1e-8);
-                CHECK_RELATIVE(level.area / s / s, reference.area, 1e-8);
-            }
-        }
-    }
-}
-
 // Loads from that of a touch to far beyond.
 void forces() {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 15);
@@ -299,7 +274,7 @@ void beyond_squares() {
 
 }  // namespace
 
-int main() {
+TESTS {
     beyond_squares();
     coincident();
     overlapping();
@@ -307,7 +282,5 @@ int main() {
     depths();
     counts();
     radii_and_tolerances();
-    units();
     forces();
-    return check::summary();
 }

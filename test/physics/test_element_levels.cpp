@@ -351,7 +351,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
 
 }  // namespace
 
-int main() {
+TESTS {
     HeightMap map;
     const int nx = 20, ny = 13;
     map.allocate(nx, ny, nx + 5);
@@ -372,5 +372,4 @@ int main() {
         along_a_path(map, repeating, hardness, "repeating");
         map.periodic = false;
     }
-    return check::summary();
 }

@@ -92,8 +92,7 @@ void summit_heights() {
 
 }  // namespace
 
-int main() {
+TESTS {
     exponential_summits();
     summit_heights();
-    return check::summary();
 }

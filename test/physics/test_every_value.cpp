@@ -1,5 +1,5 @@
-// Every number of every result file: a matrix of cases is run, and each value of each file is worked out here once more from the contacts
-// (or the pixels under pressure) of its levels, from the heights, and from the case. values/checked_file.hpp fails for what was not checked.
+// The numbers of the result files: a matrix of cases is run, and each value of each file is computed here once more from the contacts (or
+// the pixels under pressure) of its levels, from the heights, and from the case.
 //
 // The levels themselves are the library's; that they are right is what the tests of the contact show. Here, too, spots of the free Hertz
 // cases must balance: each force is that of its own penetration under all the others.
@@ -42,27 +42,27 @@ Case settings_of(const std::string& text, const std::string& output) {
     return c;
 }
 
-void check_file(const Scene& scene, const std::string& path, const Case& settings, Descriptions& descriptions) {
+void check_file(const Scene& scene, const std::string& path, const Case& settings) {
     const int before = check::failures;
     const Truth t(settings);
-    CheckedFile f(scene.name, path, settings.run.length_unit, settings.run.force_unit);
+    CheckedFile f(scene.name, path);
     header(f, t), levels(f, t), separations(f, t), surfaces(f, t), regimes(f, t), maps(f, t);
     if (!settings.output.pdf_levels.empty())
         distributions(f, t);
     else
         CHECK(!f.has("pdf_level") && !f.has("bin"));
     asperities(f, t), contacts(f, t), heights(f, t), friction(f, t), measured(f, t, scene.as_read), compared(f, t, scene.compare_path);
-    f.finish(descriptions);
+    f.finish();
     if (check::failures > before) std::printf("%s: %d failures\n", scene.name.c_str(), check::failures - before);
 }
 
 const RunOptions kOptions{.command = "rsc the_case.nml", .inputs = {}};
 
-void run_and_check(const Scene& scene, const Folder& folder, Descriptions& descriptions) {
+void run_and_check(const Scene& scene, const Folder& folder) {
     const std::string path = folder / (scene.name + ".nc");
     const Case settings = settings_of(scene.text, path);
     CHECK(run_case(settings, kOptions) == 0);
-    check_file(scene, path, settings, descriptions);
+    check_file(scene, path, settings);
     int format = 0;
     nc_inq_format(Reader(path).id(), &format);
     const std::map<Format, int> formats{
@@ -85,7 +85,7 @@ void same_values(const std::string& a, const std::string& b) {
 }
 
 // A campaign merged of two, and one that went on after its first half: the campaign of all, whose file is there.
-void put_together(const Scene& scene, const Folder& folder, Descriptions& descriptions) {
+void put_together(const Scene& scene, const Folder& folder) {
     const std::string merged = folder / (scene.name + "_merged.nc"), resumed = folder / (scene.name + "_resumed.nc");
     Case whole = settings_of(scene.text, merged);
     const int half = whole.run.realizations / 2;
@@ -99,7 +99,7 @@ void put_together(const Scene& scene, const Folder& folder, Descriptions& descri
     }
     const RunSummary summary = merge_campaigns(parts, merged, kOptions);
     CHECK(summary.levels == whole.run.realizations * static_cast<long>(whole.indentation.levels.size()) && summary.failed == 0);
-    check_file({scene.name + " merged", ""}, merged, whole, descriptions);
+    check_file({scene.name + " merged", ""}, merged, whole);
 
     whole.output.file = resumed;
     Case first = whole;
@@ -111,7 +111,7 @@ void put_together(const Scene& scene, const Folder& folder, Descriptions& descri
     resume.messages = &messages;
     CHECK(run_case(whole, resume) == 0);
     CHECK(messages.str().find("all realizations are computed") == std::string::npos);
-    check_file({scene.name + " resumed", ""}, resumed, whole, descriptions);
+    check_file({scene.name + " resumed", ""}, resumed, whole);
     for (const std::string& file : {merged, resumed}) same_values(file, folder / (scene.name + ".nc"));
 }
 
@@ -277,21 +277,18 @@ void unconverged(const Folder& folder) {
 
 }  // namespace
 
-int main() {
+TESTS {
     ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
     const Folder folder;
-    Descriptions descriptions(RSC_TEST_DATA "/result_variables.txt");
     const HeightMap map = measured_map();
     write_map(map, folder / "input_map.nc");
     std::ofstream(folder / "list.txt") << "10 20 0.2 30\n44 51 1.1 12\n47 58 0.9 22\n40 60 0.4 17\n70 75 1.4 25\n38.5 52 1.0 19\n";
     std::ofstream(folder / "psd.txt") << "0.15 0.9\n0.4 0.3\n0.9 0.01\n";
     for (const Scene& scene : scenes(folder, map)) {
-        run_and_check(scene, folder, descriptions);
-        if (scene.name.starts_with("campaign")) put_together(scene, folder, descriptions);
+        run_and_check(scene, folder);
+        if (scene.name.starts_with("campaign")) put_together(scene, folder);
     }
     changed_inputs(folder);
     unconverged(folder);
-    descriptions.finish();
     CHECK(gammas_fitted > 0);
-    return check::summary();
 }

@@ -6,7 +6,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/lateral.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -173,9 +173,8 @@ void rough_loop() {
 
 }  // namespace
 
-int main() {
+TESTS {
     spots_against_slip_problem();
     conductance();
     rough_loop();
-    return check::summary();
 }

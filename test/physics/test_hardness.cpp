@@ -12,7 +12,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/law/hardness.hpp"
 #include "error.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 #include "rough/detection.hpp"
 
 using namespace rsc;
@@ -368,7 +368,7 @@ void test_limits() {
 
 }  // namespace
 
-int main() {
+TESTS {
     test_one();
     test_sinking();
     test_cycle();
@@ -378,5 +378,4 @@ int main() {
     test_way_back();
     test_follows();
     test_limits();
-    return check::summary();
 }

@@ -20,7 +20,7 @@ constexpr int kContacts = 10;
 
 }  // namespace
 
-int main() {
+TESTS {
     const double E_star = equivalent_modulus({78.0e3, __builtin_huge_val()}, {0.42, 0.0});
     const Indenter tip{E_star, 2.5, 0.5, 0.5};
     Spectrum spectrum;
@@ -62,5 +62,4 @@ int main() {
     CHECK(held == 21);
     CHECK(worst_N <= kWantedN);
     CHECK(worst_A <= kWantedA);
-    return check::summary();
 }

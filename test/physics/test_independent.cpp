@@ -6,8 +6,8 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
-#include "independent.hpp"
-#include "random_asperities.hpp"
+#include "physics/independent.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -282,10 +282,9 @@ void energy_is_minimal() {
 
 }  // namespace
 
-int main() {
+TESTS {
     against_slow_solver();
     newton_order();
     reciprocity();
     energy_is_minimal();
-    return check::summary();
 }

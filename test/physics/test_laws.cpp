@@ -112,24 +112,6 @@ void limits_are_hertz() {
     }
 }
 
-// Slope and work are derivative and integral of the force, through the end of the law's own range and beyond; the force is convex.
-void calculus() {
-    for (double biharmonic : {-4e11, 0.0, 2e11, 3e12}) {
-        const Asperities s = summit(9000, 4000, biharmonic);
-        const auto law = make_law(LawKind::fourth_order, s, kE);
-        double last_slope = 0;
-        for (double u = 1e-5; u < 2e-3; u *= 1.25) {
-            const double h = 1e-4 * u;
-            const Answer a = ask(*law, u);
-            CHECK_CLOSE(a.slope, (ask(*law, u + h).force - ask(*law, u - h).force) / (2 * h),
-                        2e-4 * a.slope);  // sqrt end of range
-            CHECK_RELATIVE(a.work, integrate(0, 1, [&](double t) { return 2 * t * u * law->force(0, t * t * u); }), 1e-5);
-            CHECK(a.slope >= last_slope);
-            last_slope = a.slope;
-        }
-    }
-}
-
 // Every function of every law against the others: force and work are integrals of the slope and of the force, the slope is 2 E* a/(F1 F2) of
 // the equivalent radius, a^2 pi the area; the spread is that area and goes on straight; the penetration where a mean pressure is reached is
 // the first. Nothing before touching. Of two summits, so that each is asked for its own.
@@ -199,28 +181,6 @@ void everything_of_every_law() {
                 }
             }
         }
-}
-
-// The axisymmetric law from Sneddon's integrals, by quadrature of the profile w(r) = A (1 - J0(q r)):
-// delta = a int_0^1 w'(a s)/sqrt(1 - s^2) ds, P = 2 E* int_0^a (delta - delta(t)) dt.
-void fourth_order_against_sneddon() {
-    const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
-    const auto delta = [&](double a) {
-        return a * integrate(0, 0.5 * std::numbers::pi, [&](double t) { return A * q * std::cyl_bessel_j(1, q * a * std::sin(t)); });
-    };
-    const Asperities s = summit(kappa, kappa, 2 * kappa * q * q);  // nabla^4 J0(q r) = q^4 J0
-    const auto law = make_law(LawKind::fourth_order, s, kE);
-    const double a_end = std::numbers::pi / q;  // d delta/da = 0
-    for (double part : {0.01, 0.2, 0.31, 0.33, 0.6, 0.95}) {
-        const double a = part * a_end, d = delta(a);
-        const double P = 2 * kE * integrate(0, a, [&](double t) { return d - delta(t); });
-        const Answer r = ask(*law, d);
-        CHECK_RELATIVE(r.force, P, 1e-9);
-        CHECK_RELATIVE(r.area, std::numbers::pi * a * a, 1e-9);
-        CHECK_RELATIVE(r.slope, 2 * kE * a, 1e-9);  // dP = 2 E* a ddelta
-        CHECK(!law->beyond(0, d));
-    }
-    CHECK(law->beyond(0, 1.01 * delta(a_end)));
 }
 
 // The tabulated functions against Sneddon's closed forms in long double: cos and sin, or cosh and sinh.
@@ -309,27 +269,14 @@ void fourth_order_against_rings() {
     }
 }
 
-void refusals() {
-    Asperities bare = summit(1, 1, 0);
-    bare.biharmonic.clear();
-    CHECK_THROWS(make_law(LawKind::fourth_order, bare, kE), Error);
-    bare.kappa1.clear(), bare.kappa2.clear();
-    CHECK_THROWS(make_law(LawKind::elliptic, bare, kE), Error);
-    make_law(LawKind::hertz, bare, kE);
-}
-
 }  // namespace
 
-int main() {
+TESTS {
     ellipse_against_quadrature();
     ellipse_limits();
     limits_are_hertz();
-    calculus();
     everything_of_every_law();
-    fourth_order_against_sneddon();
     fourth_order_to_the_last_digits();
     fourth_order_in_powers();
     fourth_order_against_rings();
-    refusals();
-    return check::summary();
 }

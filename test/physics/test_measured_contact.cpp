@@ -26,7 +26,6 @@ using namespace rsc;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_measured_" + std::to_string(getpid()));
 std::string in_folder(const std::string& name) { return (folder / name).string(); }
 
@@ -219,51 +218,6 @@ void twins() {
     }
 }
 
-// A table that holds the closed form is the closed form.
-void table_of_a_closed_form() {
-    const Spectrum s{.L = 2, .hurst = 0.7, .L_lambda_l = 4, .L_lambda_s = 40, .plateau = false, .sigma = 0.01};
-    const double step = 2 * kPi / s.L;
-    const auto table = std::make_shared<const SpectrumTable>(std::vector<double>{4 * step, 9 * step, 40 * step},
-                                                             std::vector<double>{1, std::pow(9.0 / 4, -3.4), std::pow(10.0, -3.4)});
-    const Spectrum t = tabulated_spectrum(table, s.L, s.sigma);
-    const Moments a = theoretical_moments(s), b = theoretical_moments(t);
-    CHECK_RELATIVE(b.m2, a.m2, 1e-12);
-    CHECK_RELATIVE(b.m4, a.m4, 1e-12);
-    CHECK_RELATIVE(discrete_moments(t).m4, discrete_moments(s).m4, 1e-12);
-    const HeightMap x = synthesize(s, 128, Normalise::ensemble, 3, 5), y = synthesize(t, 128, Normalise::ensemble, 3, 5);
-    double worst = 0;
-    for (int j = 0; j < 128; ++j)
-        for (int i = 0; i < 128; ++i) worst = std::fmax(worst, std::abs(x(i, j) - y(i, j)));
-    CHECK_CLOSE(worst, 0.0, 1e-12 * s.sigma);
-    // Its own rms height: the integral of 2 pi k Phi, here in closed form.
-    const SpectrumTable flat({1, 3}, {2, 2});
-    CHECK_RELATIVE(flat.sigma(), std::sqrt(kPi * 2 * (9 - 1)), 1e-13);
-    CHECK(flat(0.99) == 0 && flat(3.01) == 0);
-    CHECK_RELATIVE(flat(2), 2.0, 1e-14);
-    CHECK_THROWS(SpectrumTable({1, 1}, {1, 1}), Error);
-    CHECK_THROWS(SpectrumTable({1, 2}, {1, -1}), Error);
-    CHECK_THROWS(SpectrumTable({1, 2, 3}, {1, 0, 1}), Error);
-    CHECK_THROWS(SpectrumTable({1}, {1}), Error);
-    const std::string path = in_folder("psd.txt");
-    std::ofstream(path) << "# k psd\n1 2\n3 2\n";
-    CHECK_RELATIVE((*read_spectrum(path, "mm"))(2), 2.0, 1e-14);
-    std::ofstream(path) << "1 2\n3 2\n2 2\n";
-    CHECK_THROWS(read_spectrum(path, "mm"), Error);
-    // Units are converted: wavenumbers and densities each in their own.
-    const std::string file = in_folder("psd.nc");
-    int id = -1, dimension = -1, k = -1, psd = -1;
-    CHECK(nc_create(file.c_str(), NC_CLOBBER, &id) == NC_NOERR);
-    nc_def_dim(id, "wavenumber", 2, &dimension);
-    nc_def_var(id, "wavenumber", NC_DOUBLE, 1, &dimension, &k), nc_def_var(id, "psd", NC_DOUBLE, 1, &dimension, &psd);
-    nc_put_att_text(id, k, "units", 4, "um-1"), nc_put_att_text(id, psd, "units", 3, "nm4");
-    nc_enddef(id);
-    const double ends[] = {1, 3}, two[] = {2, 2};
-    nc_put_var_double(id, k, ends), nc_put_var_double(id, psd, two);
-    CHECK(nc_close(id) == NC_NOERR);
-    CHECK_RELATIVE((*read_spectrum(file, "mm"))(2e3), 2e-24, 1e-12);
-    CHECK((*read_spectrum(file, "mm"))(2) == 0);
-}
-
 // The namelist of a map's twins: their square is as long as the map's longer side, the tip lies as it did from the middle.
 void twins_of_an_oblong_map() {
     const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
@@ -369,15 +323,13 @@ void filled_points() {
 
 }  // namespace
 
-int main() {
+TESTS {
     std::filesystem::create_directories(folder);
     rectangular_pixels();
     turned_maps();
-    table_of_a_closed_form();
     several_maps();
     twins_of_an_oblong_map();
     filled_points();
     twins();
     std::filesystem::remove_all(folder);
-    return check::summary();
 }

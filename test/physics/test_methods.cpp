@@ -5,7 +5,7 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -161,22 +161,6 @@ void flats_do_not_remember() {
     }
 }
 
-// Two equal asperities so close that the symmetric solution is a saddle of the energy: the paper's iteration stops there, the answer
-// must not. d < (2/pi) a makes I + S B S indefinite.
-void saddle_is_left() {
-    const double r = 1e-2, g = 0.01, d = 0.002;
-    Asperities a;
-    a.x = {0.5 - d / 2, 0.5 + d / 2}, a.y = {0.5, 0.5}, a.z = {g, g}, a.radius = {r, r};
-    for (Method method : {Method::dgesv, Method::direct}) {
-        const Level level = AsperityContact(a, {kE, 1e9, 0.5, 0.5}, options(method)).at_separation(0.0);
-        CHECK(level.status == LevelStatus::not_unique);
-        CHECK(level.residual <= 1e-10);
-        // Of the two only one carries: the other's summit is pulled below the sphere.
-        CHECK(level.f.size() == 1);
-        CHECK_CLOSE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-6 * level.force);
-    }
-}
-
 // 'auto': direct sums of few asperities, a mesh of many, of fewer where every pair is a sum over images; none where nothing interacts. What was
 // asked for by name is done. One summit carries all, the others are candidates only.
 void auto_chooses() {
@@ -205,12 +189,10 @@ void auto_chooses() {
 
 }  // namespace
 
-int main() {
+TESTS {
     auto_chooses();
     methods_agree();
     levels_do_not_remember();
     pressed_levels_do_not_remember();
     flats_do_not_remember();
-    saddle_is_left();
-    return check::summary();
 }

@@ -6,7 +6,7 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
-#include "random_asperities.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
@@ -189,7 +189,7 @@ void series() {
 
 }  // namespace
 
-int main() {
+TESTS {
     asperities_and_images();
     methods_agree();
     direct_and_mesh();
@@ -197,5 +197,4 @@ int main() {
     large_periods();
     controls_and_derivatives();
     series();
-    return check::summary();
 }

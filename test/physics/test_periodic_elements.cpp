@@ -13,7 +13,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/lateral.hpp"
 #include "error.hpp"
-#include "periodic_elements.hpp"
+#include "physics/periodic_elements.hpp"
 #include "rough/synthesis.hpp"
 
 using namespace rsc;
@@ -129,102 +129,6 @@ void westergaard() {
     }
 }
 
-// The surface moved by any number of pixels, or turned over its diagonal: nothing changes, contacts move with it.
-void moved_and_turned() {
-    constexpr double kSame = 1e-9;
-    double slope;
-    const HeightMap map = rough(128, 16, &slope);
-    const int n = map.nx;
-    const Level level = make_element_contact(map, flat(map), options(1e-11))->at_force(0.03 * kE * slope);
-    CHECK(level.contacts > 5);
-    const auto same = [&](const Level& other) {
-        CHECK(other.status == LevelStatus::converged);
-        CHECK(other.contacts == level.contacts);
-        CHECK_CLOSE(other.separation / kSigma, level.separation / kSigma, kSame);
-        CHECK_RELATIVE(other.area, level.area, kSame);
-        CHECK(other.area_pixels == level.area_pixels);
-    };
-    for (const auto& [right, up] : {std::pair{37, 101}, {1, 0}, {64, 127}}) {
-        HeightMap moved = empty(n, n, map.dx, map.dy);
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) moved.row((j + up) % n)[(i + right) % n] = map(i, j);
-        const Level other = make_element_contact(moved, flat(moved), options(1e-11))->at_force(level.force);
-        same(other);
-        double worst = 0;
-        for (std::size_t k = 0; k < level.f.size(); ++k) {
-            double nearest = kInfinity;
-            for (std::size_t l = 0; l < other.f.size(); ++l) {
-                const double dx = std::remainder(other.x[l] - level.x[k] - right * map.dx, 1.0),
-                             dy = std::remainder(other.y[l] - level.y[k] - up * map.dy, 1.0);
-                nearest = std::min(nearest, std::hypot(dx, dy) + std::abs(other.f[l] / level.f[k] - 1) +
-                                                std::abs(other.a[l] / level.a[k] - 1) + std::abs(other.u[l] / level.u[k] - 1));
-                CHECK(other.x[l] >= 0 && other.x[l] < 1 && other.y[l] >= 0 && other.y[l] < 1);
-            }
-            worst = check::worse(worst, nearest);
-        }
-        CHECK(worst < 1e-6);  // of the smallest contacts' forces
-    }
-    // Every second column left out: pixels of 2 dx by dy, and the same turned over.
-    HeightMap longer = empty(n / 2, n, 2 * map.dx, map.dy), turned = empty(n, n / 2, map.dx, 2 * map.dx);
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n / 2; ++i) longer.row(j)[i] = turned.row(i)[j] = map(2 * i, j);
-    const auto one = make_element_contact(longer, flat(longer), options(1e-11)),
-               two = make_element_contact(turned, flat(turned), options(1e-11));
-    const Level a = one->at_force(level.force), b = two->at_force(level.force);
-    CHECK(a.contacts == b.contacts && a.area_pixels == b.area_pixels);
-    CHECK_CLOSE(a.separation / kSigma, b.separation / kSigma, kSame);
-    CHECK_RELATIVE(two->stiffness(), one->stiffness(), 1e-7);
-    CHECK_CLOSE(a.separation / kSigma, level.separation / kSigma, 0.05);  // half as many points see about the same
-    // Two periods are one, taken twice.
-    HeightMap tiled = empty(n, 2 * n, map.dx, map.dy);
-    for (int j = 0; j < 2 * n; ++j) std::copy_n(map.row(j % n), n, tiled.row(j));
-    const Level twice = make_element_contact(tiled, flat(tiled), options(1e-11))->at_force(2 * level.force);
-    CHECK_CLOSE(twice.separation / kSigma, level.separation / kSigma, kSame);
-    CHECK_RELATIVE(twice.area_fraction, level.area_fraction, kSame);
-    CHECK(twice.contacts == 2 * level.contacts);
-}
-
-// N = -dW/dZ0, S = -dN/dZ0; sums; nothing pushes sideways; out of reach nothing touches.
-void conservation() {
-    double slope;
-    const HeightMap map = rough(128, 16, &slope);
-    const auto contact = make_element_contact(map, flat(map), options(1e-10));
-    const Level level = contact->at_force(0.05 * kE * slope);
-    const double S = contact->stiffness(), W = contact->energy(), step = 1e-4 * kSigma;
-    const auto at = [&](double dz) {
-        const Level other = contact->at_separation(level.separation + dz);
-        CHECK(other.status == LevelStatus::converged);
-        return std::pair{other.force, contact->energy()};
-    };
-    const auto up = at(step), down = at(-step), here = at(0);
-    CHECK_RELATIVE(here.first, level.force, 1e-8);
-    CHECK_RELATIVE(here.second, W, 1e-8);
-    CHECK_RELATIVE((down.second - up.second) / (2 * step), level.force, 1e-6);
-    CHECK_RELATIVE((up.first - down.first) / (2 * step), S, 3e-3);  // pixels come and go
-    const Vec2 sideways = lateral_force(contact->indenter(), level);
-    CHECK(sideways.x == 0 && sideways.y == 0);
-    double f = 0, p = 0, area = 0;
-    for (std::size_t k = 0; k < level.f.size(); ++k) f += level.f[k], area += kPi * level.a[k] * level.a[k];
-    for (double v : level.pixels.pressure) p += v * map.dx * map.dy;
-    CHECK_RELATIVE(f, level.force, 1e-12);
-    CHECK_RELATIVE(p, level.force, 1e-12);
-    CHECK_RELATIVE(area, level.area, 1e-12);
-    CHECK_RELATIVE(level.pressure, level.force, 1e-14);
-    const Level none = contact->at_separation(contact->first_touch());
-    CHECK(none.contacts == 0 && none.force == 0 && none.area == 0 && none.status == LevelStatus::converged);
-    CHECK(contact->stiffness() == 0 && contact->energy() == 0);
-    CHECK_THROWS(make_element_contact(empty(0, 0, 1, 1), flat(map), options(1e-8)), Error);
-    Indenter ball = flat(map);
-    ball.R = 1;
-    CHECK_THROWS(make_element_contact(map, ball, options(1e-8)), Error);
-    HeightMap smooth = empty(8, 8, 1, 1);
-    std::fill_n(smooth.data.get(), 64, 3.0);
-    CHECK_THROWS(make_element_contact(smooth, flat(smooth), options(1e-8)), Error);
-    SolverOptions few = options(1e-10);
-    few.max_iterations = 1;
-    CHECK(make_element_contact(map, flat(map), few)->at_force(level.force).status == LevelStatus::not_converged);
-}
-
 // Random heights on small grids of any shape, from a first touch to where hardly anything is left of the gap: under a pressure, and at
 // the separation it has.
 void any_grid() {
@@ -303,76 +207,13 @@ void threads_change_no_bit() {
     CHECK(stiffness[0] == stiffness[1]);
 }
 
-// What the conditions miss at most, by a product of the test's own: |w| where 0 < p < H, -w where p = 0, w where p = H.
-double conditions(const HeightMap& map, const Level& level, double H) {
-    const auto n = static_cast<std::size_t>(map.nx);
-    std::vector<double> p(n * n, 0.0);
-    for (std::size_t k = 0; k < level.pixels.index.size(); ++k)
-        p[static_cast<std::size_t>(level.pixels.index[k])] = level.pixels.pressure[k];
-    PeriodicElementSolver solver(map.nx, map.Lx(), values(map), kE);
-    const std::vector<double> u = solver.deflections(p);
-    double worst = 0;
-    for (std::size_t k = 0; k < p.size(); ++k) {
-        const double w = u[k] - map(static_cast<int>(k % n), static_cast<int>(k / n)) + level.separation;
-        worst = check::worse(worst, p[k] >= H ? std::max(w, 0.0) : p[k] > 0 ? std::abs(w) : std::max(-w, 0.0));
-    }
-    return worst;
-}
-
-// A hardness: no pressure above it, the conditions of contact with it, and what was pressed out stays so.
-void yielding() {
-    double slope;
-    const HeightMap map = rough(128, 16, &slope);
-    const double N = 0.05 * kE * slope, H = 0.3 * kE * slope;
-    CHECK(conditions(map, make_element_contact(map, flat(map), options(1e-10))->at_force(N), kInfinity) < 1e-9 * kSigma);
-    SolverOptions hard = options(1e-10);
-    hard.hardness.H0 = H;
-    const auto contact = make_element_contact(map, flat(map), hard);
-    const Level level = contact->at_force(N);
-    CHECK(level.status == LevelStatus::converged);
-    CHECK_RELATIVE(level.force, N, 1e-12);
-    CHECK(*std::max_element(level.pixels.pressure.begin(), level.pixels.pressure.end()) == H);
-    CHECK(conditions(map, level, H) < 1e-9 * kSigma);
-    const ResidualProfile pressed = contact->residual_profile();
-    double volume = 0;
-    for (double depth : pressed.depth) volume += depth * map.dx * map.dy;
-    CHECK(volume > 0);
-    CHECK_RELATIVE(level.plastic_work, H * volume, 1e-12);
-    // On the way back and down again the contact is elastic: the same answer, no more work.
-    const double W = contact->energy(), S = contact->stiffness(), step = 1e-4 * kSigma;
-    const Level back = contact->at_separation(level.separation + step);
-    CHECK_RELATIVE((back.force - level.force) / step, S, 0.02);
-    const double up = contact->energy();
-    CHECK_RELATIVE((W - up) / step, 0.5 * (level.force + back.force), 1e-6);
-    contact->at_force(0.3 * N);
-    const Level again = contact->at_force(N);
-    CHECK_CLOSE(again.separation / kSigma, level.separation / kSigma, 1e-7);
-    CHECK_RELATIVE(again.area_pixels, level.area_pixels, 1e-3);
-    CHECK_CLOSE(again.plastic_work, level.plastic_work, 1e-8 * level.plastic_work);
-    // Nearly all of the hardness: the mean plane is passed, which elastic flats cannot.
-    const Level deep = contact->at_force(0.95 * H);
-    CHECK(deep.status == LevelStatus::converged && deep.separation < 0);
-    CHECK(deep.area_fraction > 0.95 && conditions(map, make_element_contact(map, flat(map), hard)->at_force(0.95 * H), H) < 1e-9 * kSigma);
-    // Soft: the whole load is carried by the hardness. Too soft to carry it: told.
-    hard.hardness.H0 = 0.02 * H;
-    CHECK_RELATIVE(make_element_contact(map, flat(map), hard)->at_force(0.1 * hard.hardness.H0).area_pixels, 0.1, 0.02);
-    CHECK_THROWS(make_element_contact(map, flat(map), hard)->at_force(1.01 * hard.hardness.H0), Error);
-}
-
 }  // namespace
 
-int main(int argc, char**) {
-    if (argc > 1) {
-        independent(512, 32);
-        return check::summary();
-    }
+TESTS {
+    if (!check::arguments.empty()) return independent(512, 32);
     independent(128, 16);
     westergaard();
-    moved_and_turned();
-    conservation();
     any_grid();
     across_the_seam();
     threads_change_no_bit();
-    yielding();
-    return check::summary();
 }

@@ -152,12 +152,11 @@ void wave(int nx, int ny, int m, int n) {
 
 }  // namespace
 
-int main() {
+TESTS {
     table();
     matrix();
     tree();
     wave<double>(24, 15, 3, -2);
     wave<double>(15, 24, 0, 11);
     wave<float>(24, 16, 10, 1);
-    return check::summary();
 }

@@ -29,27 +29,6 @@ Level level_at(double x, double y, double Z0 = 0.0, double radius = 1e-3) {
     return AsperityContact(a, {1.0, 1e6, 0.5, 0.4}, options).at_separation(Z0);
 }
 
-void borders() {
-    for (const auto& [x, y, edge] : {std::tuple(0.5, 0.4, 0),
-                                     {0.099, 0.4, 1},
-                                     {0.101, 0.4, 0},
-                                     {0.901, 0.4, 1},
-                                     {0.899, 0.4, 0},
-                                     {0.5, 0.099, 1},
-                                     {0.5, 0.701, 1},
-                                     {0.5, 0.699, 0}}) {
-        const Level level = level_at(x, y);
-        CHECK(level.contacts == 1 && level.edge_contacts == edge);
-        CHECK(level.status == (edge > 0 ? LevelStatus::out_of_validity : LevelStatus::converged));
-    }
-}
-
-// Z0 = -3 sigma itself is within the range. g0 = z - Z0 with so flat a sphere.
-void depth() {
-    CHECK(level_at(0.5, 0.4, -0.02999, 1e-8).status == LevelStatus::converged);
-    CHECK(level_at(0.5, 0.4, -0.03001, 1e-8).status == LevelStatus::out_of_validity);
-}
-
 // Spots of a level put together by hand: two of radius 0.01, 0.02 apart, about the tip. The disc that holds them has radius 0.02.
 void nominal() {
     SolverOptions options;
@@ -146,32 +125,6 @@ void at_the_bounds() {
     CHECK(!exceeds_nominal_area(area));
 }
 
-// A small surface, as the program and the library prepare it.
-void prepared() {
-    Case c;
-    c.surface.n = 128;
-    c.surface.L_lambda_l = 4;
-    c.surface.L_lambda_s = 32;
-    c.indentation.levels = {2.0, 1.5};
-    const auto status = [&](double x) {
-        c.indentation.centre[0] = x;
-        return realize(prepare(c), 1, 1).levels.back();
-    };
-    const Level middle = status(0.5), border = status(1.0);
-    CHECK(middle.edge_contacts == 0);
-    CHECK(border.edge_contacts > 0 && border.status >= LevelStatus::out_of_validity);
-    CHECK(border.force < middle.force);
-    for (const double x : {-0.01, 1.01, 1e300}) CHECK_THROWS(status(x), Error);
-    // Asperities of a list have a border only if L says where; a tip they cannot feel is refused all the same.
-    const Site own{{0, 0, 1, 1}, 0.01, false, 0.1}, guessed{{0, 0, 1, 1}, 0.01, true, 0.1};
-    require_tip_above(own, 2.5, 1.0, 0.0);
-    CHECK_THROWS(require_tip_above(own, 2.5, 1.001, 0.5), Error);
-    CHECK_THROWS(require_tip_above(own, 2.5, 0.5, -0.001), Error);
-    require_tip_above(guessed, 2.5, 3.4, 0.5);
-    CHECK_THROWS(require_tip_above(guessed, 2.5, 3.6, 0.5), Error);
-    CHECK_THROWS(require_tip_above(guessed, std::numeric_limits<double>::infinity(), 1e300, 0.5), Error);
-}
-
 // Elements: contacts near the border count, their size and depth do not.
 void elements() {
     HeightMap map;
@@ -203,29 +156,10 @@ void elements() {
     CHECK_CLOSE(level.extreme_area_fraction, 1 - std::pow(kExtreme / p0, 2), 0.03);  // a tenth of a is a pixel
 }
 
-// The screen speaks of levels with three tenths of their contacts beyond the law, however many places were candidates.
-void remarks() {
-    Job job;
-    job.sigma = 0.01;
-    for (const auto& [beyond, told] : {std::pair{29, false}, {30, false}, {31, true}, {100, true}}) {
-        LevelValues level;
-        level.separation = 0.01;
-        level.contacts = 100, level.candidates = 500, level.beyond_law = beyond;
-        std::ostringstream out;
-        print_remarks(out, std::vector<LevelValues>{level}, job);
-        CHECK((out.str().find("1 of 1 levels: spots cover much of each other") != std::string::npos) == told);
-    }
-}
-
 }  // namespace
 
-int main() {
-    remarks();
-    borders();
-    depth();
+TESTS {
     nominal();
     at_the_bounds();
-    prepared();
     elements();
-    return check::summary();
 }

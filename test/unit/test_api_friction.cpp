@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "../physics/random_asperities.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/equivalent.hpp"
+#include "physics/random_asperities.hpp"
 #include "rsc.h"
 
 namespace {
@@ -209,10 +209,9 @@ void not_converged() {
 
 }  // namespace
 
-int main() {
+TESTS {
     same_as_core();
     not_converged();
     ratio_and_case();
     misuse();
-    return check::summary();
 }

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "../physics/random_asperities.hpp"
 #include "check.hpp"
+#include "physics/random_asperities.hpp"
 #include "rsc.h"
-#include "temporary_folder.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace {
 
@@ -273,11 +273,10 @@ void many_contacts() {
 
 }  // namespace
 
-int main() {
+TESTS {
     const Folder folder;
     contacts_in_files(folder);
     other_contacts(folder);
     friction_in_files(folder);
     many_contacts();
-    return check::summary();
 }

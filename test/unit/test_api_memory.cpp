@@ -5,8 +5,8 @@
 #include <new>
 #include <vector>
 
-#include "../physics/random_asperities.hpp"
 #include "check.hpp"
+#include "physics/random_asperities.hpp"
 #include "rsc.h"
 
 namespace {
@@ -51,7 +51,7 @@ int refuse_each(Call&& call, After&& after) {
 
 }  // namespace
 
-int main() {
+TESTS {
     const rsc::Asperities made = random_asperities(60, 0.05, 0.01, 3e-3, 0.3, 9);
     rsc_case* c = nullptr;
     CHECK(rsc_case_create(&c) == 0);
@@ -112,5 +112,4 @@ int main() {
     rsc_contact_destroy(&fresh);
     rsc_asperities_destroy(&a);
     rsc_case_destroy(&c);
-    return check::summary();
 }

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "check.hpp"
-#include "map_files.hpp"
 #include "result_reader.hpp"
 #include "rsc.h"
-#include "temporary_folder.hpp"
+#include "unit/map_files.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace {
 
@@ -201,7 +201,7 @@ void every_value(const Folder& folder, const Run& run) {
 
 }  // namespace
 
-int main() {
+TESTS {
     const Folder folder;
     // An oblong measured map, its steps different along x and y.
     map_files::Map map{24, 16, 2e-5, 3e-5, {}};  // in m: mm of the case are 1e3 of it
@@ -285,5 +285,4 @@ int main() {
     CHECK(rsc_case_run(c, &failed) == -1);
     CHECK(failed == -1);
     OK(rsc_case_destroy(&c));
-    return check::summary();
 }

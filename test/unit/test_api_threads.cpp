@@ -56,7 +56,7 @@ Answer work(int number) {
 
 }  // namespace
 
-int main() {
+TESTS {
     std::vector<Answer> alone, together(kThreads);
     for (int t = 0; t < kThreads; ++t) alone.push_back(work(t));
     std::vector<std::thread> threads;
@@ -104,5 +104,4 @@ int main() {
     CHECK(rsc_contact_destroy(&k) == 0);
     CHECK(rsc_asperities_destroy(&a) == 0);
     CHECK(rsc_case_destroy(&c) == 0);
-    return check::summary();
 }

@@ -11,7 +11,7 @@
 
 #include "check.hpp"
 #include "rsc.h"
-#include "temporary_folder.hpp"
+#include "unit/temporary_folder.hpp"
 #include "version.h"
 
 namespace {
@@ -59,93 +59,6 @@ double rms(const Values& z) {
     for (const double v : z) mean += v / static_cast<double>(z.size());
     for (const double v : z) square += (v - mean) * (v - mean) / static_cast<double>(z.size());
     return std::sqrt(square);
-}
-
-// What a fit by least squares leaves has nothing of the form in it, what it takes is of the form, and the rms is that of what is left.
-void forms() {
-    const Map map;
-    const Values z = map.heights([&](int i, int j) {
-        return 0.5 + noise(i + map.nx * j, 9) / 8 + 0.25 * map.x(i) - 0.375 * map.y(j) + 0.0625 * map.x(i) * map.y(j) +
-               0.03 * map.x(i) * map.x(i) - 0.05 * map.y(j) * map.y(j);
-    });
-    const int terms[] = {0, 1, 3, 6};
-    const char* const words[] = {"none", "mean", "plane", "quadratic"};
-    for (int form = 0; form < 4; ++form) {
-        rsc_surface* surface = map.take(z);
-        double left = -1;
-        OK(rsc_surface_detrend(surface, words[form], &left));
-        const Values now = map.heights_of(surface);
-        CHECK_RELATIVE(left, rms(now), 1e-12);
-        if (form == 0) CHECK(now == z);
-        // Moments of what is left, and of what was taken with the terms beyond: differences of third order (of second, of first) vanish.
-        for (int term = 0; term < terms[form]; ++term) {
-            double sum = 0, size = 0;
-            for (int j = 0; j < map.ny; ++j)
-                for (int i = 0; i < map.nx; ++i) {
-                    const double x = map.x(i), y = map.y(j), t[] = {1, x, y, x * x, x * y, y * y};
-                    const double v = now[static_cast<std::size_t>(j * map.nx + i)] * t[term];
-                    sum += v, size += std::abs(v);
-                }
-            CHECK_CLOSE(sum, 0, 1e-10 * size);
-        }
-        const auto taken = [&](int i, int j) {
-            const auto k = static_cast<std::size_t>(j * map.nx + i);
-            return z[k] - now[k];
-        };
-        double worst = 0;
-        for (int j = 3; j < map.ny; ++j)
-            for (int i = 3; i < map.nx; ++i) {
-                const double first_x = taken(i, j) - taken(i - 1, j), first_y = taken(i, j) - taken(i, j - 1);
-                const double second_x = first_x - (taken(i - 1, j) - taken(i - 2, j)),
-                             second_y = first_y - (taken(i, j - 1) - taken(i, j - 2));
-                const double third_x = second_x - (taken(i - 1, j) - 2 * taken(i - 2, j) + taken(i - 3, j));
-                const double third_y = second_y - (taken(i, j - 1) - 2 * taken(i, j - 2) + taken(i, j - 3));
-                worst = check::worse(worst, form < 2    ? std::max(std::abs(first_x), std::abs(first_y))
-                                            : form == 2 ? std::max(std::abs(second_x), std::abs(second_y))
-                                                        : std::max(std::abs(third_x), std::abs(third_y)));
-            }
-        CHECK_CLOSE(worst, 0, 1e-12);
-        OK(rsc_surface_destroy(&surface));
-    }
-    // A sphere is a sphere, and no other form takes it away.
-    const Values ball =
-        map.heights([&](int i, int j) { return std::sqrt(400 - std::pow(map.x(i) - 0.3, 2) - std::pow(map.y(j) - 3.5, 2)) - 19; });
-    rsc_surface* surface = map.take(ball);
-    double left = -1;
-    OK(rsc_surface_detrend(surface, "plane", &left));
-    CHECK(left > 1e-3);
-    OK(rsc_surface_destroy(&surface));
-    surface = map.take(ball);
-    OK(rsc_surface_detrend(surface, "sphere", &left));
-    CHECK_CLOSE(left, 0, 1e-9);
-    OK(rsc_surface_destroy(&surface));
-}
-
-// A wave of length lambda along x or y keeps exp(-pi (alpha cutoff/lambda)^2) of its height; the moments are those of its differences.
-void waves() {
-    const Map map{24, 15, 0.125, 0.1875, 0, 0};
-    const double cutoff = 1.1, alpha2 = std::log(2.0) / kPi;
-    for (const int along_y : {0, 1}) {
-        const double L = along_y ? map.ny * map.dy : map.nx * map.dx;
-        for (const int waves : {1, 3}) {
-            const Values z =
-                map.heights([&](int i, int j) { return 0.1 * std::cos(2 * kPi * waves * (along_y ? map.y(j) : map.x(i)) / L + 0.3); });
-            rsc_surface* surface = map.take(z, true);
-            double m0 = 0, m2 = 0, m4 = 0;
-            OK(rsc_surface_moments(surface, &m0, &m2, &m4));
-            const double step = along_y ? map.dy : map.dx, k = 2 * std::sin(kPi * waves * step / L) / step;
-            CHECK_RELATIVE(m0, 0.005, 1e-12);
-            CHECK_RELATIVE(m2, 0.0025 * k * k, 1e-12);
-            CHECK_RELATIVE(m4, 0.005 * std::pow(k, 4) / 3, 1e-12);
-            OK(rsc_surface_filter(surface, cutoff));
-            const double kept = std::exp(-kPi * alpha2 * std::pow(cutoff * waves / L, 2));
-            const Values now = map.heights_of(surface);
-            double worst = 0;
-            for (std::size_t p = 0; p < z.size(); ++p) worst = check::worse(worst, std::abs(now[p] - kept * z[p]));
-            CHECK_CLOSE(worst, 0, 1e-12);
-            OK(rsc_surface_destroy(&surface));
-        }
-    }
 }
 
 std::int32_t level_at(const rsc_surface* surface, const rsc_case* a_case, double separation) {
@@ -435,108 +348,13 @@ void friction_spots() {
     OK(rsc_case_destroy(&tight));
 }
 
-// Files of contacts: what they begin with, other versions, other things, nothing beside them; a kept contact has the options it was made with.
-void kept(const Folder& folder) {
-    const double x[] = {0, 1}, y[] = {0.5, 0}, z[] = {0.1, 0.05}, r[] = {0.3, 0.2};
-    rsc_asperities* a = nullptr;
-    rsc_contact *k = nullptr, *again = nullptr;
-    rsc_friction *f = nullptr, *other = nullptr;
-    rsc_case* few = nullptr;
-    OK(rsc_case_create(&few));
-    OK(rsc_case_read(few, "&solver max_iterations=1, tolerance=1e-14 /"));
-    OK(rsc_asperities_take(&a, 2, x, y, z, r, nullptr, nullptr, nullptr, nullptr));
-    OK(rsc_contact_create(&k, a, 3e3, 4, 0.6, 0.1, few));
-    OK(rsc_friction_create(&f, k, 0.25, 0.75));
-    const std::string contact = folder / "contact", friction = folder / "friction";
-    for (int twice = 0; twice < 2; ++twice) {  // the second time over a file of that name
-        OK(rsc_contact_save(k, contact.c_str()));
-        OK(rsc_friction_save(f, friction.c_str()));
-        CHECK(folder.files() == 2);
-    }
-    CHECK(bytes(contact).starts_with("rsc a contact " RSC_VERSION "\n"));
-    CHECK(bytes(friction).starts_with("rsc a contact with friction " RSC_VERSION "\n"));
-    OK(rsc_contact_restore(&again, a, contact.c_str()));
-    OK(rsc_friction_restore(&other, a, friction.c_str()));
-    double N = 0, x0 = 0, y0 = 0;
-    OK(rsc_contact_tip(again, &x0, &y0));
-    CHECK(x0 == 0.6 && y0 == 0.1);
-    CHECK(rsc_contact_energy(again, &N) == RSC_NO_RESULT);
-    CHECK(rsc_contact_indent(again, -0.05, &N) == RSC_NOT_CONVERGED && N > 0);
-    CHECK(rsc_friction_state(other, &N, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
-    CHECK(rsc_friction_update(other, -0.05, 0, 0, &N, nullptr, nullptr, nullptr) == RSC_NOT_CONVERGED && N > 0);
-    OK(rsc_contact_destroy(&again));
-    OK(rsc_friction_destroy(&other));
-    const auto refused = [&](const std::string& content, const std::string& why) {
-        const std::string path = folder / "other";
-        std::ofstream(path, std::ios::binary) << content;
-        CHECK(rsc_contact_restore(&again, a, path.c_str()) == -3 && message() == "'" + path + "' " + why);
-    };
-    const std::string whole = bytes(contact), head = "rsc a contact " RSC_VERSION "\n";
-    refused("rsc a contact 0.0.1\n" + whole.substr(head.size()), "is not a contact kept by rsc " RSC_VERSION);
-    refused(bytes(friction), "is not a contact kept by rsc " RSC_VERSION);
-    refused("", "is not a contact kept by rsc " RSC_VERSION);
-    refused(whole.substr(0, head.size() + 7), "is not a contact kept by rsc " RSC_VERSION);
-    refused(whole + "x", "is damaged");
-    refused(whole.substr(0, whole.size() - 1), "is damaged");
-    for (const std::size_t at : {head.size(), head.size() + 8, whole.size() - 1}) {
-        std::string spoilt = whole;
-        spoilt[at] ^= 1;
-        refused(spoilt, "is damaged");
-    }
-    CHECK(rsc_contact_save(k, (folder / "no/contact").c_str()) == RSC_FILE &&
-          message() == "cannot write '" + (folder / "no/contact") + "'");
-    CHECK(rsc_friction_save(f, (folder / "no/friction").c_str()) == RSC_FILE && rsc_friction_save(nullptr, "x") == -1);
-    CHECK(rsc_friction_save(f, nullptr) == -2 && rsc_friction_save(f, "") == -2 && rsc_contact_save(k, "") == -2);
-    CHECK(rsc_friction_restore(&other, nullptr, friction.c_str()) == -2 && rsc_friction_restore(&other, a, nullptr) == -3);
-    CHECK(rsc_friction_restore(nullptr, a, friction.c_str()) == -1 && rsc_contact_restore(nullptr, a, contact.c_str()) == -1);
-    OK(rsc_friction_destroy(&f));
-    OK(rsc_contact_destroy(&k));
-    OK(rsc_asperities_destroy(&a));
-    OK(rsc_case_destroy(&few));
-}
-
-// The meanings of statuses word for word, and a message that is longer than its room.
-void texts() {
-    const auto text = [](std::int32_t status) {
-        char buffer[200] = "";
-        OK(rsc_status_text(status, buffer, sizeof buffer, nullptr));
-        return std::string(buffer);
-    };
-    CHECK(text(RSC_SUCCESS) == "success" && text(RSC_NO_MEMORY) == "the machine refused memory" &&
-          text(RSC_FILE) == "a file could not be read or written");
-    CHECK(text(RSC_NOT_CONVERGED) == "the solver did not reach its tolerance; the results are those of its last iterate");
-    CHECK(text(RSC_NO_RESULT) == "the contact holds no result: indent or press first" &&
-          text(RSC_INTERNAL) == "an internal error of rsc; please report it");
-    CHECK(text(-1) == "argument 1 is wrong" && text(-14) == "argument 14 is wrong" && text(6) == "not a status of rsc");
-    rsc_case* c = nullptr;
-    OK(rsc_case_create(&c));
-    CHECK(rsc_case_set(c, ("surface%" + std::string(9000, 'y')).c_str(), "1") == -2);
-    const std::string cut = message();
-    CHECK(cut.size() == 4095 && cut.ends_with("yyy ...") && cut.starts_with("unknown key 'y"));
-    OK(rsc_case_destroy(&c));
-    // A line for each fault.
-    rsc_surface* none = nullptr;
-    OK(rsc_case_create(&c));
-    for (const char* key : {"surface%n", "surface%L_lambda_l"}) OK(rsc_case_set(c, key, "600"));
-    CHECK(rsc_surface_synthesize(&none, c, 1) == -2 && !none);
-    const std::string faults = message();
-    const std::size_t line = faults.find('\n');
-    CHECK(faults.starts_with("&surface: ") && line != std::string::npos && faults.compare(line + 1, 10, "&surface: ") == 0);
-    OK(rsc_case_destroy(&c));
-}
-
 }  // namespace
 
-int main() {
+TESTS {
     const Folder folder;
-    forms();
-    waves();
     rms_height();
     rms_of_synthesized();
     places();
     bounds();
     friction_spots();
-    kept(folder);
-    texts();
-    return check::summary();
 }

@@ -283,12 +283,11 @@ void from_outside() {
 
 }  // namespace
 
-int main() {
+TESTS {
     against_brute_force();
     turned_paraboloids();
     hidden_saddle();
     made_and_found_are_the_same();
     against_theory();
     from_outside();
-    return check::summary();
 }

@@ -25,8 +25,8 @@
 #include "rsc.h"
 #include "run/campaign_manifest.hpp"
 #include "run/checkpoint.hpp"
-#include "sample_result.hpp"
-#include "temporary_folder.hpp"
+#include "unit/sample_result.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace {
 
@@ -204,7 +204,7 @@ void messages_of_threads() {
 
 }  // namespace
 
-int main() {
+TESTS {
     const Folder folder;
     results(folder);
     manifests(folder);
@@ -212,5 +212,4 @@ int main() {
     refusal(folder);
     one_thread_in_netcdf(folder);
     messages_of_threads();
-    return check::summary();
 }

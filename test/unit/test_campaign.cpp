@@ -21,7 +21,7 @@
 #include "run/checkpoint.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
-#include "temporary_folder.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
@@ -258,18 +258,6 @@ void test_rewrite(const Folder& folder) {
     CHECK(folder.files() == 0);
 }
 
-void test_differences() {
-    const Case there = small_case();
-    Case now = there;
-    now.run.threads = 7;
-    now.output.file = "elsewhere.nc";
-    CHECK(Checkpoint::differences(there, now).empty());
-    now.solids.R[1] = 3;
-    now.run.seed = 5;
-    const auto lines = Checkpoint::differences(there, now);
-    CHECK(lines.size() == 2 && lines[0] == "run%seed: 1 there, 5 now" && lines[1].find("solids%R: ") == 0);
-}
-
 // Another value of a key, in namelist syntax.
 std::string other_value(const Key& key, const std::string& value) {
     if (key.type == Type::logical) return value == ".true." ? ".false." : ".true.";
@@ -359,92 +347,14 @@ void test_team() {
     CHECK(abandoned_ones >= 1);
 }
 
-// A variable of a result file.
-std::vector<double> values(const std::string& path, const std::string& name) {
-    int file = -1, variable = -1, dimensions = 0, ids[NC_MAX_VAR_DIMS] = {};
-    std::size_t size = 1;
-    CHECK(nc_open(path.c_str(), NC_NOWRITE, &file) == NC_NOERR && nc_inq_varid(file, name.c_str(), &variable) == NC_NOERR);
-    nc_inq_varndims(file, variable, &dimensions);
-    nc_inq_vardimid(file, variable, ids);
-    for (int d = 0; d < dimensions; ++d) {
-        std::size_t length = 0;
-        nc_inq_dimlen(file, ids[d], &length);
-        size *= length;
-    }
-    std::vector<double> v(size);
-    CHECK(nc_get_var_double(file, variable, v.data()) == NC_NOERR);
-    nc_close(file);
-    return v;
-}
-
-std::vector<double> overflow(const std::string& path, const char* name) {
-    int file = -1, variable = -1;
-    std::vector<double> v(2);
-    CHECK(nc_open(path.c_str(), NC_NOWRITE, &file) == NC_NOERR && nc_inq_varid(file, name, &variable) == NC_NOERR);
-    CHECK(nc_get_att_double(file, variable, "overflow", v.data()) == NC_NOERR);
-    nc_close(file);
-    return v;
-}
-
-void test_sums(const Folder& folder) {
-    constexpr std::size_t M = 7, steps = 4;
-    constexpr int first = 11;
-    Case c = small_case();
-    c.run.realizations = M;
-    c.run.first_realization = first;
-    c.run.threads = 2;
-    c.output.file = folder / "all.nc";
-    CHECK(run_case(c, {}) == 0);
-    CHECK(folder.files() == 1);
-    const auto force = values(c.output.file, "force"), contacts = values(c.output.file, "contacts");
-    CHECK(force.size() == M * steps);
-
-    // The same realizations one by one: the same series, bit for bit, and their means, added in the same order.
-    std::vector<double> sum(steps, 0.0), map(steps * 256, 0.0);
-    for (std::size_t k = 0; k < M; ++k) {
-        Case one = c;
-        one.run.realizations = 1;
-        one.run.first_realization = first + static_cast<int>(k);
-        one.output.file = folder / "one.nc";
-        CHECK(run_case(one, {}) == 0);
-        const auto single = values(one.output.file, "force"), cells = values(one.output.file, "map_pressure");
-        for (std::size_t s = 0; s < steps; ++s) {
-            CHECK(single[s] == force[k * steps + s]);
-            sum[s] += single[s];
-        }
-        for (std::size_t i = 0; i < map.size(); ++i) map[i] += cells[i];
-        // What a single keeps of each contact adds up to it.
-        const auto kept = values(one.output.file, "contact_count");
-        for (std::size_t s = 0; s < steps; ++s) CHECK(kept[s] == contacts[k * steps + s]);
-    }
-    const auto mean = values(c.output.file, "force_mean"), cells = values(c.output.file, "map_pressure");
-    for (std::size_t s = 0; s < steps; ++s) CHECK(mean[s] == sum[s] / M);
-    // Divided by the cell's area before and after summing: a rounding each.
-    for (std::size_t i = 0; i < map.size(); ++i) CHECK_RELATIVE(cells[i], map[i] / M, 1e-14 * static_cast<double>(M));
-
-    // Every contact of the two levels of distributions is in a bin, or beyond them.
-    for (const char* name : {"pressure_mean_count", "spot_area_count"}) {
-        const auto counts = values(c.output.file, name), beyond = overflow(c.output.file, name);
-        for (std::size_t d = 0; d < 2; ++d) {
-            double binned = beyond[d], there = 0;
-            for (std::size_t b = 0; b < counts.size() / 2; ++b) binned += counts[d * counts.size() / 2 + b];
-            for (std::size_t k = 0; k < M; ++k) there += contacts[k * steps + 2 + d];
-            CHECK(binned == there && there > 0);
-        }
-    }
-}
-
 }  // namespace
 
-int main() {
+TESTS {
     const Folder folder;
     test_archive();
     test_fields();
     test_torn(folder);
     test_rewrite(folder);
-    test_differences();
     test_every_difference();
     test_team();
-    test_sums(folder);
-    return check::summary();
 }

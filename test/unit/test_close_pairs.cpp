@@ -107,10 +107,9 @@ void degenerate_sets() {
 
 }  // namespace
 
-int main() {
+TESTS {
     random_points();
     neighbours_on_a_lattice();
     one_huge_spot();
     degenerate_sets();
-    return check::summary();
 }

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "../physics/random_asperities.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/element_contact.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -178,9 +178,8 @@ void forgetting() {
 
 }  // namespace
 
-int main() {
+TESTS {
     control();
     curves();
     forgetting();
-    return check::summary();
 }

@@ -1,7 +1,8 @@
-// What a contact, its laws, its sums and its friction refuse: the whole sentence and the kind; and what is just right beside it is taken.
+// What a contact, its laws, its sums and its friction refuse, and the values just right beside them.
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFlat = kInfinity;
-
-struct Refusal {
-    const char* said;
-    std::function<void(double)> act;
-    std::vector<double> wrong, right;
-    Failure kind = Failure::bad_input;
-};
+using List = std::vector<double>;
+const List kNotFinite{kNaN, kInfinity, -kInfinity}, kNotPositive{0, -1, kNaN}, kNotPositiveFinite{0, -1, kInfinity, kNaN};
 
 Asperities summits() {
     Asperities a;
@@ -46,381 +42,130 @@ HeightMap bumps(int nx = 8, double dx = 0.1, double dy = 0.1) {
     return map;
 }
 
-void asperities(const Indenter& tip, const SolverOptions& options = {}) {
-    const Asperities a = summits();
-    AsperityContact(a, tip, options).at_separation(0.009);
-}
-SolverOptions of_elements(double tolerance = 1e-6, Hardness hardness = {}) {
+SolverOptions with(double tolerance, Hardness hardness = {}) {
     SolverOptions o;
     o.tolerance = tolerance, o.hardness = hardness;
     return o;
 }
-void elements(const Indenter& tip, const SolverOptions& options = of_elements(), const HeightMap& map = bumps()) {
+void asperities(const Indenter& tip, const SolverOptions& options = {}) {
+    const Asperities a = summits();
+    AsperityContact(a, tip, options).at_separation(0.009);
+}
+void elements(const Indenter& tip, const SolverOptions& options = with(1e-6), const HeightMap& map = bumps()) {
     make_element_contact(map, tip, options)->at_separation(0.005);
 }
 
-// Of a contact of either model.
-std::vector<Refusal> of_contacts() {
+// Each wrong value is bad input, with this word in its message; each right one is taken.
+void refuses(const char* word, const List& wrong, const List& right, const std::function<void(double)>& act) {
+    const auto said = [&](double v) -> std::string {
+        try {
+            act(v);
+        } catch (const Error& e) {
+            return e.kind() == Failure::bad_input ? e.what() : "another kind of failure";
+        }
+        return {};
+    };
+    for (const double v : wrong) {
+        const std::string text = said(v);
+        if (text.find(word) == std::string::npos) std::printf("%s, %g: '%s'\n", word, v, text.c_str());
+        CHECK(text.find(word) != std::string::npos);
+    }
+    for (const double v : right) {
+        if (!said(v).empty()) std::printf("%s, %g is right: '%s'\n", word, v, said(v).c_str());
+        CHECK(said(v).empty());
+    }
+}
+#define REFUSES(word, wrong, right, ...) refuses(word, wrong, List right, [=]([[maybe_unused]] double v) { __VA_ARGS__; })
+
+void numbers() {
+    REFUSES("E*", kNotPositiveFinite, ({1e-3, 1e12}), asperities({v, 2, 0.5, 0.5, {}}));
+    REFUSES("E*", kNotPositiveFinite, ({1e-3, 1e12}), elements({v, 2, 0.5, 0.5, {}}));
+    REFUSES("radius", kNotPositive, ({1e-3, kFlat}), asperities({1, v, 0.5, 0.5, {}}));
+    REFUSES("radius", kNotPositive, ({1e-3, kFlat}), elements({1, v, 0.5, 0.5, {}}));
+    REFUSES("two flats", (List{1, 1e300}), ({kFlat}), asperities({1, v, 0, 0, {1, 1}}));
+    REFUSES("two flats", (List{1, 1e300}), ({kFlat}), elements({1, v, 0, 0, {0.8, 0.6}}));
+    REFUSES("tolerance", (List{0, -1e-6, kNaN}), ({1e-9, 1e-2}), elements({1, 2, 0.5, 0.5, {}}, with(v)));
+    REFUSES("empty", (List{0, -1}), ({1, 8}), HeightMap map = bumps(); map.nx = static_cast<int>(v);
+            elements({1, 2, 0, 0, {}}, with(1e-6), map));
+    REFUSES("empty", (List{0, -1}), ({1, 6}), HeightMap map = bumps(); map.ny = static_cast<int>(v);
+            elements({1, 2, 0, 0, {}}, with(1e-6), map));
+    REFUSES("empty", kNotPositive, ({0.1}), elements({1, 2, 0, 0, {}}, with(1e-6), bumps(8, v, 0.1)));
+    REFUSES("empty", kNotPositive, ({0.1}), elements({1, 2, 0, 0, {}}, with(1e-6), bumps(8, 0.1, v)));
+    REFUSES("32 times", (List{4.125}), ({4.0}), elements({1, 2, 0, 0, {}}, with(1e-6), bumps(8, v, 0.125)));
+    REFUSES("32 times", (List{4.125}), ({4.0}), elements({1, 2, 0, 0, {}}, with(1e-6), bumps(8, 0.125, v)));
+    REFUSES("hardness", kNotPositive, ({0.3, kInfinity}), elements({1, 2, 0, 0, {}}, with(1e-6, {v, 0})));
+    REFUSES("size_effect", (List{1e-9, 1}), ({0}), elements({1, 2, 0, 0, {}}, with(1e-6, {0.3, v})));
+    REFUSES("hardness", kNotPositive, ({0.3, kInfinity}), asperities({1, 2, 0.5, 0.5, {}}, with(1e-6, {v, 0})));
+    REFUSES("size_effect", (List{-1e-9, kInfinity, kNaN}), ({0, 1}), asperities({1, 2, 0.5, 0.5, {}}, with(1e-6, {0.3, v})));
+    REFUSES("ratio", (List{1 - 1e-15, 0, -2, kInfinity, kNaN}), ({1, 1e6}), ellipse_factors(v));
+    REFUSES("sides", kNotPositiveFinite, ({0.25, 4}), Lattice({v, 1}));
+    REFUSES("sides", kNotPositiveFinite, ({0.25, 4}), Lattice({1, v}));
+    REFUSES("4 times", (List{4.5}), ({4}), Lattice({v, 1}));
+    REFUSES("4 times", (List{4.5}), ({4}), Lattice({1, v}));
+    REFUSES("relative error", (List{0.02}), ({1e-2, 1e-10}), const double x[] = {0, 1}; MeshPotential(2, x, x, v));
+    REFUSES("point 2", (List{kNaN, kInfinity}), ({1}), const double x[] = {0, v}, y[] = {0, 1}; MeshPotential(2, x, y, 1e-3);
+            MeshPotential(2, y, x, 1e-3));
+    REFUSES("target point 2", (List{kInfinity}), ({2}), const double x[] = {0, 0}, y[] = {1, v}, zero = 0; double phi[2];
+            pair_potential(2, x, y, 1, &zero, &zero, x, phi));
+    REFUSES("source point 1", (List{-kInfinity}), ({2}), const double x[] = {v}, y[] = {1}, zero = 0; double phi[1];
+            pair_potential(1, &zero, &zero, 1, x, y, y, phi); pair_potential_single(1, &zero, &zero, 1, x, y, y, phi));
+    REFUSES("contact point 2", (List{kNaN}), ({2}), const double x[] = {0, v}, y[] = {0.25, 0.5}; PairSet().assign(2, x, y));
+    REFUSES("too far apart", (List{1.5e308}), ({1e307}), const double x[] = {-v, v}, y[] = {0, 0}; PairSet().assign(2, x, y));
+    REFUSES("body 1", kNotPositive, ({1, kInfinity}), equivalent_modulus({v, 1}, {0, 0}));
+    REFUSES("body 2", kNotPositive, ({1, kInfinity}), equivalent_modulus({1, v}, {0, 0}));
+    REFUSES("body 1", (List{-1.001, 0.501, kNaN}), ({-0.999, 0.5}), tangential_ratio({1, 1}, {v, 0}));
+    REFUSES("body 2", (List{-1.001, 0.501, kNaN}), ({-1, 0.5}), equivalent_modulus({1, 1}, {0, v}));
+    REFUSES("rigid", (List{kInfinity}), ({1e9}), equivalent_modulus({kInfinity, v}, {0, 0}));
+    REFUSES("body 1", kNotPositive, ({1, kInfinity}), equivalent_radius({v, 1}));
+    REFUSES("body 2", kNotPositive, ({1, kInfinity}), equivalent_radius({1, v}));
+}
+
+// Of a contact of any model.
+void contacts() {
     static const Asperities two = summits();
     static const HeightMap map = bumps();
-    std::vector<Refusal> all;
     for (int model = 0; model < 3; ++model) {
         const auto made = [model]() -> std::unique_ptr<Contact> {
             if (model == 0) return std::make_unique<AsperityContact>(two, Indenter{2, 3, 0.5, 0.4, {}}, SolverOptions{});
             return make_element_contact(map, model == 1 ? Indenter{2, 3, 0.5, 0.4, {}} : Indenter{2, kFlat, 0, 0, {map.Lx(), map.Ly()}},
-                                        of_elements());
+                                        with(1e-6));
         };
-        all.push_back(
-            {"the separation must be finite", [=](double v) { made()->at_separation(v); }, {kNaN, kInfinity, -kInfinity}, {0.008, 1e300}});
-        all.push_back(
-            {"the force must be positive and finite", [=](double v) { made()->at_force(v); }, {0, -1, kNaN, kInfinity}, {1e-9, 1e-5}});
-        all.push_back(
-            {"the tip's position must be finite", [=](double v) { made()->move_tip(v, 0); }, {kNaN, kInfinity, -kInfinity}, {0.3, -7}});
-        all.push_back(
-            {"the tip's position must be finite", [=](double v) { made()->move_tip(0, v); }, {kNaN, kInfinity, -kInfinity}, {0.3, -7}});
+        REFUSES("separation", kNotFinite, ({0.008, 1e300}), made()->at_separation(v));
+        REFUSES("force", kNotPositiveFinite, ({1e-9, 1e-5}), made()->at_force(v));
+        REFUSES("tip", kNotFinite, ({0.3, -7}), made()->move_tip(v, 0));
+        REFUSES("tip", kNotFinite, ({0.3, -7}), made()->move_tip(0, v));
     }
-    all.push_back({"no asperity lies under the sphere: no force can be carried",
-                   [](double x0) {
-                       AsperityContact(two, {2, 1, x0, 0.5, {}}, {}).at_force(1e-6);
-                   },
-                   {3, -2},
-                   {0.5, -0.55}});
-    all.push_back({"no asperity lies under the sphere: no force can be carried",
-                   [](double y0) {
-                       ElementContact(map, {2, 1, 0.4, y0, {}}, of_elements()).at_force(1e-6);
-                   },
-                   {3, -2},
-                   {0.5, -0.9}});
-    return all;
+    REFUSES("no asperity", (List{3, -2}), ({0.5, -0.55}), AsperityContact(two, {2, 1, v, 0.5, {}}, {}).at_force(1e-6));
+    REFUSES("no asperity", (List{3, -2}), ({0.5, -0.9}), ElementContact(map, {2, 1, 0.4, v, {}}, with(1e-6)).at_force(1e-6));
 }
 
-const Refusal kRefusals[] = {
-    {"E* must be positive and finite",
-     [](double v) {
-         asperities({v, 2, 0.5, 0.5, {}});
-     },
-     {0, -1, kInfinity, kNaN},
-     {1e-3, 1e12}},
-    {"E* must be positive and finite",
-     [](double v) {
-         elements({v, 2, 0.5, 0.5, {}});
-     },
-     {0, -1, kInfinity, kNaN},
-     {1e-3, 1e12}},
-    {"the sphere's radius must be positive (Infinity: flat)",
-     [](double v) {
-         asperities({1, v, 0.5, 0.5, {}});
-     },
-     {0, -1, kNaN},
-     {1e-3, kFlat}},
-    {"the sphere's radius must be positive (Infinity: flat)",
-     [](double v) {
-         elements({1, v, 0.5, 0.5, {}});
-     },
-     {0, -1, kNaN},
-     {1e-3, kFlat}},
-    {"a periodic contact is one of two flats: both radii must be Infinity",
-     [](double v) {
-         asperities({1, v, 0, 0, {1, 1}});
-     },
-     {1, 1e300},
-     {kFlat}},
-    {"a periodic contact is one of two flats: both radii must be Infinity",
-     [](double v) {
-         elements({1, v, 0, 0, {0.8, 0.6}});
-     },
-     {1, 1e300},
-     {kFlat}},
-    {"the tolerance must be positive",
-     [](double v) {
-         elements({1, 2, 0.5, 0.5, {}}, of_elements(v));
-     },
-     {0, -1e-6, kNaN},
-     {1e-9, 1e-2}},
-    {"elements: the map of heights is empty",
-     [](double v) {
-         HeightMap map = bumps();
-         map.nx = static_cast<int>(v);
-         elements({1, 2, 0, 0, {}}, of_elements(), map);
-     },
-     {0, -1},
-     {1, 8}},
-    {"elements: the map of heights is empty",
-     [](double v) {
-         HeightMap map = bumps();
-         map.ny = static_cast<int>(v);
-         elements({1, 2, 0, 0, {}}, of_elements(), map);
-     },
-     {0, -1},
-     {1, 6}},
-    {"elements: the map of heights is empty",
-     [](double v) {
-         elements({1, 2, 0, 0, {}}, of_elements(), bumps(8, v, 0.1));
-     },
-     {0, -1, kNaN},
-     {0.1}},
-    {"elements: the map of heights is empty",
-     [](double v) {
-         elements({1, 2, 0, 0, {}}, of_elements(), bumps(8, 0.1, v));
-     },
-     {0, -1, kNaN},
-     {0.1}},
-    {"elements: pixels of 4.125000 by 0.125000 are longer than 32 times their width",
-     [](double v) {
-         elements({1, 2, 0, 0, {}}, of_elements(), bumps(8, v, 0.125));
-     },
-     {4.125},
-     {4.0}},
-    {"elements: pixels of 0.125000 by 4.125000 are longer than 32 times their width",
-     [](double v) {
-         elements({1, 2, 0, 0, {}}, of_elements(), bumps(8, 0.125, v));
-     },
-     {4.125},
-     {4.0}},
-    {"solids%hardness must be positive (Infinity: elastic)",
-     [](double v) {
-         elements({1, 2, 0, 0, {}}, of_elements(1e-6, {v, 0}));
-     },
-     {0, -1, kNaN},
-     {0.3, kInfinity}},
-    {"solids%size_effect: elements have no radius to scale the hardness by; give the hardness that holds",
-     [](double v) {
-         elements({1, 2, 0, 0, {}}, of_elements(1e-6, {0.3, v}));
-     },
-     {1e-9, 1},
-     {0}},
-    {"solids%hardness must be positive (Infinity: elastic)",
-     [](double v) {
-         asperities({1, 2, 0.5, 0.5, {}}, of_elements(1e-6, {v, 0}));
-     },
-     {0, -1, kNaN},
-     {0.3, kInfinity}},
-    {"solids%size_effect must not be negative",
-     [](double v) {
-         asperities({1, 2, 0.5, 0.5, {}}, of_elements(1e-6, {0.3, v}));
-     },
-     {-1e-9, kInfinity, kNaN},
-     {0, 1}},
-    {"the ratio of the principal curvatures of a summit must be finite and at least 1",
-     [](double v) { ellipse_factors(v); },
-     {1 - 1e-15, 0, -2, kInfinity, kNaN},
-     {1, 1e6}},
-    {"the sides of a periodic surface must be positive and finite",
-     [](double v) {
-         Lattice({v, 1});
-     },
-     {0, -1, kInfinity, kNaN},
-     {0.25, 4}},
-    {"the sides of a periodic surface must be positive and finite",
-     [](double v) {
-         Lattice({1, v});
-     },
-     {0, -1, kInfinity, kNaN},
-     {0.25, 4}},
-    {"a periodic surface with sides 4.500000 and 1.000000: the longer may be at most 4 times the shorter",
-     [](double v) {
-         Lattice({v, 1});
-     },
-     {4.5},
-     {4}},
-    {"a periodic surface with sides 1.000000 and 4.500000: the longer may be at most 4 times the shorter",
-     [](double v) {
-         Lattice({1, v});
-     },
-     {4.5},
-     {4}},
-    {"mesh product: relative error 0.020000 is outside of 1e-10 to 1e-2",
-     [](double v) {
-         const double x[] = {0, 1};
-         MeshPotential(2, x, x, v);
-     },
-     {0.02},
-     {1e-2, 1e-10}},
-    {"mesh product: coordinates of point 2 must be finite",
-     [](double v) {
-         const double x[] = {0, v}, y[] = {0, 1};
-         MeshPotential(2, x, y, 1e-3), MeshPotential(2, y, x, 1e-3);
-     },
-     {kNaN, kInfinity},
-     {1}},
-    {"target point 2: coordinates (0.000000, inf) must be finite",
-     [](double v) {
-         const double x[] = {0, 0}, y[] = {1, v}, zero = 0;
-         double phi[2];
-         pair_potential(2, x, y, 1, &zero, &zero, x, phi);
-     },
-     {kInfinity},
-     {2}},
-    {"source point 1: coordinates (-inf, 1.000000) must be finite",
-     [](double v) {
-         const double x[] = {v}, y[] = {1}, zero = 0;
-         double phi[1];
-         pair_potential(1, &zero, &zero, 1, x, y, y, phi), pair_potential_single(1, &zero, &zero, 1, x, y, y, phi);
-     },
-     {-kInfinity},
-     {2}},
-    {"contact point 2: coordinates (nan, 0.500000) must be finite",
-     [](double v) {
-         const double x[] = {0, v}, y[] = {0.25, 0.5};
-         PairSet().assign(2, x, y);
-     },
-     {kNaN},
-     {2}},
-    {"the points are too far apart: their extent overflows",
-     [](double v) {
-         const double x[] = {-v, v}, y[] = {0, 0};
-         PairSet().assign(2, x, y);
-     },
-     {1.5e308},
-     {1e307}},
-    {"Young's modulus of body 1 must be positive (Infinity for a rigid body)",
-     [](double v) {
-         equivalent_modulus({v, 1}, {0, 0});
-     },
-     {0, -1, kNaN},
-     {1, kInfinity}},
-    {"Young's modulus of body 2 must be positive (Infinity for a rigid body)",
-     [](double v) {
-         equivalent_modulus({1, v}, {0, 0});
-     },
-     {0, -1, kNaN},
-     {1, kInfinity}},
-    {"Poisson's ratio of body 1 must be between -1 and 0.5",
-     [](double v) {
-         tangential_ratio({1, 1}, {v, 0});
-     },
-     {-1.001, 0.501, kNaN},
-     {-0.999, 0.5}},
-    {"Poisson's ratio of body 2 must be between -1 and 0.5",
-     [](double v) {
-         equivalent_modulus({1, 1}, {0, v});
-     },
-     {-1.001, 0.501, kNaN},
-     {-1, 0.5}},
-    {"both bodies are rigid: at least one of the moduli E must be finite",
-     [](double v) {
-         equivalent_modulus({kInfinity, v}, {0, 0});
-     },
-     {kInfinity},
-     {1e9}},
-    {"radius of body 1 must be positive (Infinity for a flat body)",
-     [](double v) {
-         equivalent_radius({v, 1});
-     },
-     {0, -1, kNaN},
-     {1, kInfinity}},
-    {"radius of body 2 must be positive (Infinity for a flat body)",
-     [](double v) {
-         equivalent_radius({1, v});
-     },
-     {0, -1, kNaN},
-     {1, kInfinity}},
-};
-
-// What friction asks of its numbers, on a sphere.
-std::vector<Refusal> of_friction() {
+void friction() {
     static const Asperities one{{0.5}, {0.5}, {0}, {1e-2}, {}, {}, {}, {}};
     static AsperityContact a(one, {2, kFlat, 0.5, 0.5, {}}, {}), b(one, {2, kFlat, 0.5, 0.5, {}}, {});
     static ContactCurve curve(a, b);
     const Friction half{0.5, 0.8};
     const double N = curve.load(1e-3).force;
-    const std::string most = "the tangential force must be from 0 to mu N = " + std::to_string(0.5 * N);
-    static const std::string kept = most;
-    return {
-        {"the coefficient of friction must be zero or positive, and finite",
-         [](double v) {
-             FrictionHistory({v, 1});
-         },
-         {-1e-9, kInfinity, kNaN},
-         {0, 3}},
-        {"the ratio m = 4 G*/E* of the tangential to the normal stiffness must be positive and finite",
-         [](double v) {
-             FrictionHistory({0.1, v});
-         },
-         {0, -1, kInfinity, kNaN},
-         {1e-3, 2}},
-        {"the coefficient of friction must be zero or positive, and finite",
-         [](double v) {
-             slide_to(curve, {v, 1}, 1e-3, {0.1});
-         },
-         {-1e-9, kInfinity, kNaN},
-         {0, 3}},
-        {"the coefficient of friction must be zero or positive, and finite",
-         [](double v) {
-             slide_at_force(curve, {v, 1}, 1e-3, 0);
-         },
-         {-1e-9, kInfinity, kNaN},
-         {0, 3}},
-        {"the coefficient of friction must be zero or positive, and finite",
-         [](double v) {
-             slide_cycle(curve, {v, 1}, 1e-3, 20);
-         },
-         {-1e-9, kInfinity, kNaN},
-         {0, 3}},
-        {"approach and slide must be finite", [=](double v) { FrictionHistory(half).go_to(curve, v, {}); }, {kInfinity, kNaN}, {1e-3, -1}},
-        {"approach and slide must be finite",
-         [=](double v) {
-             FrictionHistory(half).go_to(curve, 1e-3, {v, 0});
-         },
-         {kInfinity, kNaN},
-         {1e-3, -1}},
-        {"approach and slide must be finite",
-         [=](double v) {
-             FrictionHistory(half).go_to(curve, 1e-3, {0, v});
-         },
-         {kInfinity, kNaN},
-         {1e-3, -1}},
-        {"the approach must be finite", [=](double v) { slide_to(curve, half, v, {0.1}); }, {kInfinity, kNaN}, {1e-3}},
-        {"there is no contact yet that could be slid", [=](double v) { slide_to(curve, half, v, {0.1}); }, {0, -1}, {1e-3}},
-        {"there is no contact yet that could be slid", [=](double v) { slide_at_force(curve, half, v, 0); }, {0, -1}, {1e-3}},
-        {"there is no contact yet that could be slid", [=](double v) { slide_cycle(curve, half, v, 20); }, {0, -1}, {1e-3}},
-        {"a slide of first loading must be zero or positive, and finite",
-         [=](double v) {
-             slide_to(curve, half, 1e-3, {0.1, v});
-         },
-         {-1e-9, kInfinity, kNaN},
-         {0, 7}},
-        {kept.c_str(), [=](double v) { slide_at_force(curve, half, 1e-3, v * 0.5 * N); }, {-1e-9, 1 + 1e-12, kNaN}, {0, 0.3, 1}},
-        {"a cycle wants steps in multiples of 10",
-         [=](double v) { slide_cycle(curve, half, 1e-3, static_cast<int>(v)); },
-         {0, 10, 19, 25},
-         {20, 30},
-         Failure::internal},
-    };
-}
-
-void try_all(const Refusal& r) {
-    for (const double v : r.wrong) {
-        std::string said = "nothing";
-        Failure kind{};
-        try {
-            r.act(v);
-        } catch (const Error& e) {
-            said = e.what(), kind = e.kind();
-        }
-        if (said == r.said && kind == r.kind) {
-            check::that(true, r.said, __FILE__, __LINE__);
-            continue;
-        }
-        std::printf("%g: '%s' instead of '%s'\n", v, said.c_str(), r.said);
-        check::that(false, "the refusal", __FILE__, __LINE__);
-    }
-    for (const double v : r.right) {
-        try {
-            r.act(v);
-            check::that(true, r.said, __FILE__, __LINE__);
-        } catch (const Error& e) {
-            std::printf("%g beside '%s': '%s'\n", v, r.said, e.what());
-            check::that(false, "what is right is taken", __FILE__, __LINE__);
-        }
-    }
+    const List negative{-1e-9, kInfinity, kNaN}, none{0, -1};
+    REFUSES("coefficient", negative, ({0, 3}), FrictionHistory({v, 1}));
+    REFUSES("ratio", kNotPositiveFinite, ({1e-3, 2}), FrictionHistory({0.1, v}));
+    REFUSES("coefficient", negative, ({0, 3}), slide_to(curve, {v, 1}, 1e-3, {0.1}));
+    REFUSES("coefficient", negative, ({0, 3}), slide_at_force(curve, {v, 1}, 1e-3, 0));
+    REFUSES("coefficient", negative, ({0, 3}), slide_cycle(curve, {v, 1}, 1e-3, 20));
+    REFUSES("finite", kNotFinite, ({1e-3, -1}), FrictionHistory(half).go_to(curve, v, {}));
+    REFUSES("finite", kNotFinite, ({1e-3, -1}), FrictionHistory(half).go_to(curve, 1e-3, {v, 0}));
+    REFUSES("finite", kNotFinite, ({1e-3, -1}), FrictionHistory(half).go_to(curve, 1e-3, {0, v}));
+    REFUSES("approach", (List{kInfinity, kNaN}), ({1e-3}), slide_to(curve, half, v, {0.1}));
+    REFUSES("no contact", none, ({1e-3}), slide_to(curve, half, v, {0.1}));
+    REFUSES("no contact", none, ({1e-3}), slide_at_force(curve, half, v, 0));
+    REFUSES("no contact", none, ({1e-3}), slide_cycle(curve, half, v, 20));
+    REFUSES("slide", negative, ({0, 7}), slide_to(curve, half, 1e-3, {0.1, v}));
+    REFUSES("mu N", (List{-1e-9, 1 + 1e-12, kNaN}), ({0, 0.3, 1}), slide_at_force(curve, half, 1e-3, v * 0.5 * N));
 }
 
 }  // namespace
 
-int main() {
-    for (const Refusal& r : kRefusals) try_all(r);
-    for (const Refusal& r : of_contacts()) try_all(r);
-    for (const Refusal& r : of_friction()) try_all(r);
-    return check::summary();
+TESTS {
+    numbers();
+    contacts();
+    friction();
 }

@@ -21,12 +21,6 @@ Case small() {
     return c;
 }
 
-double sum(const std::vector<double>& values) {
-    double total = 0;
-    for (double v : values) total += v;
-    return total;
-}
-
 // The grid of elements has points_per_wave points in the shortest wave, and holds the surface of the asperities' grid.
 void surface() {
     Case c = small();
@@ -43,46 +37,6 @@ void surface() {
         for (int i = 0; i < 64; ++i) worst = std::max(worst, std::abs(coarse.map(i, j) - factor * fine.map(6 * i, 6 * j)));
     CHECK(worst <= 1e-12);
     CHECK_CLOSE(factor, 1.0, 1e-2);
-}
-
-// What pixels carry is on the map and in the distributions, all of it; nothing depends on the number of threads.
-void observations() {
-    Case c = small();
-    c.solver.model = Model::elements;
-    c.output.pdf_levels = {1.0};
-    const Job job = prepare(c);
-    const Realization r = realize(job, 1, 1);
-    CHECK(r.asperities.size() == 0);
-    CHECK(!r.heights);
-    const RealizationRecord record = observe(job, 1, r);
-    CHECK(record.levels.size() == 3);
-    for (std::size_t s = 0; s < 3; ++s) {
-        CHECK(record.levels[s].status == LevelStatus::converged);
-        CHECK(record.levels[s].contacts > 0);
-        CHECK_RELATIVE(sum(record.maps[s].force), record.levels[s].force, 1e-12);
-        CHECK_RELATIVE(sum(record.maps[s].area), record.levels[s].area, 1e-12);
-        CHECK(record.levels[s].area_pixels > record.levels[s].area);
-    }
-    // A contact as large as several cells of the map is not heaped into one of them.
-    const MapLevel& deep = record.maps[2];
-    double fullest = 0;
-    for (double a : deep.area) fullest = std::max(fullest, a);
-    CHECK(fullest <= 1.1 * job.observe.map.side * job.observe.map.side);  // 4 x 4 pixels, whose middles lie in a cell of 3.84 x 3.84
-    CHECK(record.distributions.size() == 1);
-    const AreaHistogram& p = record.distributions[0].pressure;
-    CHECK_RELATIVE(p.total, record.levels[1].area_pixels, 1e-12);
-    CHECK_RELATIVE(sum(p.area) + p.overflow, p.total, 1e-12);
-    CHECK_RELATIVE(p.power[0], record.levels[1].force, 1e-12);  // area times pressure
-    CHECK(p.squares > 0 && p.squares <= p.total * p.total);
-    const Realization again = realize(job, 1, 2);
-    for (std::size_t s = 0; s < 3; ++s)
-        CHECK(again.levels[s].force == r.levels[s].force && again.levels[s].pixels.pressure == r.levels[s].pixels.pressure);
-    // By force: the same level.
-    c.indentation.control = Control::force;
-    c.indentation.levels = {r.levels[1].force};
-    const Realization pressed = realize(prepare(c), 1, 1);
-    CHECK_RELATIVE(pressed.levels[0].separation, r.levels[1].separation, 1e-5);
-    CHECK(pressed.levels[0].stiffness < 0);
 }
 
 void comparison() {
@@ -181,54 +135,11 @@ void yielding() {
     CHECK(again.residual_profile.depth == elements.residual_profile.depth);
 }
 
-bool refused(const Case& c, const char* what) {
-    for (const Problem& problem : check_case(c))
-        if (problem.text.find(what) != std::string::npos) return true;
-    return false;
-}
-
-void refusals() {
-    Case c = small();
-    c.solver.model = Model::elements;
-    CHECK(check_case(c).empty());
-    c.surface.source = Source::asperities;
-    c.surface.file = "list.txt";
-    CHECK(refused(c, "'asperities' has only summits"));
-    c = small();
-    c.compare.levels = {1.0};
-    CHECK(check_case(c).empty());
-    c.solver.model = Model::elements;
-    CHECK(refused(c, "there is nothing to compare"));
-    c = small();
-    c.solver.model = Model::elements;
-    c.solids.hardness = 250;
-    CHECK(check_case(c).empty());
-    c.solids.size_effect = 1e-3;
-    CHECK(refused(c, "no radius to scale the hardness by"));
-    c = small();
-    c.solver.model = Model::elements;
-    c.solver.method = Method::dgesv;
-    CHECK(refused(c, "method = 'dgesv'"));
-    c = small();
-    c.solver.model = Model::elements;
-    c.solver.interaction = Interaction::none;
-    CHECK(refused(c, "interaction = 'none'"));
-    c = small();
-    c.solver.model = Model::elements;
-    c.surface.n = 2048;
-    c.surface.L_lambda_s = 600;
-    c.elements.points_per_wave = 64;
-    CHECK(refused(c, "38400 points a side"));
-}
-
 }  // namespace
 
-int main() {
+TESTS {
     surface();
-    observations();
     comparison();
     which_levels();
     yielding();
-    refusals();
-    return check::summary();
 }

@@ -46,29 +46,6 @@ Problem rough_bump(int nx, int ny, double dx, double dy, double depth, unsigned 
     return problem;
 }
 
-std::vector<double> gauss_seidel(const Problem& problem, double highest) {
-    const std::size_t n = problem.pixels.size();
-    std::vector<double> K(n * n), p(n, 0.0);
-    for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t l = 0; l < n; ++l)
-            K[k * n + l] = love((problem.pixels[k].x - problem.pixels[l].x) * problem.dx,
-                                (problem.pixels[k].y - problem.pixels[l].y) * problem.dy, 0.5 * problem.dx, 0.5 * problem.dy) /
-                           (std::numbers::pi * kE);
-    for (int sweep = 0; sweep < 5000; ++sweep) {
-        double moved = 0, largest = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-            double w = -problem.g0[k];
-            for (std::size_t l = 0; l < n; ++l) w += K[k * n + l] * p[l];
-            const double next = std::clamp(p[k] - 1.5 * w / K[k * n + k], 0.0, highest);  // over-relaxed: still down the energy
-            moved = std::max(moved, std::abs(next - p[k]));
-            largest = std::max(largest, next);
-            p[k] = next;
-        }
-        if (moved <= 1e-14 * largest) break;
-    }
-    return p;
-}
-
 std::vector<double> solved(const Problem& problem, double highest, ElementsOutcome& outcome, double& stiffness) {
     const auto products = make_tree_products(kE, problem.dx, problem.dy, 1e-3, 1e-11);
     ElementsSolver solver(*products, highest);
@@ -88,49 +65,6 @@ std::vector<double> solved(const Problem& problem, double highest, ElementsOutco
     CHECK(pressed.empty() == std::isinf(highest));
     CHECK_RELATIVE(solver.energy(), energy, 1e-8);
     return p;
-}
-
-void against_dense() {
-    const struct {
-        int nx, ny;
-        double dx, dy, depth;
-    } maps[] = {
-        {1, 1, 0.1, 0.1, 3.0}, {20, 20, 0.1, 0.1, 0.2}, {24, 18, 0.1, 0.1, -0.1}, {16, 30, 0.2, 0.09, 0.3}, {17, 17, 1e-7, 1e-7, 1.5}};
-    for (const auto& map : maps)
-        for (unsigned seed = 1; seed <= 2; ++seed) {
-            const Problem problem = rough_bump(map.nx, map.ny, map.dx, map.dy, map.depth, seed);
-            const auto free = gauss_seidel(problem, kInfinity);
-            const double highest_free = *std::max_element(free.begin(), free.end());
-            for (const double highest : {kInfinity, 0.4 * highest_free}) {
-                const auto expected = std::isinf(highest) ? free : gauss_seidel(problem, highest);
-                ElementsOutcome outcome;
-                double stiffness = 0, sum = 0, worst = 0;
-                const auto p = solved(problem, highest, outcome, stiffness);
-                CHECK(outcome.converged);
-                long touching = 0, other = 0;
-                for (std::size_t k = 0; k < p.size(); ++k) {
-                    sum += expected[k];
-                    touching += expected[k] > 0;
-                    other += (p[k] > 0) != (expected[k] > 0);
-                    worst = std::max(worst, std::abs(p[k] - expected[k]));
-                }
-                CHECK(touching > 0);
-                CHECK(other == 0);
-                CHECK(worst <= kAgree * sum / static_cast<double>(touching));
-                std::printf("%d x %d, %ld of %zu pixels touch: largest difference %.1e of the mean pressure, %ld products\n", map.nx,
-                            map.ny, touching, p.size(), worst * static_cast<double>(touching) / sum, outcome.products);
-                // The load a little lower and higher, by the slope; only while the same pixels touch is it exact.
-                Problem moved = problem;
-                const double step = 1e-6 * *std::max_element(problem.g0.begin(), problem.g0.end());
-                double change = 0;
-                for (const double sign : {1.0, -1.0}) {
-                    for (std::size_t k = 0; k < p.size(); ++k) moved.g0[k] = problem.g0[k] + sign * step;
-                    double unused;
-                    for (double v : solved(moved, highest, outcome, unused)) change += sign * v;
-                }
-                CHECK_RELATIVE(change / (2 * step), stiffness, 1e-3);
-            }
-        }
 }
 
 // A good start gives the same answer as none; and the number of threads changes no bit.
@@ -178,9 +112,7 @@ void connected() {
 
 }  // namespace
 
-int main() {
-    against_dense();
+TESTS {
     starts_and_threads();
     connected();
-    return check::summary();
 }

@@ -413,7 +413,7 @@ void patterns() {
 
 }  // namespace
 
-int main() {
+TESTS {
     units_and_directions();
     types();
     lengths();
@@ -421,5 +421,4 @@ int main() {
     texts();
     instruments();
     patterns();
-    return check::summary();
 }

@@ -83,43 +83,6 @@ std::string heights_file(const std::string& name, int format, std::vector<double
     return f.path;
 }
 
-void heights_from_netcdf() {
-    for (const int format : {0, int{NC_64BIT_OFFSET}, int{NC_64BIT_DATA}, int{NC_NETCDF4}}) {
-        const HeightMap m = read_heights(heights_file("h", format, ramp(5, 0.05, 0.1), ramp(3, -1, 0.25)), std::nullopt);
-        CHECK(m.nx == 5 && m.ny == 3 && !m.periodic);
-        CHECK_CLOSE(m.dx, 0.1, 1e-15);
-        CHECK_CLOSE(m.dy, 0.25, 1e-15);
-        CHECK(m.x0 == 0.05 && m.y0 == -1);
-        CHECK(m(3, 2) == 23 && m(0, 0) == 0);
-        CHECK_CLOSE(m.Lx(), 0.5, 1e-15);
-    }
-    // Another name, no coordinates: L is the extent in x.
-    const std::string bare = heights_file("bare", NC_NETCDF4, {}, {}, "Topography");
-    const HeightMap m = read_heights(bare, 2.0);
-    CHECK(m.dx == 0.4 && m.dy == 0.4 && m.x0 == 0 && m.y0 == 0 && m(4, 1) == 14);
-    REFUSED(read_heights(bare, std::nullopt), ": Topography(y = 3, x = 5) has no coordinate variables; L, its extent in x, must be given");
-    REFUSED(read_heights(bare, -1.0), "bare: L must be positive and finite, not -1");
-    REFUSED(read_heights(bare, 0.0), "bare: L must be positive and finite, not 0");
-    // L beside coordinates: the same or refused.
-    const std::string both = heights_file("both", NC_NETCDF4, ramp(5, 0, 0.1), ramp(3, 0, 0.1));
-    CHECK_CLOSE(read_heights(both, 0.5).dx, 0.1, 1e-15);
-    REFUSED(read_heights(both, 0.4), ": its coordinate x spans 5 steps of 0.1 = 0.5, but L = 0.4 was given");
-    // Falling coordinates are turned round.
-    const HeightMap turned = read_heights(heights_file("turned", NC_NETCDF4, ramp(5, 0.4, -0.1), ramp(3, 2, -1)), std::nullopt);
-    CHECK(turned(0, 0) == 24 && turned(4, 2) == 0 && turned(4, 0) == 20);
-    CHECK_CLOSE(turned.x0, 0, 1e-15);
-    CHECK(turned.y0 == 0 && turned.dy == 1);
-    // Packed.
-    const auto pack = [](int id, int v) {
-        const double scale = 0.5, offset = -3;
-        ok(nc_put_att_double(id, v, "scale_factor", NC_DOUBLE, 1, &scale));
-        ok(nc_put_att_double(id, v, "add_offset", NC_DOUBLE, 1, &offset));
-    };
-    const HeightMap packed =
-        read_heights(heights_file("packed", NC_NETCDF4, ramp(5, 0, 1), ramp(3, 0, 1), "height", NC_SHORT, pack), std::nullopt);
-    CHECK(packed(3, 2) == 23 * 0.5 - 3);
-}
-
 void bad_heights_from_netcdf() {
     const std::vector<double> x = ramp(5, 0, 0.1), y = ramp(3, 0, 0.1);
     std::vector<double> uneven = x;
@@ -206,101 +169,6 @@ void bad_heights_from_netcdf() {
     }
 }
 
-// Heights, x and y each in a unit of its own, converted to the run's.
-void units() {
-    const std::vector<double> x = ramp(5, 0.5, 1), y = ramp(3, 500, 2000);
-    const auto file = [&](const char* height, const char* x_unit, const char* y_unit) {
-        const auto tamper = [&](int id, int v) {
-            for (const auto& [variable, unit] : {std::pair(v, height), {v + 1, x_unit}, {v + 2, y_unit}})
-                if (unit) ok(nc_put_att_text(id, variable, "units", std::strlen(unit), unit));
-        };
-        return heights_file("units", NC_NETCDF4, x, y, "height", NC_DOUBLE, tamper);
-    };
-    const HeightMap m = read_heights(file("nm", "um", "nm"), 0.005, "mm");
-    CHECK_CLOSE(m(3, 2), 23e-6, 1e-20);
-    CHECK_CLOSE(m.dx, 1e-3, 1e-18);
-    CHECK_CLOSE(m.x0, 0.5e-3, 1e-18);
-    CHECK_CLOSE(m.dy, 2e-3, 1e-18);
-    CHECK_CLOSE(m.y0, 0.5e-3, 1e-18);
-    CHECK(read_heights(file("nm", "um", "nm"), std::nullopt, "um")(3, 2) == 23e-3);
-    CHECK(read_heights(file(nullptr, nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
-    CHECK(read_heights(file("um", nullptr, nullptr), std::nullopt, "um")(3, 2) == 23);
-    CHECK(read_heights(file("1", "1", "1"), std::nullopt, "1")(3, 2) == 23);
-    REFUSED(read_heights(file("um", nullptr, "um"), std::nullopt, "mm"),
-            ": y is in 'um', but x has no attribute units: it cannot be told what it is in");
-    REFUSED(read_heights(file("banana", "um", "um"), std::nullopt, "mm"),
-            ": the units of height: 'banana' is no unit; a unit of length as UDUNITS spells it is expected, such as 'mm', 'um' or 'm'");
-    REFUSED(read_heights(file("um", "s", "um"), std::nullopt, "mm"), ": the units of x: 's' is no unit of length; a unit");
-    REFUSED(read_heights(file("1", "1", "1"), std::nullopt, "mm"), "the units of height: '1' is no unit of length");
-    REFUSED(read_heights(file("um", "um", "nm"), 5.0, "mm"), ": its coordinate x spans 5 steps of 0.001 = 0.005, but L = 5 was given");
-
-    NcFile f("list");
-    const int d = f.dimension("asperity", 1);
-    const std::pair<const char*, const char*> names[] = {
-        {"asperity_x", "um"},        {"asperity_y", "um"},        {"asperity_z", "nm"},         {"asperity_radius", "um"},
-        {"asperity_kappa1", "um-1"}, {"asperity_kappa2", "mm-1"}, {"asperity_angle", "radian"}, {"asperity_biharmonic", "um-3"}};
-    std::vector<int> variables;
-    for (const auto& [name, unit] : names) {
-        variables.push_back(f.variable(name, NC_DOUBLE, {d}));
-        ok(nc_put_att_text(f.id, variables.back(), "units", std::strlen(unit), unit));
-    }
-    ok(nc_enddef(f.id));
-    const double two = 2;
-    for (const int v : variables) ok(nc_put_var_double(f.id, v, &two));
-    f.close();
-    const Asperities a = read_asperities(f.path, "mm");
-    CHECK_CLOSE(a.x[0], 2e-3, 1e-18);
-    CHECK_CLOSE(a.z[0], 2e-6, 1e-20);
-    CHECK_CLOSE(a.radius[0], 2e-3, 1e-18);
-    CHECK_CLOSE(a.kappa1[0], 2e3, 1e-9);
-    CHECK(a.kappa2[0] == 2 && a.angle[0] == 2);
-    CHECK_CLOSE(a.biharmonic[0], 2e9, 1e-3);
-}
-
-void cut_files() {
-    // However much is missing, it is said; a classic file would otherwise go on with zeros.
-    for (const int format : {0, int{NC_64BIT_OFFSET}, int{NC_64BIT_DATA}, int{NC_NETCDF4}}) {
-        const std::string whole = heights_file("whole", format, ramp(5, 0, 1), ramp(3, 0, 1));
-        std::ifstream stream(whole, std::ios::binary);
-        const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
-        int said = 0, cuts = 0;
-        for (std::size_t keep = 9; keep < bytes.size(); keep += 1 + bytes.size() / 100) {
-            const std::string cut = write("cut", bytes.substr(0, keep));
-            ++cuts;
-            try {
-                read_heights(cut, std::nullopt);
-            } catch (const Error& e) {
-                const bool clear = std::strstr(e.what(), "whole") || std::strstr(e.what(), "cut off");
-                said += clear && e.kind() == Failure::bad_input ? 1 : 0;
-            }
-        }
-        CHECK(said == cuts && cuts > 50);
-        REFUSED(read_heights(write("cut", bytes.substr(0, 20)), std::nullopt),
-                format == NC_NETCDF4 ? "cut: looks like NetCDF but cannot be opened; is it whole? ("
-                                     : "cut: looks like NetCDF, but its header is cut off or damaged at byte " +
-                                           std::to_string(format == NC_64BIT_DATA ? 16 : 20));
-        REFUSED(read_heights(write("cut", bytes.substr(0, bytes.size() - 1)), std::nullopt), "whole");
-    }
-    // With a record dimension too.
-    NcFile f("records", 0);
-    const int y = f.dimension("y", NC_UNLIMITED), x = f.dimension("x", 3);
-    const int v = f.variable("height", NC_DOUBLE, {y, x}), other = f.variable("other", NC_SHORT, {y});
-    ok(nc_enddef(f.id));
-    for (std::size_t j = 0; j < 4; ++j) {
-        const std::size_t start[] = {j, 0}, count[] = {1, 3};
-        const double row[] = {1, 2, static_cast<double>(j)};
-        const short one = 1;
-        ok(nc_put_vara_double(f.id, v, start, count, row));
-        ok(nc_put_var1_short(f.id, other, start, &one));
-    }
-    f.close();
-    CHECK(read_heights(f.path, 3.0)(2, 3) == 3);
-    const auto whole = std::filesystem::file_size(f.path);
-    std::filesystem::resize_file(f.path, whole - 8);
-    REFUSED(read_heights(f.path, 3.0), ": ends at byte " + std::to_string(std::filesystem::file_size(f.path)) + " of the " +
-                                           std::to_string(whole - 2) + " its header announces; the file is not whole");
-}
-
 void heights_from_text() {
     const HeightMap m = read_heights(RSC_TEST_DATA "/heights.txt", 8.0);
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 1.6 && m.dy == 1.6 && m.x0 == 0 && !m.periodic);
@@ -360,29 +228,6 @@ void separators() {
     REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0), "t:1: blanks before '0' where the rest of the line has commas");
     REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0),
             ": one separator is expected throughout; decimal commas are read between semicolons only");
-}
-
-// x y z of a grid, in any order.
-void triples() {
-    std::string text;
-    for (int k = 0; k < 15; ++k) {
-        const int p = 7 * k % 15, i = p % 5, j = p / 5;
-        text += std::to_string(0.333 * i - 1) + " " + std::to_string(0.25 * j) + " " + std::to_string(10 * j + i) + "\n";
-    }
-    const HeightMap m = read_heights(write("xyz", text), std::nullopt);
-    CHECK(m.nx == 5 && m.ny == 3 && m(3, 2) == 23 && m(0, 1) == 10);
-    CHECK_CLOSE(m.dx, 0.333, 1e-12);
-    CHECK_CLOSE(m.dy, 0.25, 1e-12);
-    CHECK_CLOSE(m.x0, -1, 1e-12);
-    CHECK(read_heights(write("xyz", text), 5 * 0.333).nx == 5);
-    REFUSED(read_heights(write("xyz", text), 2.0), "its coordinate x spans 5 steps of 0.333 = 1.665, but L = 2");
-    REFUSED(read_heights(write("xyz", text.substr(0, text.rfind('\n', text.size() - 2) + 1)), std::nullopt),
-            "xyz: three columns are read as x y z of a map of 5 x 3 points, but there is none at x = -0.001, y = 0.25");
-    REFUSED(read_heights(write("xyz", text + "-1 0 3\n"), std::nullopt), "xyz:16: x = -1, y = 0 is already in line 1");
-    REFUSED(read_heights(write("xyz", text + "-0.9 0 3\n"), std::nullopt),
-            "xyz:2: three columns are read as x y z of a map; x = -0.334 is not on a uniform grid of 6 values from -1 to 0.332");
-    REFUSED(read_heights(write("xyz", "1 2 3\n1 3 4\n1 4 5\n"), 1.0),
-            "xyz: three columns are read as x y z of a map; column x is 1 throughout");
 }
 
 std::string asperities_file(const std::string& name, std::vector<double> x, std::vector<double> r, bool curvatures,
@@ -447,173 +292,6 @@ void asperities() {
     REFUSED(read_asperities(in_folder("absent")), "No such file");
 }
 
-// Refusals of NetCDF files that no other test here brings about; x and y differ in all of them.
-void more_words() {
-    const std::vector<double> x = ramp(5, 0, 0.1), y = ramp(3, 1, 0.25);
-    const auto with = [&](const std::function<void(int, int)>& tamper, std::vector<double> cx, std::vector<double> cy) {
-        return heights_file("m", NC_NETCDF4, std::move(cx), std::move(cy), "height", NC_DOUBLE, tamper);
-    };
-    const std::string plain = heights_file("plain", NC_NETCDF4, x, y);
-    REFUSED(read_heights(plain, std::nullopt, "mm", "Phase"), "plain: there is no variable 'Phase'");
-    REFUSED(read_heights(plain, std::nullopt, "mm", "x"), "plain: channel 'x': two dimensions of numbers were expected, not x(x = 5)");
-    CHECK(read_heights(plain, std::nullopt, "mm", "height")(4, 2) == 24);
-    REFUSED(read_heights(write("t", "1 2 3\n"), 1.0, "mm", "Phase"),
-            "t: has no channels to choose 'Phase' from; only .gwy and NetCDF files have");
-    // Which variable is the map, where there are several.
-    {
-        NcFile f("channels");
-        const int d = f.dimension("y", 3), e = f.dimension("x", 4);
-        const int first = f.variable("first", NC_DOUBLE, {d, e}), second = f.variable("second", NC_INT, {d, e});
-        const int height = f.variable("height", NC_CHAR, {d, e});
-        (void)height;
-        ok(nc_enddef(f.id));
-        std::vector<double> z = ramp(12, 0, 1);
-        ok(nc_put_var_double(f.id, first, z.data()));
-        z = ramp(12, 100, 1);
-        ok(nc_put_var_double(f.id, second, z.data()));
-        f.close();
-        CHECK(read_heights(f.path, 8.0, "mm", "second")(1, 2) == 109 && read_heights(f.path, 8.0, "mm", "first")(1, 2) == 9);
-        CHECK(read_heights(f.path, 8.0, "mm", "second").dx == 2 && read_heights(f.path, 8.0, "mm", "second").dy == 2);
-        REFUSED(read_heights(f.path, 8.0), "channels: height(y, x), numeric, was expected, not height(y = 3, x = 4)");
-        REFUSED(read_heights(f.path, 8.0, "mm", "height"),
-                "channel 'height': two dimensions of numbers were expected, not height(y = 3, x = 4)");
-    }
-    const auto text = [](const char* name) { return [name](int id, int v) { ok(nc_put_att_text(id, v, name, 3, "two")); }; };
-    for (const char* name : {"missing_value", "scale_factor", "add_offset"})
-        REFUSED(read_heights(with(text(name), x, y), std::nullopt),
-                std::string("m: attribute height:") + name + " is text; a number was expected");
-    const auto numbers = [](const char* name, std::vector<double> values) {
-        return [=](int id, int v) { ok(nc_put_att_double(id, v, name, NC_DOUBLE, values.size(), values.data())); };
-    };
-    for (const char* name : {"scale_factor", "add_offset"}) {
-        REFUSED(read_heights(with(numbers(name, {1, 2}), x, y), std::nullopt),
-                std::string("m: attribute height:") + name + " must be one finite number");
-        REFUSED(read_heights(with(numbers(name, {HUGE_VAL}), x, y), std::nullopt), "must be one finite number");
-    }
-    CHECK(read_heights(with(numbers("scale_factor", {3}), x, y), std::nullopt)(3, 2) == 69);
-    CHECK(read_heights(with(numbers("add_offset", {3}), x, y), std::nullopt)(3, 2) == 26);
-    // One point by missing_value, one by _FillValue: both are missing where they may be.
-    const auto both = [](int id, int v) {
-        const double fill = 12, missing = 3;
-        ok(nc_put_att_double(id, v, "_FillValue", NC_DOUBLE, 1, &fill));
-        ok(nc_put_att_double(id, v, "missing_value", NC_DOUBLE, 1, &missing));
-    };
-    const HeightMap holes = read_heights(with(both, x, y), std::nullopt, "mm", "", Missing::fill);
-    CHECK(std::isnan(holes(2, 1)) && std::isnan(holes(3, 0)) && holes(3, 1) == 13);
-    // What was never written is missing, whatever the type; units as a string of NetCDF-4 are units.
-    const std::pair<nc_type, double> fills[] = {{NC_FLOAT, static_cast<double>(NC_FILL_FLOAT)},
-                                                {NC_DOUBLE, NC_FILL_DOUBLE},
-                                                {NC_INT, static_cast<double>(NC_FILL_INT)},
-                                                {NC_SHORT, static_cast<double>(NC_FILL_SHORT)},
-                                                {NC_INT64, static_cast<double>(NC_FILL_INT64)}};
-    for (const auto& [type, fill] : fills) {
-        std::vector<double> z = ramp(15, 0, 1);
-        z[7] = fill;
-        const std::string file = heights_file("m", NC_NETCDF4, x, y, "height", type, {}, z);
-        REFUSED(read_heights(file, std::nullopt), "m: height(y = 1, x = 2), counted from 0, is missing (it holds the fill value ");
-        const HeightMap map = read_heights(file, std::nullopt, "mm", "", Missing::fill);
-        CHECK(std::isnan(map(2, 1)) && map(3, 1) == 8);
-    }
-    const auto strings = [](int id, int v) {
-        const char* const um = "um";
-        for (int k = 0; k < 3; ++k) ok(nc_put_att_string(id, v + k, "units", 1, const_cast<const char**>(&um)));
-    };
-    const HeightMap converted = read_heights(with(strings, x, y), std::nullopt, "mm");
-    CHECK_CLOSE(converted(3, 2), 23e-3, 1e-17);
-    CHECK_CLOSE(converted.dy, 0.25e-3, 1e-18);
-    // Reversed in one of the two directions alone.
-    const HeightMap left = read_heights(with({}, ramp(5, 0.4, -0.1), y), std::nullopt),
-                    down = read_heights(with({}, x, ramp(3, 1.5, -0.25)), std::nullopt);
-    CHECK(left(0, 0) == 4 && left(4, 2) == 20 && left.x0 == 0 && left.y0 == 1 && down(0, 0) == 20 && down(4, 2) == 4 && down.x0 == 0 &&
-          down.y0 == 1);
-    // The other coordinate, at its tolerance: 1e-6 of its step.
-    std::vector<double> uneven = y;
-    uneven[1] += 0.24e-6;
-    CHECK(read_heights(with({}, x, uneven), std::nullopt).dy == 0.25);
-    uneven[1] += 0.02e-6;
-    REFUSED(read_heights(with({}, x, uneven), std::nullopt),
-            "m: coordinate y is not uniform to 1e-6 of its step 0.25: y(1), counted from 0, is 1.25000026 where 1.25 was expected");
-    // The number is that of the file, also where the coordinate runs backwards.
-    std::vector<double> backwards = ramp(5, 0.4, -0.1);
-    backwards[1] += 0.01;
-    REFUSED(read_heights(with({}, backwards, y), std::nullopt), "x(1), counted from 0, is 0.31 where 0.3 was expected");
-    REFUSED(read_heights(with({}, ramp(5, 0.4, -0.1), ramp(3, 2, 0)), std::nullopt),
-            "m: coordinate y does not vary: it begins and ends at 2");
-    REFUSED(read_heights(with({}, ramp(5, 3e50, 1e49), y), std::nullopt),
-            "m: the first coordinate must be finite, 1e50 at most, not 3e+50");
-    // L beside coordinates: the same to 1e-6.
-    CHECK(read_heights(plain, 0.5 * (1 + 0.99e-6)).nx == 5);
-    REFUSED(read_heights(plain, 0.5 * (1 + 1.01e-6)), "plain: its coordinate x spans 5 steps of 0.1 = 0.5, but L = 0.500000505 was given");
-    // A text's grid: to a hundredth of a step.
-    const auto triples = [](const char* middle) {
-        return std::string("0 0 1\n0 2 2\n0 4 3\n") + middle + " 0 4\n1 2 5\n1 4 6\n2 0 7\n2 2 8\n2 4 9\n";
-    };
-    const HeightMap nine = read_heights(write("t", triples("1.0")), std::nullopt);
-    CHECK(nine.nx == 3 && nine.ny == 3 && nine.dx == 1 && nine.dy == 2 && nine(0, 2) == 3 && nine(2, 0) == 7 && nine(1, 0) == 4);
-    REFUSED(read_heights(write("t", triples("1.02")), std::nullopt),
-            "t:4: three columns are read as x y z of a map; x = 1.02 is not on a uniform grid of 4 values from 0 to 2");
-    REFUSED(read_heights(write("t", "0 0 1\n0 2 2\n1.02 0 3\n1.02 2 4\n2 0 5\n2 2 6\n"), std::nullopt),
-            "t:3: three columns are read as x y z of a map; x = 1.02 is not on a uniform grid of 3 values from 0 to 2");
-    REFUSED(read_heights(write("t", "0 0 1\n1 nan 2\n"), std::nullopt, "mm", "", Missing::fill),
-            "t:2: three columns are read as x y z of a map; y is missing");
-
-    NcFile f("list");
-    const int d = f.dimension("asperity", 2);
-    std::vector<int> all;
-    for (const char* name :
-         {"asperity_x", "asperity_y", "asperity_z", "asperity_radius", "asperity_kappa1", "asperity_kappa2", "asperity_angle"})
-        all.push_back(f.variable(name, NC_DOUBLE, {d}));
-    ok(nc_put_att_text(f.id, all.back(), "units", 6, "degree"));
-    ok(nc_enddef(f.id));
-    const double values[] = {1, 2};
-    for (const int v : all) ok(nc_put_var_double(f.id, v, values));
-    f.close();
-    REFUSED(read_asperities(f.path), "list: asperity_angle is in 'degree'; radian is expected");
-    for (const char* name : {"radian", "radians", "rad", "1"}) {
-        NcFile g("list");
-        const int e = g.dimension("asperity", 2);
-        all.clear();
-        for (const char* v :
-             {"asperity_x", "asperity_y", "asperity_z", "asperity_radius", "asperity_kappa1", "asperity_kappa2", "asperity_angle"})
-            all.push_back(g.variable(v, NC_DOUBLE, {e}));
-        ok(nc_put_att_text(g.id, all.back(), "units", std::strlen(name), name));
-        ok(nc_enddef(g.id));
-        for (const int v : all) ok(nc_put_var_double(g.id, v, values));
-        g.close();
-        CHECK(read_asperities(g.path).angle[1] == 2);
-    }
-    NcFile g("square");
-    g.variable("asperity_x", NC_DOUBLE, {g.dimension("a", 2), g.dimension("b", 3)});
-    g.close();
-    REFUSED(read_asperities(g.path), "square: asperity_x(asperity), numeric, was expected, not asperity_x(a = 2, b = 3)");
-
-    // Spectra: two columns, or wavenumber and psd each in its unit.
-    CHECK_RELATIVE((*read_spectrum(write("t", "1 4\n2 3\n3 2\n"), "mm"))(2), 3.0, 1e-14);
-    REFUSED(read_spectrum(write("t", "1 4 5\n"), "mm"), "t:1: 3 values where 2 were expected");
-    REFUSED(
-        read_spectrum(plain, "mm"),
-        "plain: there is no variable wavenumber; wavenumber and psd were expected, as in the result of a measured map (surface%source = 'heights')");
-    NcFile h("spectrum");
-    const int k = h.dimension("k", 3);
-    const int w = h.variable("wavenumber", NC_DOUBLE, {k}), p = h.variable("psd", NC_DOUBLE, {k, k});
-    ok(nc_enddef(h.id));
-    const double three[] = {1, 2, 3};
-    ok(nc_put_var_double(h.id, w, three));
-    (void)p;
-    h.close();
-    REFUSED(read_spectrum(h.path, "mm"), "spectrum: psd over one dimension was expected, not psd(k = 3, k = 3)");
-    for (const auto& [unit, words] : {std::pair("s", "spectrum: the units of wavenumber: 's' where a unit like (mm)-1 is expected"),
-                                      std::pair("um-1", "spectrum: there is no variable psd; wavenumber and psd were expected")}) {
-        NcFile s("spectrum");
-        const int n = s.dimension("k", 3), v = s.variable("wavenumber", NC_DOUBLE, {n});
-        ok(nc_put_att_text(s.id, v, "units", std::strlen(unit), unit));
-        ok(nc_enddef(s.id));
-        ok(nc_put_var_double(s.id, v, three));
-        s.close();
-        REFUSED(read_spectrum(s.path, "mm"), words);
-    }
-}
-
 // The libraries are not made for it: without turns this breaks within some readings.
 void several_threads() {
     const std::string path = heights_file("shared", NC_NETCDF4, ramp(5, 0, 1), ramp(3, 0, 1));
@@ -629,16 +307,10 @@ void several_threads() {
 
 }  // namespace
 
-int main() {
-    heights_from_netcdf();
+TESTS {
     bad_heights_from_netcdf();
-    cut_files();
     heights_from_text();
     separators();
-    triples();
-    units();
     asperities();
-    more_words();
     several_threads();
-    return check::summary();
 }

@@ -339,10 +339,9 @@ void maps() {
 
 }  // namespace
 
-int main() {
+TESTS {
     levels();
     places();
     options();
     maps();
-    return check::summary();
 }

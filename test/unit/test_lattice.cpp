@@ -200,12 +200,11 @@ void mesh_repeats() {
 
 }  // namespace
 
-int main() {
+TESTS {
     closed_forms();
     finer_lattices();
     lattice_sums();
     close_pairs_wrap();
     spots_wrap();
     mesh_repeats();
-    return check::summary();
 }

@@ -52,49 +52,6 @@ HeightMap in_micrometres(const std::string& path, const std::string& channel = "
     return read_heights(path, std::nullopt, "um", channel, missing);
 }
 
-// The container's size is as if all were there, so that what is cut inside of it is named. Numbers are left out.
-void cut_inside(const std::string& components) {
-    const std::string whole = gwy_file(components);
-    std::set<std::string> said;
-    for (std::size_t size = 4; size < whole.size(); ++size) {
-        std::string cut = whole.substr(0, size);
-        const std::uint32_t inside = static_cast<std::uint32_t>(size) - 21;  // GWYP, the container's name and its size come before
-        if (size > 21) std::memcpy(cut.data() + 17, &inside, sizeof inside);
-        try {
-            in_micrometres(write("cut.gwy", cut));
-        } catch (const Error& e) {
-            std::string text = std::string(e.what()).substr((folder / "cut.gwy").size());
-            text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }), text.end());
-            said.insert(text);
-        }
-    }
-    const std::string left = " of  x  bytes, but  are left; is the file whole?", no_end = " has no end; is the file whole?";
-    const std::set<std::string> expected = {": at byte : //base/range-type" + left,
-                                            ": at byte : /filename" + no_end,
-                                            ": at byte : /flag" + left,
-                                            ": at byte : /letters" + left,
-                                            ": at byte : /long" + left,
-                                            ": at byte : /words" + no_end,
-                                            ": at byte : GwyContainer of  bytes, but  are left; is the file whole?",
-                                            ": at byte : the length of /letters" + left,
-                                            ": at byte : the length of /objects" + left,
-                                            ": at byte : the length of /words" + left,
-                                            ": at byte : the name of a component of GwyContainer" + no_end,
-                                            ": at byte : the name of an object" + no_end,
-                                            ": at byte : the size of GwyContainer" + left,
-                                            ": at byte : the size of an object" + left,
-                                            ": at byte : the type of a component" + left,
-                                            ": holds no channel (image)"};
-    CHECK(said == expected);
-    for (const std::string& s : said)
-        if (!expected.contains(s)) std::printf("  not expected: %s\n", s.c_str());
-    // One with its numbers: of 4 + 13 + 4 + 10 bytes the last six are "/filen".
-    REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, 17) + bytes(std::uint32_t{6}) + whole.substr(21, 6))),
-            "cut.gwy: at byte 21: the name of a component of GwyContainer has no end; is the file whole?");
-    REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, 100))),
-            "cut.gwy: at byte 21: GwyContainer of " + std::to_string(whole.size() - 21) + " bytes, but 79 are left; is the file whole?");
-}
-
 void gwy() {
     const Map map = sample();
     Map in_own_units = map;
@@ -167,7 +124,6 @@ void gwy() {
     // A file that is cut anywhere is refused, with the place.
     const std::string whole = gwy_file(gwy_channel(0, "T", map));
     for (std::size_t size = 5; size < whole.size(); ++size) REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, size))), "at byte ");
-    cut_inside(between);
     Map wrong = map;
     wrong.nx = 7;
     REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))), "w.gwy: channel 'T': 24 values for 7 x 4 points");
@@ -310,17 +266,6 @@ void sdf() {
         "t.plu: neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '");
 }
 
-void text_with_holes() {
-    const std::string matrix = write("m.txt", "1 2 3 0 0\n4 nan 6 0 0\n7 8 BAD 0 0\n1 2 3 0 0\n");
-    const HeightMap m = read_heights(matrix, 5.0, "mm", "", Missing::fill);
-    CHECK(std::isnan(m(1, 1)) && std::isnan(m(2, 2)) && m(0, 3) == 1);
-    REFUSED(read_heights(matrix, 5.0), "m.txt:2: 'nan' in column 2 is not finite");
-    const std::string list = write("l.txt", "0 0 1\n1 0 2\n2 0 3\n0 1 4\n2 1 6\n0 2 7\n1 2 8\n2 2 nan\n");
-    const HeightMap t = read_heights(list, std::nullopt, "mm", "", Missing::fill);
-    CHECK(t.nx == 3 && t.ny == 3 && std::isnan(t(1, 1)) && std::isnan(t(2, 2)) && t(2, 1) == 6);
-    REFUSED(read_heights(write("x.txt", "0 0 1\nnan 0 2\n"), std::nullopt, "mm", "", Missing::fill), "x is missing");
-}
-
 // The example of input/README: both files are one map, and it is what make_map.py says.
 void example() {
     const std::string input = RSC_TEST_DATA "/../../input/map/";
@@ -377,11 +322,9 @@ void against_gwyddion() {
 
 }  // namespace
 
-int main() {
+TESTS {
     gwy();
     sdf();
-    text_with_holes();
     example();
     against_gwyddion();
-    return check::summary();
 }

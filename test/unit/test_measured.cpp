@@ -255,114 +255,11 @@ void circle() {
     CHECK_CLOSE(mean, s.hurst, 0.015);
 }
 
-void power() {
-    // The integral of the spectrum is the mean square, window or not, square pixels or not.
-    const Spectrum s{.L = 3, .L_lambda_l = 20, .L_lambda_s = 60, .sigma = 0.02};
-    HeightMap map = synthesize(s, 256, Normalise::sample, 7, 1);
-    const auto integral = [](const HeightMap& m) {
-        const MeasuredSpectrum spectrum = measure_spectrum(m);
-        double sum = 0;
-        for (std::size_t i = 0; i < spectrum.psd.size(); ++i) sum += spectrum.psd[i] * spectrum.modes[i];
-        return sum * 4 * kPi * kPi / (m.Lx() * m.Ly());
-    };
-    CHECK_RELATIVE(integral(map), 0.02 * 0.02, 1e-12);
-    map.periodic = false;
-    CHECK_RELATIVE(integral(map), 0.02 * 0.02, 0.15);  // the window sees three eighths of the map in each direction
-    HeightMap cut = copy(map);
-    cut.ny = 100;
-    CHECK_RELATIVE(integral(cut), 0.02 * 0.02, 0.3);
-    // So it is where the wave is the shortest that the grid knows, and the numbers of modes are all there are.
-    HeightMap zigzag = make(32, 32, 0.1, 0.1, [](double x, double) { return std::lround(x / 0.1) % 2 == 0 ? 0.3 : -0.3; });
-    zigzag.periodic = true;
-    CHECK_RELATIVE(integral(zigzag), 0.09, 1e-12);
-    // The numbers of the standard of a cosine: Sq 1/sqrt 2, Ssk 0, Sku 3/2, Sdq q/sqrt 2; grooves have ratio 0.
-    HeightMap grooves = make(400, 100, 0.01, 0.05, [](double x, double) { return 0.3 * std::cos(2 * kPi * x); });
-    const HeightParameters p = height_parameters(grooves);
-    CHECK_RELATIVE(p.sq, 0.3 / std::sqrt(2.0), 1e-12);
-    CHECK_CLOSE(p.ssk, 0.0, 1e-12);
-    CHECK_RELATIVE(p.sku, 1.5, 1e-12);
-    CHECK_RELATIVE(p.sdq, 0.3 * 2 * kPi / std::sqrt(2.0), 0.01);
-    CHECK_CLOSE(isotropy_ratio(grooves), 0.0, 1e-9);
-    // Rings go from one wave in the longer side to the Nyquist wavenumber of the wider steps.
-    const MeasuredSpectrum oblong =
-        measure_spectrum(make(64, 64, 0.1, 0.2, [](double x, double y) { return std::cos(3 * x) + std::sin(2 * y); }));
-    CHECK_RELATIVE(oblong.wavenumber.front(), 2 * kPi / 12.8, 1e-12);
-    CHECK_RELATIVE(oblong.wavenumber.back(), kPi / 0.2, 1e-12);
-    // One point in four at h, the others at 0: Ssk = (1 - 2p)/sqrt(p (1 - p)), Sku = 1/(p (1 - p)) - 3, p = 1/4.
-    const HeightParameters spots =
-        height_parameters(make(40, 40, 1, 1, [](double x, double) { return std::lround(x) % 4 == 0 ? 0.01 : 0.0; }));
-    CHECK_RELATIVE(spots.ssk, 2 / std::sqrt(3.0), 1e-12);
-    CHECK_RELATIVE(spots.sku, 16.0 / 3 - 3, 1e-12);
-    // A power law that ends within some rings: ks is where the spectrum falls to half of it.
-    MeasuredSpectrum fades;
-    for (int k = 1; k <= 200; ++k) {
-        const double left = k <= 100 ? 1 : k == 101 ? 0.8 : k == 102 ? 0.4 : k == 103 ? 0.05 : 1e-5;
-        fades.wavenumber.push_back(k), fades.psd.push_back(left * std::pow(k, -3.6)), fades.modes.push_back(6.28 * k);
-    }
-    CHECK_CLOSE(fit_self_affine(fades).ks.value, 101.75, 0.05);
-    CHECK(isotropy_ratio(map) > 0.95);
-    const HeightMap dimples = make(200, 100, 0.01, 0.02, [](double x, double y) { return std::cos(2 * kPi * x) + std::cos(2 * kPi * y); });
-    CHECK(isotropy_ratio(dimples) > 0.98);
-    // Two waves of one length at right angles, one three times as high: rms slopes as 1 to 3, however the pair is turned.
-    for (const auto& [kx, ky] : {std::pair{3, 0}, {0, 3}, {2, 2}, {2, -1}}) {
-        HeightMap waves;
-        waves.allocate(64, 64, 64);
-        waves.dx = waves.dy = 0.1;
-        waves.periodic = true;
-        const double unit = 2 * std::numbers::pi / 64;
-        for (int j = 0; j < 64; ++j)
-            for (int i = 0; i < 64; ++i) waves.row(j)[i] = std::sin(unit * (kx * i + ky * j)) + 3 * std::cos(unit * (-ky * i + kx * j));
-        CHECK_CLOSE(isotropy_ratio(waves), 1.0 / 3, 0.03);  // the slopes are those of cells between the points inside the map
-    }
-}
-
-void whole() {
-    const Spectrum s{.L = 2, .L_lambda_l = 8, .L_lambda_s = 24, .sigma = 0.01};
-    HeightMap map = synthesize(s, 256, Normalise::sample, 1, 1);
-    map.periodic = false;
-    for (int j = 0; j < 256; ++j)
-        for (int i = 0; i < 256; ++i) map.row(j)[i] += 0.1 + 0.05 * i * map.dx;
-    map.row(100)[50] = map.row(101)[50] = std::nan("");
-    HeightMap refused = copy(map);
-    CHECK_THROWS(measure(refused, {Missing::refuse, Detrend::plane, 0}), Error);
-    HeightMap thin = copy(map);
-    thin.dy = 1.1e4 * thin.dx;
-    CHECK_THROWS(measure(thin, {Missing::fill, Detrend::plane, 0}), Error);
-    const Measured m = measure(map, {Missing::fill, Detrend::plane, 0.02});
-    CHECK(m.missing == 2 && m.filled[100 * 256 + 50] == 1);
-    CHECK_RELATIVE(m.missing_share, 2.0 / (256 * 256), 1e-12);
-    CHECK_RELATIVE(m.parameters.sq, 0.01, 0.02);
-    CHECK_RELATIVE(m.form.slope_x, 0.05, 0.05);
-    CHECK(m.as_read.height > m.without_form.height && m.without_form.curvature > m.filtered.curvature);
-    CHECK_RELATIVE(m.points_per_wave(), 256.0 / 24, 0.05);
-    Measured oblong = m;
-    oblong.dy = 2 * m.dx;  // the wider step counts
-    CHECK_RELATIVE(oblong.points_per_wave(), 0.5 * m.points_per_wave(), 1e-12);
-    // 60 bins from -5 to 5 Sq, the share of all points in each over its width.
-    CHECK(m.height_pdf.size() == 60);
-    CHECK_RELATIVE(60 * m.height_bin, 10 * m.parameters.sq, 1e-12);
-    double share = 0;
-    for (double p : m.height_pdf) share += p * m.height_bin;
-    CHECK_RELATIVE(share, 1.0, 1e-4);
-    CHECK(told(m, "mm").size() >= 5);
-    for (const double sign : {1.0, -1.0}) {  // a dome is a dome on the screen
-        HeightMap ball = make(40, 40, 0.1, 0.1, [&](double x, double y) { return sign * std::sqrt(400 - x * x - y * y); });
-        std::string text;
-        for (const std::string& line : told(measure(ball, {Missing::refuse, Detrend::sphere, 0}), "mm")) text += line;
-        CHECK(text.find(sign > 0 ? "radius 20 mm (dome)" : "radius 20 mm (bowl)") != std::string::npos);
-    }
-    HeightMap small = make(3, 3, 1, 1, [](double x, double y) { return x * y * y; });
-    CHECK(!measure(small, {}).fit);
-}
-
 }  // namespace
 
-int main() {
+TESTS {
     forms();
     missing_points();
     filtering();
-    power();
     circle();
-    whole();
-    return check::summary();
 }

@@ -220,7 +220,7 @@ void costs() {
 
 }  // namespace
 
-int main() {
+TESTS {
     shapes();
     tiny();
     symmetry();
@@ -229,5 +229,4 @@ int main() {
     same_bits_for_any_threads();
     bad_input();
     costs();
-    return check::summary();
 }

@@ -93,182 +93,6 @@ void test_syntax() {
     CHECK(read("&solver method = 'DIRECT ' /").solver.method == Method::direct);
 }
 
-void test_messages() {
-    CHECK_TEXT(complaint("&surface\n  sigma = 0.01\n  hurst = 0.7\n\n    simga = 1 /"),
-               "case.nml:5:5: &surface: unknown key 'simga'; did you mean 'sigma'?");
-    CHECK_TEXT(complaint("&surfaces n = 64 /"), "case.nml:1:1: unknown group '&surfaces'; did you mean '&surface'?");
-    CHECK_CONTAINS(complaint("&run sigma = 1 /"), "case.nml:1:6: &run: unknown key 'sigma'; 'sigma' belongs to &surface");
-    CHECK_CONTAINS(complaint("&run seed = 1\n seed = 2 /"), "case.nml:2:9: &run: seed: given twice, first at line 1");
-    CHECK_CONTAINS(complaint("&solids E = 1, 2\n E(2) = 3 /"), "case.nml:2:9: &solids: E: given twice, first at line 1");
-    CHECK_CONTAINS(complaint("&run seed = 1 /\n\n&run threads = 2 /"), "case.nml:3:1: &run: this group is already at line 1");
-    CHECK_CONTAINS(complaint("&surface n = 1.5 /"), "case.nml:1:14: &surface: n: expected an integer, found '1.5'");
-    CHECK_CONTAINS(complaint("&surface n = 3000000000 /"), "is not an integer of 32 bits");
-    CHECK_CONTAINS(complaint("&surface hurst = 'x' /"), "expected a real number");
-    CHECK_CONTAINS(complaint("&surface plateau = 1 /"), "expected .true. or .false.");
-    CHECK_CONTAINS(complaint("&surface source = heights /"), "must stand in quotes");
-    CHECK_CONTAINS(complaint("&solver method = 'dgsev' /"), "did you mean 'dgesv'?");
-    CHECK_CONTAINS(complaint("&surface hurst = 1.5 /"), "case.nml:1:18: &surface: hurst = 1.5: must be 0 to 1");
-    CHECK_CONTAINS(complaint("&surface hurst = nan /"), "hurst = NaN: must be 0 to 1");
-    CHECK_CONTAINS(complaint("&solids nu = 0.3, 0.6 /"), "case.nml:1:19: &solids: nu(2) = 0.6: must be > -1 and <= 0.5");
-    CHECK_CONTAINS(complaint("&solids E = 0 /"), "must be > 0 (Infinity allowed)");
-    CHECK_CONTAINS(complaint("&solids E = 2*inf /"), "one at most may be rigid");
-    CHECK_CONTAINS(complaint("&surface n = 65 L_lambda_s = 30 /"), "n = 65: must be even");
-    CHECK_CONTAINS(complaint("&surface n = 1024 /"), "must be larger than 2 L_lambda_s = 1024.0");
-    CHECK_CONTAINS(complaint("&surface L_lambda_l = 600 /"), "must be larger than L_lambda_l = 600.0");
-    CHECK_CONTAINS(complaint("&surface source = 'heights' /"), "needs a file");
-    CHECK_CONTAINS(complaint("&indentation spacing = 'log', stop = 0 /"), "stop = 0.0: must be positive");
-    CHECK_CONTAINS(complaint("&indentation centre = 3, 0.5 /"), "must lie on the surface");
-    CHECK_CONTAINS(complaint("&indentation levels(2) = 1 /"), "element 1 has no value");
-    CHECK_CONTAINS(complaint("&surface sigma = 0.01 0.02 /"), "too many values: one value at most, found '0.02'");
-    CHECK_CONTAINS(complaint("&surface sigma(1) = 0.01 /"), "takes no subscript");
-    CHECK_CONTAINS(complaint("&solids R(3) = 1 /"), "must be within 1 to 2");
-    CHECK_CONTAINS(complaint("&surface sigma = 1\n"), "case.nml:1:1: &surface: the group is not closed");
-    CHECK_CONTAINS(complaint("&run title = 'abc /\n"), "case.nml:1:14: &run: the text that begins here is not closed");
-    CHECK_CONTAINS(complaint(""), "case.nml: no namelist group found; expected at least one of &run, &solids");
-    CHECK_CONTAINS(complaint("nothing to see here\n"), "no namelist group found");
-    CHECK_CONTAINS(complaint("&solver interaction = 'hertz' /"), "'hertz' is none of 'point', 'none'");
-    CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &solver model = 'elements' /"),
-                   "no radius to scale the hardness");
-    CHECK_CONTAINS(complaint("&solids hardness = 250  size_effect = 1e-3 / &compare levels = 2 /"), "no radius to scale the hardness");
-    CHECK_CONTAINS(complaint("&solids hardness = 250  friction = 0.3 /"), "friction is computed for elastic asperities only");
-    CHECK_CONTAINS(complaint("&solids hardness = 250  E = Infinity, 1 /"), "E(1) = Infinity makes it rigid");
-    CHECK_CONTAINS(complaint("&solids friction = 0.3 / &solver model = 'elements' /"), "with model = 'elements' it is not available yet");
-    // All at once, in the order of the text.
-    const std::string all = complaint("&surface simga = 1\n hurst = 2\n n = 'x' /\n&solvr /\n&run seed = 1 seed = 2 /");
-    std::size_t last = 0;
-    for (const char* part : {"case.nml:1:10:", "case.nml:2:10:", "case.nml:3:6:", "case.nml:4:1:", "case.nml:5:22:"}) {
-        const std::size_t at = all.find(part);
-        CHECK(at != std::string::npos && at >= last);
-        if (at == std::string::npos) std::printf("  no %s in:\n%s\n", part, all.c_str());
-        last = at;
-    }
-}
-
-// gfortran takes a remark straight after a comma for an empty value; rsc does the same and says so.
-void test_warnings() {
-    const Reading reading = read_namelist("&indentation levels(1:3) = 1.0, ! first\n 2.0 /\n");
-    CHECK(reading.warnings.size() == 1 && reading.warnings[0].at.line == 1 && reading.warnings[0].at.column == 33);
-    CHECK(read_namelist("&indentation levels = 1.0, 2.0, ! last\n start = 3 /\n").warnings.empty());
-    CHECK(read_namelist("&surface sigma = 1.0, ! rms\n n = 64, ! points\n /\n").warnings.empty());
-}
-
-// Realizations are numbered as far as 32 bits go.
-void test_last_realization() {
-    Case c;
-    set_key(c, "run%first_realization", "2147483647");
-    CHECK(check_case(c).empty());
-    set_key(c, "run%realizations", "2");
-    const auto problems = check_case(c);
-    CHECK(problems.size() == 1 && problems[0].text.find("beyond 2147483647") != std::string::npos);
-    set_key(c, "run%first_realization", "2147483646");
-    CHECK(check_case(c).empty());
-    // No more than 1e9 values of a curve.
-    Case many;
-    set_key(many, "run%realizations", "10000000");
-    set_key(many, "indentation%steps", "100");
-    CHECK(check_case(many).empty());
-    set_key(many, "indentation%steps", "101");
-    CHECK(check_case(many).size() == 1 && check_case(many)[0].text.find("values of each curve") != std::string::npos);
-}
-
-// Forces, pressures and levels in geometric steps are positive; separations may be anything.
-void test_positive_levels() {
-    const auto refused = [](std::initializer_list<std::pair<const char*, const char*>> keys) {
-        Case c;
-        for (const auto& [key, value] : keys) set_key(c, key, value);
-        for (const Problem& problem : check_case(c))
-            if (problem.text.find("must be positive") != std::string::npos) return true;
-        return false;
-    };
-    CHECK(!refused({{"indentation%start", "1.0"}, {"indentation%stop", "-1.0"}}));
-    CHECK(refused({{"indentation%control", "'force'"}, {"indentation%start", "1.0"}, {"indentation%stop", "-1.0"}}));
-    CHECK(refused({{"indentation%control", "'force'"}, {"indentation%start", "0.0"}, {"indentation%stop", "1.0"}}));
-    CHECK(refused({{"indentation%control", "'force'"}, {"indentation%levels", "1.0, 0.0"}}));
-    CHECK(!refused({{"indentation%control", "'force'"}, {"indentation%levels", "1.0, 2.0"}}));
-    CHECK(refused({{"indentation%control", "'pressure'"}, {"indentation%levels", "-1.0"}}));
-    CHECK(refused({{"indentation%spacing", "'log'"}, {"indentation%start", "3.0"}, {"indentation%stop", "0.0"}}));
-    CHECK(!refused({{"indentation%spacing", "'log'"}, {"indentation%levels", "1.0, -1.0"}}));
-}
-
-// What each number may be, written out once more: the last values in, the first values out. A key without a row here is one whose
-// bounds nobody has looked at.
-void test_bounds() {
-    struct Row {
-        const char* key;
-        std::vector<const char*> in, out;
-    };
-    const std::vector<Row> rows = {
-        {"run%seed", {"-9223372036854775808", "9223372036854775807"}, {}},
-        {"run%realizations", {"1", "10000000"}, {"0", "-1", "10000001"}},
-        {"run%first_realization", {"1", "2147483647"}, {"0", "2147483648"}},
-        {"run%threads", {"0", "4096"}, {"-1", "4097"}},
-        {"solids%E", {"1e-50", "Infinity"}, {"0", "-1", "NaN", "-Infinity"}},
-        {"solids%nu", {"-0.999", "0", "0.5"}, {"-1", "0.5000001", "NaN"}},
-        {"solids%R", {"1e-50", "Infinity"}, {"0", "-1", "NaN"}},
-        {"solids%hardness", {"1e-50", "Infinity"}, {"0", "-1", "NaN"}},
-        {"solids%size_effect", {"0", "1e50"}, {"-1e-9", "Infinity", "NaN"}},
-        {"solids%resistivity", {"0", "1e50"}, {"-1e-9", "Infinity", "NaN"}},
-        {"solids%friction", {"0", "1e50"}, {"-1e-9", "Infinity", "NaN"}},
-        {"surface%L", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
-        {"surface%n", {"2", "32768"}, {"1", "32769"}},
-        {"surface%hurst", {"0", "1"}, {"-0.001", "1.001", "NaN"}},
-        {"surface%L_lambda_l", {"1", "32768"}, {"0.999", "32769", "NaN"}},
-        {"surface%L_lambda_s", {"1", "32768"}, {"0.999", "32769", "NaN"}},
-        {"surface%sigma", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
-        {"surface%filter_cutoff", {"0", "1e50"}, {"-1e-9", "1.1e50", "Infinity", "NaN"}},
-        {"indentation%start", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "-Infinity", "NaN"}},
-        {"indentation%stop", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "-Infinity", "NaN"}},
-        {"indentation%steps", {"1", "1000000"}, {"0", "1000001"}},
-        {"indentation%levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
-        {"indentation%centre", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
-        {"indentation%selection_factor", {"1e-50", "1e50"}, {"0", "-1", "9e-51", "1.1e50", "Infinity", "NaN"}},
-        {"solver%tolerance", {"1e-14", "0.1"}, {"9e-15", "0", "-1", "0.1001", "Infinity", "NaN"}},
-        {"solver%max_iterations", {"1", "1000000"}, {"0", "1000001"}},
-        {"solver%delta0", {"1e-50", "1000"}, {"0", "-1", "1000.1", "NaN"}},
-        {"elements%points_per_wave", {"4", "64"}, {"3.999", "64.001", "NaN"}},
-        {"compare%levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
-        {"output%map_cells", {"1", "4096"}, {"0", "4097"}},
-        {"output%radial_bins", {"1", "100000"}, {"0", "100001"}},
-        {"output%pdf_levels", {"-1e50", "0", "1e50"}, {"1.1e50", "Infinity", "NaN"}},
-        {"output%pdf_bins", {"1", "100000"}, {"0", "100001"}},
-        {"output%compression", {"0", "9"}, {"-1", "10"}},
-    };
-    for (const Row& row : rows) {
-        Case c;
-        const bool element = find_key(std::string_view(row.key).substr(0, std::string_view(row.key).find('%')),
-                                      std::string_view(row.key).substr(std::string_view(row.key).find('%') + 1))
-                                 ->size == 2;
-        const std::string name = row.key + std::string(element ? "(2)" : "");
-        for (const char* value : row.in) {
-            bool taken = true;
-            try {
-                set_key(c, name, value);
-            } catch (const Error&) {
-                taken = false;
-            }
-            if (!taken) std::printf("  %s = %s is refused\n", row.key, value);
-            CHECK(taken);
-        }
-        for (const char* value : row.out) {
-            bool refused = false;
-            try {
-                set_key(c, name, value);
-            } catch (const Error&) {
-                refused = true;
-            }
-            if (!refused) std::printf("  %s = %s is taken\n", row.key, value);
-            CHECK(refused);
-        }
-    }
-    for (const Key& key : registry()) {
-        if (key.type != Type::real && key.type != Type::integer && key.type != Type::long_integer) continue;
-        const std::string name = std::string(key.group) + "%" + key.name;
-        const bool there = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return name == row.key; });
-        if (!there) std::printf("  %s has no row in test_bounds\n", name.c_str());
-        CHECK(there);
-    }
-}
-
 // Values left out between commas keep what stands there, however many follow each other.
 void test_nulls() {
     const auto pdf = [](const std::string& text) {
@@ -484,33 +308,15 @@ void test_options() {
     }
 }
 
-void test_describe() {
-    const std::string all = describe("");
-    for (const Key& key : registry()) {
-        CHECK_CONTAINS(all, std::string("\n  ") + key.name);
-        CHECK_CONTAINS(describe(std::string(key.group) + "%" + key.name), key.meaning);
-    }
-    CHECK_CONTAINS(describe("surface%hurst"), "hurst = 0.8\n      real, unit 1, 0 to 1\n");
-    CHECK_THROWS(describe("surfac"), Error);
-    CHECK_THROWS(describe("surface%simga"), Error);
-}
-
 }  // namespace
 
-int main() {
+TESTS {
     test_values();
     test_syntax();
-    test_messages();
-    test_warnings();
-    test_bounds();
-    test_last_realization();
-    test_positive_levels();
     test_nulls();
     test_round_trip();
     test_set_and_get();
     test_limits();
     test_study();
     test_options();
-    test_describe();
-    return check::summary();
 }

@@ -159,136 +159,6 @@ void test_radial() {
     CHECK(RadialMean(two, 1.5, 0.5, 10).radii().empty() && RadialMean(two, 0, 0.5, 10).radii().empty());
 }
 
-// A level of random contacts; the answer need not be one of a solver.
-struct Sample {
-    Asperities asperities;
-    std::vector<Level> levels;
-};
-
-Sample random_sample(unsigned seed, int steps) {
-    std::mt19937 random(seed);
-    const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-    Sample s;
-    for (int i = 0; i < 400; ++i) {
-        s.asperities.x.push_back(uniform() * 1.1);  // one in ten outside the map
-        s.asperities.y.push_back(uniform());
-        s.asperities.z.push_back(0);
-        s.asperities.radius.push_back(1e-3);
-    }
-    for (int k = 0; k < steps; ++k) {
-        Level level;
-        level.separation = 4.0 - k;
-        for (int i = 0; i < 400; ++i) {
-            if (uniform() > 0.1 * (k + 1)) continue;
-            const double a = 0.01 * uniform(), f = 2.5 * pi * a * a * (0.05 + uniform());
-            const auto p = static_cast<std::size_t>(i);
-            level.add_contact(i, s.asperities.x[p], s.asperities.y[p], f, a, 0);
-            level.force += level.f.back();
-            level.area += pi * level.a.back() * level.a.back();
-        }
-        s.levels.push_back(level);
-    }
-    return s;
-}
-
-ObserveOptions sample_options() {
-    ObserveOptions options;
-    options.tip_x = options.tip_y = 0.5;
-    options.map = make_map_grid(0, 0, 1, 1, 10);
-    options.radial_bins = 8;
-    options.pdf_levels = {2.1, -5.0};
-    options.pdf = {40, 2.0, 2e-4};  // some contacts lie beyond, on purpose
-    return options;
-}
-
-// Pixels that are no squares carry p dx dy each, and share the area of their contact.
-void test_pixels_on_a_map() {
-    Level level;
-    level.pixels = {4, 0.05, 0.1, 0.1, 0.2, {0, 1, 4, 15}, {0, 0, 0, 1}, {1, 2, 3, 4}};
-    level.add_contact(0, 0.1, 0.15, 6 * 0.02, 0.13, 0), level.add_contact(15, 0.35, 0.7, 4 * 0.02, 0.08, 0);
-    const MapLevel map = map_level(make_map_grid(0, 0, 0.8, 0.8, 2), level);
-    CHECK((map.cell == std::vector<std::int32_t>{0, 2}));
-    CHECK_RELATIVE(map.force[0], 6 * 0.02, 1e-14);
-    CHECK_RELATIVE(map.force[1], 4 * 0.02, 1e-14);
-    CHECK_RELATIVE(map.area[0], pi * 0.13 * 0.13, 1e-14);
-    CHECK_RELATIVE(map.area[1], pi * 0.08 * 0.08, 1e-14);
-}
-
-void test_maps_conserve() {
-    const ObserveOptions options = sample_options();
-    Sample s = random_sample(7, 4);
-    const RealizationRecord record = observe(options, 1, {}, s.levels);
-    for (std::size_t k = 0; k < 4; ++k) {
-        double area = 0, force = 0, area_outside = 0, force_outside = 0;
-        int outside = 0;
-        for (double a : record.maps[k].area) area += a;
-        for (double f : record.maps[k].force) force += f;
-        for (std::size_t c = 0; c < s.levels[k].asperity.size(); ++c) {
-            if (s.asperities.x[static_cast<std::size_t>(s.levels[k].asperity[c])] <= 1) continue;
-            ++outside;
-            area_outside += pi * s.levels[k].a[c] * s.levels[k].a[c];
-            force_outside += s.levels[k].f[c];
-        }
-        CHECK(outside > 0 && record.levels[k].outside_map == outside);
-        CHECK_RELATIVE(area + area_outside, s.levels[k].area, kRounding);
-        CHECK_RELATIVE(force + force_outside, s.levels[k].force, kRounding);
-    }
-    // One contact of known place and size: A' = pi a^2 / w^2, p = f / w^2.
-    Sample one;
-    Level level;
-    level.add_contact(0, 0.37, 0.81, 3, 0.0251, 0);  // pi a^2/w^2 = 0.1979 > pi/16
-    level.force = 3, level.area = pi * 0.0251 * 0.0251;
-    one.levels = {level};
-    Accumulators sums(options, 1);
-    const RealizationRecord r = observe(options, 5, {}, one.levels);
-    CHECK(r.levels[0].crowded_cells == 1);
-    sums.add(r);
-    const Observations o = sums.finish();
-    CHECK_RELATIVE(o.map_area_fraction[83], pi * 0.0251 * 0.0251 / 0.01, 1e-14);
-    CHECK_RELATIVE(o.map_pressure[83], 300.0, 1e-14);
-    one.levels[0].a[0] = 0.0249;  // 0.1948 < pi/16
-    CHECK(observe(options, 5, {}, one.levels).levels[0].crowded_cells == 0);
-    one.levels[0].f[0] = std::nan("");
-    CHECK_THROWS(observe(options, 5, {}, one.levels), Error);
-}
-
-void test_histograms() {
-    const ObserveOptions options = sample_options();
-    const Sample s = random_sample(3, 4);
-    const RealizationRecord record = observe(options, 1, {}, s.levels);
-    CHECK(record.distributions[0].step == 2);  // separation 2 is nearest to 2.1
-    CHECK(record.distributions[1].step == 3);  // the deepest is nearest to -5
-    for (const Distributions& d : record.distributions) {
-        const Level& level = s.levels[static_cast<std::size_t>(d.step)];
-        const auto contacts = static_cast<std::int64_t>(level.asperity.size());
-        CHECK(d.mean_pressure.total() == contacts && d.mean_pressure.overflow > 0);
-        CHECK(d.spot_area.total() == contacts && d.spot_area.overflow > 0);
-        double area = d.pressure.overflow;
-        for (double a : d.pressure.area) area += a;
-        CHECK_RELATIVE(area, level.area, kRounding);
-        // The mean point pressure is the force over the area, whatever the bins.
-        CHECK_RELATIVE(moments_of(d.pressure.total, d.pressure.power).mean, level.force / level.area, kRounding);
-    }
-    // One contact: bins hold (p_b+1^2 - p_b^2)/p0^2 of its area.
-    Level one;
-    one.asperity = {0}, one.a = {0.1}, one.f = {0.7 * pi * 0.01};
-    const Distributions d = distributions_of({10, 1.0, 1.0}, one, 0);  // pressure bins of 0.15 to 1.5, p0 = 1.05
-    CHECK_RELATIVE(d.pressure.area[0], pi * 0.01 * (0.15 / 1.05) * (0.15 / 1.05), 1e-13);
-    CHECK_RELATIVE(d.pressure.area[6], pi * 0.01 * (1 - 0.9 * 0.9 / (1.05 * 1.05)), 1e-12);
-    CHECK(d.pressure.area[7] == 0 && d.pressure.overflow == 0);
-    CHECK_RELATIVE(d.pressure.power[1], pi * 0.01 * 1.05 * 1.05 / 2, 1e-13);  // <p^2> = p0^2/2
-    // It yields: the same pressure everywhere.
-    one.yields = {1};
-    const Distributions y = distributions_of({10, 1.0, 1.0}, one, 0);
-    CHECK_RELATIVE(y.pressure.area[4], pi * 0.01, 1e-13);
-    CHECK_RELATIVE(y.pressure.total, pi * 0.01, 1e-13);
-    CHECK_RELATIVE(y.pressure.squares, d.pressure.squares, 1e-13);
-    CHECK_RELATIVE(y.pressure.power[1], pi * 0.01 * 0.49, 1e-13);
-    // Where pressures are bounded, bins end there.
-    CHECK(make_pdf_bins(60, 1e5, 0.01, 100, 500).pressure_max == 500);
-    CHECK(make_pdf_bins(60, 1e5, 0.01, 100, 1e9).pressure_max == make_pdf_bins(60, 1e5, 0.01, 100, kInf).pressure_max);
-}
-
 // n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
 Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
     Level level;
@@ -365,79 +235,6 @@ void test_gamma_fit() {
     CHECK(std::isnan(fit_generalised_gamma(few, 1.5, 6).alpha));
 }
 
-// Standard errors against the scatter of fits to many drawn samples: 200 samples give their deviation to 5 %, so a factor 1.25 is
-// 5 sigma.
-void test_gamma_errors() {
-    const double alpha = 2.0 / 3, beta = 1.5, delta = 1.0;
-    std::mt19937 random(11);
-    std::gamma_distribution<double> gamma((alpha + 1) / beta);
-    const int samples = 200, n = 5000;
-    // alpha, beta, delta, gamma
-    const double truth[4] = {alpha, beta, delta, beta / (std::pow(delta, alpha + 1) * std::tgamma((alpha + 1) / beta))};
-    std::array<double, 4> sum{}, squares{}, error{};
-    for (int s = 0; s < samples; ++s) {
-        Binned binned{0.08, std::vector<double>(40), 0};
-        double first = 0;
-        for (int i = 0; i < n; ++i) {
-            const double x = delta * std::pow(gamma(random), 1 / beta);
-            first += x;
-            const auto b = static_cast<std::size_t>(x / binned.width);
-            b < 40 ? binned.weight[b] += 1 : binned.overflow += 1;
-        }
-        const GammaFit fit = fit_generalised_gamma(binned, first / n, n);
-        const double value[4] = {fit.alpha, fit.beta, fit.delta, fit.gamma};
-        const double stated[4] = {fit.alpha_error, fit.beta_error, fit.delta_error, fit.gamma_error};
-        for (std::size_t p = 0; p < 4; ++p) sum[p] += value[p], squares[p] += value[p] * value[p], error[p] += stated[p];
-    }
-    for (std::size_t p = 0; p < 4; ++p) {
-        const double mean = sum[p] / samples, deviation = std::sqrt(squares[p] / samples - mean * mean), stated = error[p] / samples;
-        CHECK(deviation / stated < 1.25 && stated / deviation < 1.25);
-        CHECK_CLOSE(mean, truth[p], 5 * stated / std::sqrt(samples) + 0.01);  // the bias of maximum likelihood at this n is below 0.01
-    }
-}
-
-void test_accumulation() {
-    const ObserveOptions options = sample_options();
-    Accumulators sums(options, 4);
-    std::vector<RealizationRecord> records;
-    for (unsigned k = 1; k <= 3; ++k) {
-        const Sample s = random_sample(k, 4);
-        SurfaceStatistics surface;
-        surface.m2 = 0.1 * k;
-        records.push_back(observe(options, k, surface, s.levels));
-        sums.add(records.back());
-    }
-    const Observations o = sums.finish();
-    CHECK(o.realizations == 3 && o.surface[2].m2 == 0.1 * 3 && o.rows.size() == 12);
-    // Means of the file are the means of the singles.
-    const double f0 = records[0].levels[2].force, f1 = records[1].levels[2].force, f2 = records[2].levels[2].force;
-    const double mean = (f0 + f1 + f2) / 3;
-    CHECK_RELATIVE(o.force.mean[2], mean, 1e-15);
-    CHECK_RELATIVE(o.force.deviation[2], std::sqrt(((f0 - mean) * (f0 - mean) + (f1 - mean) * (f1 - mean) + (f2 - mean) * (f2 - mean)) / 2),
-                   1e-14);
-    std::vector<double> radial(o.radii.size());
-    std::int64_t contacts = 0;
-    for (const RealizationRecord& r : records) {
-        Accumulators single(options, 4);
-        single.add(r);
-        const Observations s = single.finish();
-        CHECK(std::isnan(s.force.deviation[0]));  // no scatter from one
-        for (std::size_t b = 0; b < radial.size(); ++b) radial[b] += s.radial_pressure[3 * radial.size() + b] / 3;
-        contacts += r.levels[2].contacts;
-    }
-    for (std::size_t b = 0; b < radial.size(); ++b) CHECK_CLOSE(o.radial_pressure[3 * radial.size() + b], radial[b], kRounding);
-    CHECK(o.distributions[0].sum.mean_pressure.total() == contacts);
-    CHECK_RELATIVE(o.distributions[0].sum.separation, 6.0, 1e-15);
-    double integral = 0;
-    for (double p : o.distributions[0].mean_pressure_pdf) integral += p * options.pdf.mean_pressure_width();
-    integral += static_cast<double>(o.distributions[0].sum.mean_pressure.overflow) / static_cast<double>(contacts);
-    CHECK_CLOSE(integral, 1.0, kRounding);
-    // Records out of order would change the bits: refused.
-    CHECK_THROWS(sums.add(records[0]), Error);
-    Accumulators other(options, 5);
-    CHECK_THROWS(other.add(records[0]), Error);
-}
-
 // Where a map ends, its grid does; ranges of bins by their formulas; what is refused just beyond its bound.
 void test_bounds() {
     const MapGrid grid = make_map_grid(-3, 2, 6, 1.6, 12);  // three rows of 0.5, and 0.1 that belongs to none
@@ -471,26 +268,6 @@ void test_bounds() {
     CHECK_RELATIVE(m.deviation, 1.5, kRounding);
     CHECK_RELATIVE(m.skewness, (std::pow(-1.5, 3) + 2 * std::pow(-0.5, 3) + std::pow(2.5, 3)) / 4 / std::pow(1.5, 3), 1e-12);
     CHECK_RELATIVE(m.kurtosis, (std::pow(1.5, 4) + 2 * std::pow(0.5, 4) + std::pow(2.5, 4)) / 4 / std::pow(1.5, 4), 1e-12);
-}
-
-// Pixels that are no squares, in contacts of unlike size, some beyond the bins: areas, their squares and powers.
-void test_pixel_pressures() {
-    Level level;
-    level.pixels = {9, 0.05, 0.1, 0.1, 0.3, {0, 1, 4, 15, 16}, {0, 0, 0, 1, 2}, {0.1, 0.32, 0.7, 0.35, 5}};
-    for (int k = 0; k < 3; ++k) level.add_contact(k, 0.1 * k, 0.2, 1 + k, 0.1 + 0.01 * k, 0);
-    const Distributions d = distributions_of({5, 1.0, 0.05}, level, 3);  // point pressures in bins of 0.3
-    const double wanted[] = {0.03, 0.06, 0.03, 0, 0};
-    for (std::size_t b = 0; b < 5; ++b) CHECK_CLOSE(d.pressure.area[b], wanted[b], kRounding);
-    CHECK_RELATIVE(d.pressure.overflow, 0.03, kRounding);
-    CHECK_RELATIVE(d.pressure.total, 0.15, kRounding);
-    CHECK_RELATIVE(d.pressure.squares, 0.09 * 0.09 + 2 * 0.03 * 0.03, kRounding);
-    double power = 0;
-    for (int n = 1; n <= 4; ++n) {
-        power = 0;
-        for (const double p : level.pixels.pressure) power += 0.03 * std::pow(p, n);
-        CHECK_RELATIVE(d.pressure.power[static_cast<std::size_t>(n - 1)], power, kRounding);
-    }
-    CHECK(d.step == 3 && d.levels == 1 && d.mean_pressure.total() == 3 && d.spot_area.total() == 3);
 }
 
 // Standard errors of the generalised gamma against Fisher's information in (alpha, beta, delta) themselves, and of gamma by its own
@@ -554,81 +331,6 @@ void test_gamma_information() {
     CHECK(std::isnan(fit_generalised_gamma(Binned{1, {3, 4, 0, 2, 1}, 0}, 1.5, 100).alpha));
 }
 
-// A campaign of three, the tip beside the middle of a map that is no square: every number of it from those of the realizations, and the
-// same when its parts are put together.
-void test_campaign() {
-    ObserveOptions options = sample_options();
-    options.tip_x = 0.4, options.tip_y = 0.3;
-    options.map = make_map_grid(-0.1, 0.1, 1, 0.7, 10);
-    std::vector<RealizationRecord> records;
-    for (unsigned k = 1; k <= 3; ++k) {
-        Sample s = random_sample(k, 4);
-        for (Level& level : s.levels) level.separation += 0.01 * k * k;  // as under force control
-        if (k == 3) s.levels[3].separation = -4, s.levels[2].separation = -5.01;
-        records.push_back(observe(options, k, {}, s.levels));
-    }
-    Accumulators all(options, 4), first(options, 4), rest(options, 4);
-    for (const RealizationRecord& r : records) all.add(r), (r.realization == 1 ? first : rest).add(r);
-    first.append(rest);
-    for (const Accumulators* sums : {&all, &first}) {
-        const Observations o = sums->finish();
-        CHECK(o.realizations == 3 && o.steps == 4 && (o.realization == std::vector<std::int64_t>{1, 2, 3}));
-        const RadialMean ring(options.map, 0.4, 0.3, 8);
-        CHECK(o.radii == ring.radii() && o.radii.size() == 8);
-        for (std::size_t step = 0; step < 4; ++step) {
-            const auto check = [&](const LevelStatistics& s, double LevelValues::*value) {
-                double mean = 0, square = 0;
-                for (const RealizationRecord& r : records) mean += r.levels[step].*value / 3;
-                for (const RealizationRecord& r : records) square += std::pow(r.levels[step].*value - mean, 2) / 2;
-                CHECK_RELATIVE(s.mean[step], mean, kRounding);
-                CHECK_CLOSE(s.deviation[step], std::sqrt(square), 1e-12 * std::abs(mean));
-            };
-            check(o.separation, &LevelValues::separation), check(o.force, &LevelValues::force), check(o.area, &LevelValues::area);
-            std::vector<double> area(70, 0.0), force(70, 0.0);
-            for (const RealizationRecord& r : records)
-                for (std::size_t k = 0; k < r.maps[step].cell.size(); ++k) {
-                    const auto cell = static_cast<std::size_t>(r.maps[step].cell[k]);
-                    area[cell] += r.maps[step].area[k] / 0.03, force[cell] += r.maps[step].force[k] / 0.03;
-                }
-            for (std::size_t c = 0; c < 70; ++c) {
-                CHECK_CLOSE(o.map_area_fraction[step * 70 + c], area[c], 1e-14);
-                CHECK_CLOSE(o.map_pressure[step * 70 + c], force[c], 1e-13);
-            }
-            const std::vector<double> a = ring(area.data()), p = ring(force.data());
-            for (std::size_t b = 0; b < 8; ++b) {
-                CHECK_CLOSE(o.radial_area_fraction[step * 8 + b], a[b], 1e-13);
-                CHECK_CLOSE(o.radial_pressure[step * 8 + b], p[b], 1e-12);
-            }
-        }
-        // The level nearest to 2.1 is not the same in all; the sums say so.
-        CHECK(o.distribution_sums.size() == 2 && o.distribution_sums[0].numbers.size() == all.distributions[0].numbers.size());
-        for (std::size_t d = 0; d < 2; ++d) {
-            const auto& one = records[0].distributions[d];
-            const auto &two = records[1].distributions[d], &three = records[2].distributions[d];
-            const bool same = one.step == two.step && two.step == three.step;
-            const FittedDistributions& f = o.distributions[d];
-            CHECK(f.sum.levels == 3 && f.sum.step == (same ? one.step : -1));
-            CHECK_RELATIVE(f.sum.separation, one.separation + two.separation + three.separation, kRounding);
-            const auto bins = [&](auto of, const std::vector<double>& pdf, double width) {
-                double total = of(f.sum, 40);
-                for (std::size_t b = 0; b < 40; ++b) total += of(f.sum, b);
-                for (std::size_t b = 0; b <= 40; ++b) CHECK_RELATIVE(of(f.sum, b), of(one, b) + of(two, b) + of(three, b), 1e-12);
-                for (std::size_t b = 0; b < 40; ++b) CHECK_RELATIVE(pdf[b], of(f.sum, b) / (total * width), 1e-12);
-            };
-            bins([](const Distributions& x,
-                    std::size_t b) { return static_cast<double>(b < 40 ? x.mean_pressure.count[b] : x.mean_pressure.overflow); },
-                 f.mean_pressure_pdf, 2.0 / 40);
-            bins([](const Distributions& x,
-                    std::size_t b) { return static_cast<double>(b < 40 ? x.spot_area.count[b] : x.spot_area.overflow); },
-                 f.spot_area_pdf, 2e-4 / 40);
-            bins([](const Distributions& x, std::size_t b) { return b < 40 ? x.pressure.area[b] : x.pressure.overflow; }, f.pressure_pdf,
-                 3.0 / 40);
-        }
-        CHECK(o.distributions[0].sum.step == -1 || o.distributions[1].sum.step == -1);
-    }
-    CHECK_THROWS(rest.append(first), Error);
-}
-
 __extension__ using Wide = __int128;
 
 // Against integers: in any order, in any groups.
@@ -664,23 +366,15 @@ void test_exact_sums() {
 
 }  // namespace
 
-int main() {
+TESTS {
     test_two_bodies();
     test_hertz();
     test_regimes();
     test_grid();
     test_radial();
-    test_pixels_on_a_map();
-    test_maps_conserve();
-    test_histograms();
     test_scale_fits();
     test_gamma_fit();
-    test_gamma_errors();
-    test_accumulation();
     test_bounds();
-    test_pixel_pressures();
     test_gamma_information();
-    test_campaign();
     test_exact_sums();
-    return check::summary();
 }

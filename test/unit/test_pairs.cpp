@@ -332,7 +332,7 @@ void bad_coordinates() {
 
 }  // namespace
 
-int main() {
+TESTS {
     std::printf("chosen: %s\n", pair_instruction_set());
     sizes_and_shapes();
     close_pair();
@@ -342,5 +342,4 @@ int main() {
     several_threads();
     reuse();
     bad_coordinates();
-    return check::summary();
 }

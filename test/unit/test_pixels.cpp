@@ -143,8 +143,7 @@ void products() {
 
 }  // namespace
 
-int main() {
+TESTS {
     kernel();
     products();
-    return check::summary();
 }

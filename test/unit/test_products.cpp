@@ -115,7 +115,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
 
 }  // namespace
 
-int main() {
+TESTS {
     against_plain_sums(make_kernel(Interaction::point, kE), 40, "free");
     against_plain_sums(make_kernel(Interaction::point, kE), 900, "free");
     against_plain_sums(make_kernel(Interaction::none, kE), 900, "no interaction");
@@ -131,5 +131,4 @@ int main() {
         }
     against_plain_sums(make_kernel(Interaction::point, kE, {kWide, kHigh}), 30, "repeating");
     against_plain_sums(make_kernel(Interaction::point, kE, {kWide, kHigh}), 400, "repeating");
-    return check::summary();
 }

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "../physics/random_asperities.hpp"
 #include "check.hpp"
 #include "contact/ranking.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
@@ -44,7 +44,7 @@ void walk(const Asperities& asperities, double R, double step, int n, double rea
 
 }  // namespace
 
-int main() {
+TESTS {
     const Asperities rough = random_asperities(2000, 0.005, 0.01, 1e-3, 0.3, 1);
     constexpr double flat = std::numeric_limits<double>::infinity();
     for (const double R : {0.05, 0.3, 2.5, 1e3, flat}) {  // the first two leave most of the asperities outside of the sphere
@@ -62,5 +62,4 @@ int main() {
     Asperities peak = rough;
     peak.z[17] = 1;
     for (const double R : {0.3, 2.5}) walk(peak, R, 0.02, 300, 0.05, 5);
-    return check::summary();
 }

@@ -12,8 +12,8 @@
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
 #include "file/output_path.hpp"
-#include "sample_result.hpp"
-#include "temporary_folder.hpp"
+#include "unit/sample_result.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 namespace fs = std::filesystem;
@@ -107,8 +107,7 @@ void test_not_finite(const Folder& folder) {
 
 }  // namespace
 
-int main() {
+TESTS {
     test_failures(Folder());
     test_not_finite(Folder());
-    return check::summary();
 }

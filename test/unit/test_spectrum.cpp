@@ -101,35 +101,6 @@ void discrete_tend_to_continuous() {
     CHECK(std::abs(df.m2 / tf.m2 - 1) < std::abs(dc.m2 / tc.m2 - 1));
 }
 
-void bad_spectra() {
-    const auto message = [](Spectrum s) -> std::string {
-        try {
-            validate(s);
-        } catch (const Error& e) {
-            CHECK(e.kind() == Failure::bad_input);
-            return e.what();
-        }
-        return "accepted";
-    };
-    const auto names = [&](const Spectrum& s, const char* word) { CHECK(message(s).find(word) != std::string::npos); };
-    const double nan = std::nan("");
-    CHECK(message(Spectrum{}) == "accepted");
-    for (const double bad : {0.0, -1.0, nan, HUGE_VAL}) {
-        Spectrum s;
-        s.L = bad, names(s, "L must");
-        s = {}, s.sigma = bad, names(s, "sigma");
-        s = {}, s.L_lambda_l = bad, names(s, "L_lambda_l");
-        s = {}, s.L_lambda_s = bad, names(s, "L_lambda_s");
-    }
-    for (const double bad : {-0.1, 1.1, nan}) {
-        Spectrum s;
-        s.hurst = bad, names(s, "hurst");
-    }
-    names(spectrum(0.8, 24, 24, false), "greater");
-    CHECK(message(spectrum(0.8, 24, 24, true)) == "accepted");
-    names(spectrum(0.8, 1.5, 1.9, false), "no mode");  // between sqrt(2) and 2 there is none
-}
-
 // A table with unlike steps and slopes, rising and falling, and a gap: its integrals by Simpson's rule, its values by hand, and the
 // moments of the surfaces made from it by sums over all modes of the plane.
 void tables() {
@@ -321,15 +292,13 @@ void noise_is_gaussian() {
 
 }  // namespace
 
-int main() {
+TESTS {
     closed_forms();
     band_edges();
     discrete_tend_to_continuous();
-    bad_spectra();
     tables();
     bounds();
     elementary_functions();
     noise_is_philox();
     noise_is_gaussian();
-    return check::summary();
 }

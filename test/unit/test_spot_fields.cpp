@@ -4,7 +4,6 @@
 #include <numbers>
 #include <vector>
 
-#include "../physics/random_asperities.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
@@ -12,6 +11,7 @@
 #include "contact/interaction/lattice.hpp"
 #include "contact/interaction/love.hpp"
 #include "contact/lateral.hpp"
+#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
@@ -140,11 +140,10 @@ void test_resistance() {
 
 }  // namespace
 
-int main() {
+TESTS {
     test_resistance();
     test_fields();
     test_moment();
     test_one_spot();
     test_lateral();
-    return check::summary();
 }

@@ -71,11 +71,10 @@ void against_counting() {
 
 }  // namespace
 
-int main() {
+TESTS {
     two_circles_and_their_images();
     slivers();
     against_counting();
     CHECK(union_area({}) == 0);
     CHECK(union_area({circle(0, 0, 0), circle(0, 0, 1)}) == pi);
-    return check::summary();
 }

@@ -170,32 +170,6 @@ void closed_form() {
     CHECK_THROWS(find_asperities(w.map(16, 16), Curvature::geometric, nullptr, 1, Detail::subgrid, 3.9), Error);
 }
 
-// Moving a surface by fractions of a grid step moves its summits and changes nothing else.
-void shift() {
-    const Waves w = waves_of(small_spectrum(2, 8), 1, 1);
-    const int n = 256;
-    const Asperities a = find_asperities(w.map(n, n), Curvature::geometric, nullptr, 1, Detail::subgrid, 32);
-    for (const auto [dx, dy] : {std::array{0.31, 0.77}, {0.5, 0.5}, {17.05, 40.9}}) {
-        const double h = w.L / n;
-        const Asperities b = find_asperities(w.moved(dx * h, dy * h).map(n, n), Curvature::geometric, nullptr, 1, Detail::subgrid, 32);
-        CHECK(a.size() > 8 && b.size() == a.size());
-        double worst = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            double nearest = 1e300;
-            std::size_t found = 0;
-            for (std::size_t j = 0; j < b.size(); ++j) {
-                const double d = std::hypot(std::remainder(b.x[j] - a.x[i] - dx * h, w.L), std::remainder(b.y[j] - a.y[i] - dy * h, w.L));
-                if (d < nearest) nearest = d, found = j;
-            }
-            if (b.size() == 0) break;
-            worst = check::worse(
-                worst, {nearest / h, std::abs(b.z[found] - a.z[i]) / rms(a.z), std::abs(b.kappa1[found] - a.kappa1[i]) / rms(a.kappa1),
-                        std::abs(b.biharmonic[found] - a.biharmonic[i]) / rms(a.biharmonic)});
-        }
-        CHECK_CLOSE(worst, 0, 2e-7);
-    }
-}
-
 // Bits: whatever the threads, streamed or from a stored map.
 void threads() {
     const Spectrum s = small_spectrum(4, 32);
@@ -341,14 +315,12 @@ void once_each() {
 
 }  // namespace
 
-int main() {
+TESTS {
     against_the_fourier_sum();
     closed_form();
-    shift();
     threads();
     measured();
     polynomial();
     differences();
     once_each();
-    return check::summary();
 }

@@ -209,37 +209,6 @@ void threads_give_the_same_bits() {
     CHECK(largest_difference(one, synthesize(s, 250, Normalise::sample, 78, 8)) > 0.01);
 }
 
-void detrending() {
-    HeightMap map;
-    map.allocate(13, 8, 13);
-    map.dx = 0.1, map.dy = 0.3;
-    const auto bump = [](int i, int j) { return std::sin(1.3 * i + 0.2) * std::cos(0.9 * j); };
-    const auto fill = [&](double c, double sx, double sy) {
-        for (int j = 0; j < 8; ++j)
-            for (int i = 0; i < 13; ++i) map.row(j)[i] = bump(i, j) + c + sx * i + sy * j;
-    };
-    // What is left does not depend on the plane that was added, and is orthogonal to 1, x and y.
-    fill(0, 0, 0);
-    const double bare = detrend(map, Detrend::plane).rms;
-    HeightMap first = std::move(map);
-    map.allocate(13, 8, 13);
-    fill(1000, -3, 7);
-    CHECK_RELATIVE(detrend(map, Detrend::plane).rms, bare, 1e-11);
-    CHECK_CLOSE(largest_difference(first, map), 0.0, 1e-11);  // a thousand was added and taken away
-    double s1 = 0, sx = 0, sy = 0;
-    for (int j = 0; j < 8; ++j)
-        for (int i = 0; i < 13; ++i) s1 += first(i, j), sx += i * first(i, j), sy += j * first(i, j);
-    CHECK_CLOSE(s1, 0, 1e-12);
-    CHECK_CLOSE(sx, 0, 1e-11);
-    CHECK_CLOSE(sy, 0, 1e-11);
-    fill(5, 0, 0);
-    const double deviation = detrend(map, Detrend::mean).rms;
-    CHECK_RELATIVE(rms(map), deviation, 1e-14);
-    fill(5, 0, 0);
-    CHECK_RELATIVE(detrend(map, Detrend::none).rms, deviation, 1e-13);  // the rms about the mean, which stays
-    CHECK(map(0, 0) == bump(0, 0) + 5);
-}
-
 void refusals() {
     const Spectrum s;
     CHECK_THROWS(synthesize(s, 1022, Normalise::sample, 1, 1), Error);  // L_lambda_s = 512 needs 1024
@@ -254,7 +223,7 @@ void refusals() {
 
 }  // namespace
 
-int main() {
+TESTS {
     against_cosines();
     same_surface_on_finer_grid();
     smaller_lambda_s_adds_modes_only();
@@ -262,7 +231,5 @@ int main() {
     sampled_moments();
     grid_moments_converge();
     threads_give_the_same_bits();
-    detrending();
     refusals();
-    return check::summary();
 }

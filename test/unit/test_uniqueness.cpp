@@ -178,10 +178,9 @@ void lanczos_finds_the_lowest() {
 
 }  // namespace
 
-int main() {
+TESTS {
     proofs_are_true();
     pair_is_nearly_sharp();
     told_only_where_it_is_so();
     lanczos_finds_the_lowest();
-    return check::summary();
 }

@@ -70,9 +70,8 @@ void in_a_case() {
 
 }  // namespace
 
-int main() {
+TESTS {
     factors();
     refusals();
     in_a_case();
-    return check::summary();
 }

@@ -523,74 +523,6 @@ void bounds() {
     CHECK_THROWS(map.allocate(3, 2, 2), Error);
 }
 
-// What is told of a map whose numbers all differ, word by word.
-void told_lines() {
-    Measured m;
-    m.nx = 31, m.ny = 47, m.dx = 0.5, m.dy = 0.25, m.missing = 12, m.missing_share = 0.0123, m.filter_cutoff = 0.75;
-    m.form = {Detrend::plane, 9, 0.11, -0.22, 1, 2, 3, 0, 4};
-    m.as_read = {1.5, 0.31, 7.5}, m.without_form = {1.25, 0.29, 7.25}, m.filtered = {1.125, 0.27, 6.5};
-    m.parameters = {1.0625, 0.125, 3.25, 0.26};
-    m.isotropy = 0.875;
-    const double two_pi = 2 * kPi;
-    m.fit = SelfAffineFit{{1, 2}, {two_pi / 16, 3}, {two_pi / 3, 4}, {0.812, 0.034}, true, true};
-    using Lines = std::vector<std::string>;
-    const std::string heights = "heights: Sq 1.0625 um, Ssk 0.125, Sku 3.250, Sdq 0.26; isotropy ratio of slopes 0.88",
-                      change = "rms height 1.5 -> 1.25 um, rms slope 0.31 -> 0.29, rms curvature 7.5 -> 7.25 1/um",
-                      spectrum =
-                          "spectrum: hurst 0.812 +- 0.034, lambda_l 16 um (plateau above), lambda_s 3 um, 6.0 points in the shortest wave",
-                      size = "map: 31 x 47 points of 0.5 x 0.25 um, 15.5 x 11.75 um";
-    const auto is = [&](const Lines& wanted) {
-        const Lines lines = told(m, "um");
-        CHECK(lines == wanted);
-        if (lines != wanted)
-            for (const std::string& line : lines) std::printf("  told: %s\n", line.c_str());
-    };
-    is({size, "missing points: 12 (1.23 %) filled; summits nearer to them than the shortest wave are left out",
-        "form 'plane': slopes 0.11, -0.22; " + change,
-        "filter (Gaussian, 0.75 um): rms height 1.25 -> 1.125 um, rms slope 0.29 -> 0.27, rms curvature 7.25 -> 6.5 1/um", heights,
-        spectrum});
-    m.missing = 0, m.filter_cutoff = 0, m.fit->plateau = m.fit->ks_seen = false;
-    const std::string other =
-        "spectrum: hurst 0.812 +- 0.034, lambda_l 16 um, lambda_s 3 um (the grid's: no end seen), 6.0 points in the shortest wave";
-    for (const auto& [how, words] : {std::pair{Detrend::none, "form 'none': "},
-                                     {Detrend::mean, "form 'mean': "},
-                                     {Detrend::quadratic, "form 'quadratic': slopes 0.11, -0.22; "}}) {
-        m.form.how = how;
-        is({size, words + change, heights, other});
-    }
-    m.form.how = Detrend::sphere;
-    for (const double radius : {-321.0, 321.0}) {
-        m.form.radius = radius;
-        is({size, std::string("form 'sphere': radius 321 um (") + (radius > 0 ? "dome); " : "bowl); ") + change, heights, other});
-    }
-    // Warnings: four points in the shortest wave are enough; the map's numbers, each just within and just beyond its bound.
-    const auto warned = [&] {
-        const Lines lines = told(m, "um");
-        return std::array{
-            std::any_of(lines.begin(), lines.end(), [](const std::string& l) { return l.starts_with("warning: fewer than 4 points"); }),
-            std::any_of(lines.begin(), lines.end(),
-                        [](const std::string& l) { return l.starts_with("warning: the map is not isotropic"); })};
-    };
-    for (const double points : {3.99, 4.01}) {
-        m.fit->ks.value = two_pi / (points * 0.5);
-        CHECK((warned() == std::array{points < 4, false}));
-    }
-    const auto second = [&](double& of, double within, double beyond) {
-        const double before = of;
-        of = within;
-        CHECK(!warned()[1]);
-        of = beyond;
-        CHECK(warned()[1]);
-        of = before;
-    };
-    second(m.isotropy, 0.801, 0.799);
-    second(m.parameters.ssk, 0.299, 0.301), second(m.parameters.ssk, -0.299, -0.301);
-    second(m.parameters.sku, 3.599, 3.601), second(m.parameters.sku, 2.401, 2.399);
-    m.fit.reset();
-    CHECK(told(m, "um").size() >= 4 && told(m, "um")[3] == "spectrum: none, the map is too small or flat");
-    CHECK(warned()[0]);  // without a fit the shortest wave is two steps
-}
-
 // Summits of the map as they are after a change of it.
 void summits() {
     for (const bool periodic : {false, true})
@@ -645,49 +577,6 @@ void summits() {
             }
 }
 
-// Four points in the shortest wave: a summit is reached from several points of the grid, also across the seams of a period whose sides
-// differ, and is there once; rolling the map round its periods changes nothing.
-void rolled() {
-    constexpr int nx = 36, ny = 16;
-    long repeated = 0, seams = 0, summits = 0;
-    for (unsigned seed = 1; seed <= 40; ++seed) {
-        std::mt19937 random(seed);
-        const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
-        HeightMap map = blank(nx, ny, 0.3, 0.2);
-        map.periodic = true;
-        std::vector<std::array<double, 4>> waves;
-        for (int p = 0; p <= 9; ++p)
-            for (int q = p > 0 ? -4 : 1; q <= 4; ++q)
-                if (std::hypot(p / 9.0, q / 4.0) <= 1)
-                    waves.push_back({static_cast<double>(p), static_cast<double>(q), uniform(), 2 * kPi * uniform()});
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) {
-                map.row(j)[i] = 0;
-                for (const auto& [p, q, height, phase] : waves)
-                    map.row(j)[i] += height * std::cos(2 * kPi * (p * i / nx + q * j / ny) + phase);
-            }
-        const HeightMap shifted = like(map, nx, ny, [&](int i, int j) { return map((i + 17) % nx, (j + 7) % ny); });
-        SummitCount one, two;
-        const Asperities a = find_asperities(map, Curvature::geometric, &one, 1, Detail::subgrid, 4),
-                         b = find_asperities(shifted, Curvature::geometric, &two, 1, Detail::subgrid, 4);
-        CHECK(a.size() == b.size() && one.summits == two.summits && one.saddles == two.saddles && one.repeated == two.repeated);
-        for (std::size_t k = 0; k < a.size(); ++k) {
-            double nearest = HUGE_VAL, other = HUGE_VAL;
-            for (std::size_t l = 0; l < b.size(); ++l)
-                nearest = std::min(nearest, std::hypot(std::remainder(b.x[l] - a.x[k] + 17 * map.dx, map.Lx()),
-                                                       std::remainder(b.y[l] - a.y[k] + 7 * map.dy, map.Ly())));
-            for (std::size_t l = 0; l < k; ++l)
-                other = std::min(other, std::hypot(std::remainder(a.x[l] - a.x[k], map.Lx()), std::remainder(a.y[l] - a.y[k], map.Ly())));
-            CHECK_CLOSE(nearest, 0, 1e-6);
-            CHECK(other > 1e-3);
-            seams += a.x[k] - map.x0 < 2 * map.dx || map.x0 + map.Lx() - a.x[k] < 2 * map.dx;
-        }
-        repeated += one.repeated, summits += one.summits;
-    }
-    std::printf("rolled: %ld summits, %ld maxima repeated, %ld at seams\n", summits, repeated, seams);
-    CHECK(summits > 500 && seams > 20);
-}
-
 // Maps that end: what is found beside their borders is the same however the map is turned. Coarse, so that summits are far from where
 // they are looked for.
 void borders() {
@@ -732,7 +621,7 @@ void borders() {
 
 }  // namespace
 
-int main() {
+TESTS {
     moments();
     heights(21, 14);
     heights(14, 21);
@@ -742,9 +631,6 @@ int main() {
     filled_points(31, 22);
     filled_points(22, 31);
     bounds();
-    told_lines();
     summits();
-    rolled();
     borders();
-    return check::summary();
 }
