@@ -60,27 +60,12 @@ class Values(unittest.TestCase):
         self.assertTrue(np.array_equal(height, z[j, i]))  # not z[i, j]
         self.assertTrue(np.array_equal(np.stack(asperities.get()), np.stack(rsc.Asperities.make(case, 2).get())))
         again = rsc.Surface.take(z, grid.dx, periodic=True)
-        self.assertTrue(np.array_equal(again.heights(), z))
         out = np.empty_like(z)
         self.assertIs(again.heights(out), out)
         self.assertTrue(np.array_equal(out, z))
-        rectangle = rsc.Surface.take(z[:50].copy(), grid.dx, 2 * grid.dx, 0.1, 0.2)
-        self.assertEqual(rectangle.grid(), rsc.Grid(128, 50, grid.dx, 2 * grid.dx, 0.1, 0.2, False))
         tilted = rsc.Surface.take(np.add.outer(np.arange(4.0), 10 * np.arange(5.0)), 1.0)
         self.assertAlmostEqual(tilted.detrend(), 0, delta=1e-12)  # a plane, unless told otherwise
         self.assertIs(tilted.grid().periodic, False)
-        contact = rsc.Contact.from_case(asperities, case)
-        force = contact.indent(0.005)
-        every, some = contact.per_asperity(), contact.spots()
-        self.assertAlmostEqual(every.force.sum() / force, 1, delta=1e-12)
-        self.assertTrue(np.array_equal(np.flatnonzero(every.force), some.asperity))
-        self.assertTrue(np.array_equal(every.penetration[some.asperity], some.penetration))
-        self.assertEqual(len(some.force), contact.contacts)
-        k = asperities.curvatures()
-        self.assertTrue(np.all(k.kappa1 >= k.kappa2) and np.allclose(1 / np.sqrt(k.kappa1 * k.kappa2), radius, rtol=1e-9))
-        taken = rsc.Asperities.take(x, y, height, radius, *k)
-        self.assertTrue(np.array_equal(np.stack(taken.curvatures()), np.stack(k)))
-        self.assertEqual(rsc.Contact(taken, 1.0, math.inf, case=case).indent(0.01), rsc.Contact(asperities, 1.0, math.inf, case=case).indent(0.01))
         xyzr = np.column_stack(asperities.get())  # columns are 1-D slices with a stride
         self.assertTrue(np.array_equal(np.stack(rsc.Asperities.take(*xyzr.T).get()), xyzr.T))
 
@@ -124,19 +109,6 @@ class Values(unittest.TestCase):
             contact.curve(z, progress=enough)
         with self.assertRaisesRegex(ValueError, "separations"):
             contact.curve()
-
-    def test_not_converged(self):
-        case = rsc.Case(SMALL)
-        case["solver%tolerance"] = 1e-14
-        case["solver%max_iterations"] = 1
-        contact = rsc.Contact.from_case(rsc.Asperities.make(case), case)
-        with self.assertRaises(rsc.NotConverged) as caught:
-            contact.indent(0.0)
-        self.assertEqual(caught.exception.status, rsc.NOT_CONVERGED)
-        self.assertGreater(contact.force, 0)
-        self.assertEqual(contact.level().status, rsc.LEVEL_NOT_CONVERGED)
-        self.assertEqual(contact.curve([0.0])["status"].tolist(), [4])
-
 
     def test_no_memory(self):
         """A failure of the whole of press_all is raised, one of some contacts is told in their statuses, NaN for what was not found."""
@@ -262,25 +234,6 @@ class Threads(unittest.TestCase):
             rsc._library = library
         self.assertEqual(wrong, [])
         self.assertEqual(alone, [True] * 10)
-
-    def test_two_contacts(self):
-        """Two threads press two contacts; the numbers are those of one thread, bit for bit."""
-        case = rsc.Case(SMALL)
-        asperities = rsc.Asperities.make(case)
-        z = np.linspace(0.02, 0.0, 40)
-        alone = rsc.Contact.from_case(asperities, case).curve(z)["force"]
-        found = {}
-
-        def work(name, contact):
-            found[name] = contact.curve(z)["force"]
-
-        first = rsc.Contact.from_case(asperities, case)
-        threads = [threading.Thread(target=work, args=(k, c)) for k, c in enumerate((first, first.copy()))]
-        for t in threads:
-            t.start()
-        for t in threads:
-            t.join()
-        self.assertTrue(np.array_equal(found[0], alone) and np.array_equal(found[1], alone))
 
     def test_one_contact(self):
         """One object in several threads, closed in the midst: ValueError at worst, never a crash."""
@@ -412,78 +365,6 @@ class Documentation(unittest.TestCase):
                     self.assertRegex(text, "Raises", where)
         for member in ("indent", "press", "area", "force", "separation", "stiffness", "energy", "deflection", "first_touch"):
             self.assertRegex(inspect.getdoc(getattr(rsc.Contact, member)), r"\[(force|length)", member)
-
-
-class TestFriction(unittest.TestCase):
-    """Mindlin's sphere through Python, and what is refused."""
-
-    def test_mindlin(self):
-        asperities = rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3])
-        contact = rsc.Contact(asperities, 2e5, 2.5, 0.5, 0.5)
-        m = rsc.stiffness_ratio([2e5, 2e5], [0.2, 0.2])
-        self.assertAlmostEqual(m, 2 * 0.8 / 1.8, places=14)
-        friction = rsc.Friction(contact, 0.3, m)
-        with self.assertRaises(rsc.Error) as told:
-            friction.full_slip()
-        self.assertEqual(told.exception.status, rsc.NO_RESULT)
-        N, *_ = friction.update(0.009)
-        slide, most = friction.full_slip()
-        np.testing.assert_allclose([slide, most], [0.3 / m * 1e-3, 0.3 * N], rtol=1e-9)
-        x = np.linspace(0, 1.5, 7) * slide
-        mindlin = most * (1 - np.clip(1 - x / slide, 0, None) ** 1.5)
-        np.testing.assert_allclose(friction.first_loading(x), mindlin, rtol=1e-9)
-        self.assertAlmostEqual(friction.slide(mindlin[2]) / x[2], 1, places=7)
-        friction.commit()
-        _, Qx, Qy, lost = friction.update(0.009, x=x[2])
-        self.assertAlmostEqual(Qx / mindlin[2], 1, places=9)
-        self.assertTrue(Qy == 0 and lost > 0)
-        np.testing.assert_allclose(friction.stiffness()[0, 0], m * 2 * 2e5 * np.sqrt(2e-3 * (1e-3 - m / 0.3 * x[2])), rtol=1e-6)
-        spots = friction.spots()
-        self.assertEqual(spots.asperity.tolist(), [0])
-        np.testing.assert_allclose(spots.stick_radius / spots.radius, np.sqrt(1 - x[2] / slide), rtol=1e-6)
-        with tempfile.TemporaryDirectory() as folder:
-            friction.save(os.path.join(folder, "friction"))
-            contact.indent(0.0095)
-            contact.save(os.path.join(folder, "contact"))
-            again = rsc.Friction.restore(asperities, os.path.join(folder, "friction"))
-            self.assertEqual(again.state(), friction.state())
-            self.assertEqual(rsc.Contact.restore(asperities, os.path.join(folder, "contact")).force, contact.force)
-            with self.assertRaisesRegex(rsc.ArgumentError, "contact with friction"):
-                rsc.Friction.restore(asperities, os.path.join(folder, "contact"))
-        copy = friction.copy()
-        friction.rollback()
-        self.assertEqual((friction.state().force_x, copy.state().force_x), (0, Qx))
-
-    def test_stiffness(self):
-        """stiffness()[i, j] = dQ_i/dx_j: unsymmetric after a slide aside of what was pressed and slid at once."""
-        contact = rsc.Contact(rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3]), 2e5, 2.5, 0.5, 0.5)
-        friction = rsc.Friction(contact, 0.3, 0.8)
-        friction.update(0.009)
-        slide, _ = friction.full_slip()
-        friction.rollback()
-        friction.update(0.01)
-        friction.update(0.009, x=0.5 * slide)
-        _, *Q, _ = friction.update(0.009, x=0.5 * slide, y=0.4 * slide)
-        K, h = friction.stiffness(), 1e-5 * slide
-        self.assertGreater(abs(K[0, 1] - K[1, 0]), 0.01 * abs(K[0, 0]))
-        # The way that slips now: a further slide along the last one, and a little to its sides.
-        for dx, dy in ((0, 1), (0.2, 1), (-0.2, 1)):
-            ahead = friction.copy()
-            _, *further, _ = ahead.update(0.009, x=0.5 * slide + h * dx, y=0.4 * slide + h * dy)
-            np.testing.assert_allclose((np.array(further) - Q) / h, K @ [dx, dy], rtol=0, atol=1e-3 * K[1, 1])
-
-    def test_refused(self):
-        contact = rsc.Contact(rsc.Asperities.take([0.5], [0.5], [0.01], [2e-3]), 2e5, 2.5, 0.5, 0.5)
-        with self.assertRaisesRegex(rsc.ArgumentError, "mu"):
-            rsc.Friction(contact, -1, 0.8)
-        with self.assertRaisesRegex(rsc.ArgumentError, "contact"):
-            rsc.Friction(None, 0.3, 0.8)
-        case = rsc.Case({"solids": {"friction": 0.25}})
-        friction = rsc.Friction.from_case(contact, case)
-        N, *_ = friction.update(0.005)
-        self.assertAlmostEqual(friction.full_slip()[1] / N, 0.25, places=14)
-        with self.assertRaisesRegex(rsc.ArgumentError, "slide"):
-            friction.first_loading([-1.0])
 
 
 if __name__ == "__main__":
