@@ -65,6 +65,7 @@ rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& comma
     how.progress = options.progress;
     how.quiet = options.quiet;
     how.resume = options.resume;
+    how.compare_automatically = true;
     how.table = &std::cout;
     how.messages = &std::cerr;
     return how;

@@ -51,8 +51,9 @@ void require_contact_keys(const Case& settings) {
                              "surface%sigma", "surface%L"});
 }
 
-// Asperities, and points for elements, are made for one solver%model: a case that asks for the other is refused.
+// Asperities, and points for elements, are made for one solver%model: a case that asks for the other is refused. 'auto' takes what there is.
 void require_model(const Ground& on, const Case& settings, int argument) {
+    if (settings.solver.model == Model::automatic) return;
     const bool elements = settings.solver.model == Model::elements;
     if (elements && !on.points) refuse(argument, "a_case", "asks for solver%model = 'elements', and the asperities were made without it");
     if (!elements && on.points)

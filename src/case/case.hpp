@@ -29,6 +29,9 @@ enum class Format { netcdf4, cdf5, classic };
 inline constexpr std::array kFormatNames = {"netcdf4", "cdf5", "classic"};
 enum class Contacts { automatic, none, last, all };
 inline constexpr std::array kContactsNames = {"auto", "none", "last", "all"};
+// The words that compare%levels may be instead of a list.
+enum class CompareWhat { automatic, none };
+inline constexpr std::array kCompareNames = {"auto", "none"};
 enum class StudyMode { product, zip };
 
 struct Case {
@@ -79,13 +82,15 @@ struct Case {
         int max_iterations = 100;
         double delta0 = 0.01;
         Interaction interaction = Interaction::point;
-        Model model = Model::asperities;
+        Model model = Model::automatic;
     } solver;
     struct Elements {
         double points_per_wave = 8;
     } elements;
     struct Compare {
-        std::vector<double> levels;  // in `unit` of the indentation; empty: nothing is compared
+        CompareWhat what = CompareWhat::automatic;
+        std::vector<double> levels;  // in `unit` of the indentation; empty: `what` says
+        bool listed() const { return !levels.empty(); }
     } compare;
     struct Output {
         std::string file = "output/rsc.nc";
@@ -100,5 +105,13 @@ struct Case {
 
     static constexpr double kInfinity = __builtin_huge_val();
 };
+
+// What solver%model means for this case, and why: a model is either asked for, or `auto` chose it.
+struct ModelChoice {
+    Model model;           // asperities or elements
+    const char* why = "";  // of `auto`, for the screen
+};
+ModelChoice model_of(const Case& settings);
+inline bool by_elements(const Case& settings) { return model_of(settings).model == Model::elements; }
 
 }  // namespace rsc

@@ -167,6 +167,13 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
 
     ReadCase read{std::move(settings), std::move(reading.study), {}};
     for (const Fault& warning : reading.warnings) read.warnings.push_back(namelist::format(name, warning));
+    for (const char* const key_name : {"E", "nu", "R"}) {
+        const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
+        if (!entry || entry->given.size() != 1) continue;
+        const std::string other = std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
+        read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other + " = " + get_key(read.settings, other) +
+                                " taken by default");
+    }
     const auto& indentation = read.settings.indentation;
     if (indentation.levels.empty() && indentation.control == Control::separation && indentation.start < indentation.stop)
         read.warnings.push_back(name + ": &indentation: start = " + get_key(read.settings, "indentation%start") +

@@ -37,6 +37,10 @@ Key array(const char* group, const char* name, int size, const char* unit, Bound
 Key list(const char* group, const char* name, int most, const char* unit, const char* unset, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, real, most, true, 0, unit, kAny, {}, unset, meaning, slot};
 }
+Key list_or_word(const char* group, const char* name, int most, const char* unit, std::vector<const char*> words, const char* meaning,
+                 Slot (*slot)(Case&), Slot (*word)(Case&)) {
+    return {group, name, real, most, true, 0, unit, kAny, std::move(words), "", meaning, slot, Changes::numbers, word};
+}
 Key optional(const char* group, const char* name, int size, Bounds bounds, const char* unset, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, real, size, false, 0, "length", bounds, {}, unset, meaning, slot};
 }
@@ -168,17 +172,21 @@ std::vector<Key> make_registry() {
 
         one_of(
             "solver", "model", names(kModelNames),
-            "what touches: the summits as asperities, or every point of the surface (no asperities; slower, and the truth they approximate)",
+            "what touches: the summits as asperities, or every point of the surface (no asperities; slower, and the truth they approximate). "
+            "auto: elements for heights read from files unless the case asks for what only asperities have, asperities for made surfaces",
             RSC_CHOICE(solver.model)),
 
-        scalar("elements", "points_per_wave", real, "1", between(4, 64),
-               "grid steps in the shortest wavelength for model = 'elements' and &compare; a measured map is taken as it is",
-               RSC_SLOT(elements.points_per_wave)),
+        scalar(
+            "elements", "points_per_wave", real, "1", between(4, 64),
+            "grid steps in the shortest wavelength for model = 'elements'; &compare begins with it and takes more where N still changes; a "
+            "measured map is taken as it is",
+            RSC_SLOT(elements.points_per_wave)),
 
-        list("compare", "levels", 1000, "`unit` of the indentation", "nothing is compared",
-             "after the run the level nearest to each of these once more by elements, on the first realization: the error of the asperity "
-             "model on this very surface",
-             RSC_SLOT(compare.levels)),
+        list_or_word("compare", "levels", 1000, "`unit` of the indentation", names(kCompareNames),
+                     "after the run the level nearest to each of these once more by elements, on the first realization: the error of the "
+                     "asperity model on this very surface. auto: the last level of a single run of the program, where elements are "
+                     "expected to take less than 2 s",
+                     RSC_SLOT(compare.levels), RSC_CHOICE(compare.what)),
 
         changing(Changes::file, text("output", "file", 4096, "the result file", RSC_SLOT(output.file))),
         changing(Changes::file, one_of("output", "format", names(kFormatNames), "format of the result file", RSC_CHOICE(output.format))),

@@ -58,6 +58,7 @@ struct Key {
     const char* meaning;
     Slot (*slot)(Case&);
     Changes changes = Changes::numbers;
+    Slot (*word)(Case&) = nullptr;  // a list that may be one of `choices` instead, which holds while it is empty
 };
 
 // All keys, group by group in the documented order.
@@ -83,6 +84,7 @@ public:
         std::vector<std::pair<long, namelist::Position>> given;  // 1-based element (character of a string), where
         std::vector<std::optional<double>> values;               // lists only
         bool whole = false;                                      // a list was given without a subscript
+        std::optional<int> word;                                 // the number of the word given instead of a list
         namelist::Position at;                                   // of the key
         bool faulty = false;
     };

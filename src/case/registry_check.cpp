@@ -69,7 +69,7 @@ private:
             const std::vector<double>& list = **v;
             if (list.size() > static_cast<std::size_t>(key.size))
                 problems_.push_back({{&key}, 0, std::string(key.name) + ": at most " + std::to_string(key.size) + " values"});
-            if (list.empty() && !*key.unset) problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
+            if (list.empty() && !*key.unset && !key.word) problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
             for (std::size_t i = 0; i < list.size() && i < static_cast<std::size_t>(key.size); ++i)
                 number(list[i], static_cast<long>(i + 1));
         }
@@ -111,8 +111,8 @@ private:
             if (c_.solids.friction > 0)
                 complain({"solids%hardness", "solids%friction"},
                          "hardness: friction is computed for elastic asperities only; give one of the two");
-            const char* elements = c_.solver.model == Model::elements ? "solver%model" : "compare%levels";
-            if (c_.solver.model == Model::elements || !c_.compare.levels.empty()) {
+            const char* elements = by_elements(c_) ? "solver%model" : "compare%levels";
+            if (by_elements(c_) || c_.compare.listed()) {
                 if (c_.solids.size_effect > 0)
                     complain(
                         {"solids%size_effect", elements},
@@ -120,7 +120,7 @@ private:
                         "this size");
             }
         }
-        if (c_.solids.friction > 0 && c_.solver.model == Model::elements)
+        if (c_.solids.friction > 0 && by_elements(c_))
             complain({"solids%friction", "solver%model"}, "friction: with model = 'elements' it is not available yet");
     }
 
@@ -156,7 +156,7 @@ private:
     }
 
     void check_elements() {
-        const bool elements = c_.solver.model == Model::elements, compare = !c_.compare.levels.empty();
+        const bool elements = by_elements(c_), compare = c_.compare.listed();
         if (!elements && !compare) return;
         const char* const key = elements ? "solver%model" : "compare%levels";
         const std::string what = elements ? "model = 'elements'" : "levels";
@@ -219,12 +219,14 @@ private:
             complain({"indentation%unit", "indentation%control"}, "unit = " + get_key(c_, "indentation%unit") +
                                                                       ": with control = " + get_key(c_, "indentation%control") + " it is " +
                                                                       (of_pressure ? "'sigma' or 'length'" : "'relative' or 'pressure'"));
-        if (!(i.control == Control::pressure && relative)) return;
+        if (!(i.control == Control::pressure && relative) || by_elements(c_)) return;
         const double most = i.levels.empty() ? std::max(i.start, i.stop) : *std::max_element(i.levels.begin(), i.levels.end());
         if (most >= kClosingPressure)
-            complain({i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
-                     "a pressure of " + namelist::from_real(most) +
-                         " E* sqrt(2 m2) closes the gap altogether: levels must be below 1 with unit = 'relative'");
+            complain(
+                {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
+                "a pressure of " + namelist::from_real(most) +
+                    " E* sqrt(2 m2): from 1 on less than 5 % of the area is gap, and no asperities are left to speak of; solver%model = "
+                    "'elements' goes on until the gap is closed");
     }
 
     void check_sizes() {

@@ -30,7 +30,7 @@ void describe_key(std::ostream& out, const Key& key) {
     static const Case defaults;
     out << "  " << key.name;
     if (key.list)
-        out << "(1 to " << key.size << " values)";
+        out << "(1 to " << key.size << " values" << (key.word ? ", or a word" : "") << ")";
     else if (key.size > 1)
         out << "(" << key.size << ")";
     const std::string value = get_key(defaults, full_name(key));

@@ -116,6 +116,15 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
             return {};
         }
         case Type::real: {
+            if (key.word && item.quoted) {
+                const std::string word = namelist::lower_case(trimmed(item.text));
+                const auto found = std::find_if(key.choices.begin(), key.choices.end(), [&](const char* c) { return word == c; });
+                if (found == key.choices.end()) return quote(item) + " is none of " + list_choices(key) + ", and no list of numbers";
+                if (element != 1 || !entry.values.empty() || entry.word) return "one word, or a list of numbers";
+                entry.word = static_cast<int>(found - key.choices.begin());
+                return {};
+            }
+            if (entry.word) return "one word, or a list of numbers";
             const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
             if (!value) return "expected a real number, found " + quote(item) + unit_written(item);
             if (!key.list) {
@@ -260,8 +269,14 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
 
 void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
     for (Ledger::Entry& entry : ledger.entries()) {
-        if (!entry.key->list || entry.values.empty() || entry.faulty) continue;
+        if (!entry.key->list || (entry.values.empty() && !entry.word) || entry.faulty) continue;
         std::vector<double>& list = *std::get<std::vector<double>*>(entry.key->slot(settings));
+        if (entry.word) {
+            const ChoiceSlot word = std::get<ChoiceSlot>(entry.key->word(settings));
+            word.set(word.object, *entry.word);
+            list.clear();
+            continue;
+        }
         const std::vector<double> old = list;
         std::vector<double> next;
         const std::size_t size = entry.whole ? entry.values.size() : std::max(entry.values.size(), old.size());
@@ -368,6 +383,10 @@ std::string get_key(const Case& settings, std::string_view name) {
     const Slot slot = key->slot(const_cast<Case&>(settings));
     long size = key->size;
     if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = static_cast<long>((*list)->size());
+    if (key->word && size == 0) {
+        const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
+        return namelist::from_string(key->choices.at(static_cast<std::size_t>(word.get(word.object))));
+    }
     Walk walk{1, 1, size};
     if (assignment.subscript) {
         if (key->size == 1) throw Error(Failure::bad_input, std::string(key->name) + " is no array: it takes no subscript");

@@ -175,7 +175,7 @@ Level AsperityContact::Impl::report(double Z0) const {
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
     if (traits(options.law).elliptic_spots)
-        level.area = union_area(spots(level), &level.overlapping_pairs, indenter.period);
+        level.area = union_area(spots(level), &level.overlapping_pairs, indenter.period, &level.own_area);
     else
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
@@ -188,7 +188,7 @@ Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool
     level.residual = outcome.residual;
     level.method = method;
     if (options.method == Method::mesh && method != Method::mesh) level.fallback = Fallback::no_interaction;
-    if (!unique) level.status = LevelStatus::not_unique;
+    if (!unique) level.status = graver(level.status, LevelStatus::not_unique);
     if (!outcome.converged) level.status = LevelStatus::not_converged;
     return level;
 }

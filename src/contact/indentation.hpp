@@ -12,8 +12,9 @@ namespace rsc {
 // Enumerations with their spellings, in their order, as the namelist and result files have them.
 enum class Method : std::int32_t { automatic, dgesv, direct, mesh };
 inline constexpr std::array kMethodNames = {"auto", "dgesv", "direct", "mesh"};
-enum class Model : std::int32_t { asperities, elements };  // asperity_contact.hpp, element_contact.hpp
-inline constexpr std::array kModelNames = {"asperities", "elements"};
+// asperity_contact.hpp, element_contact.hpp; automatic: elements for heights read from files, asperities for made surfaces.
+enum class Model : std::int32_t { asperities, elements, automatic };
+inline constexpr std::array kModelNames = {"asperities", "elements", "auto"};
 enum class Selection { overlap, paper };
 inline constexpr std::array kSelectionNames = {"overlap", "paper"};
 enum class Interaction { point, none };
@@ -51,10 +52,11 @@ struct SolverOptions {
     double sigma = 0;         // rms height: unit of delta0 and of selection='paper' [length]
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
-    double delta0 = 0.01;     // first regularisation of the paper's method, in sigma
-    double delta_cut = 5.0;   // the paper's method divides delta by this each iteration (the paper: 2 to 10)
-    double mean_spacing = 0;  // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
-    Rectangle surface;        // the free surface, for counting contacts near its border; not known: not counted
+    double delta0 = 0.01;        // first regularisation of the paper's method, in sigma
+    double delta_cut = 5.0;      // the paper's method divides delta by this each iteration (the paper: 2 to 10)
+    double mean_spacing = 0;     // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
+    double points_per_wave = 0;  // of the grid that the asperities were found on, in the shortest wave; 0: not known
+    Rectangle surface;           // the free surface, for counting contacts near its border; not known: not counted
 };
 
 }  // namespace rsc

@@ -10,9 +10,14 @@
 
 namespace rsc {
 
-// How a level ended; the larger is the more serious and hides the smaller. Values are those of `status` in the result file.
+// How a level ended. Values are those of `status` in the result file. The more serious hides the less serious, in the order converged,
+// overlapping, not_unique, out_of_validity, not_converged: that spots overlap, or that there may be other solutions, says nothing of size.
 enum class LevelStatus : std::int32_t { converged = 0, out_of_validity = 1, overlapping = 2, not_unique = 3, not_converged = 4 };
 inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping", "not_unique", "not_converged"};
+constexpr LevelStatus graver(LevelStatus a, LevelStatus b) {
+    constexpr int seriousness[] = {0, 3, 1, 2, 4};
+    return seriousness[static_cast<std::size_t>(a)] < seriousness[static_cast<std::size_t>(b)] ? b : a;
+}
 
 // Why a level was solved by another method than asked for. Values are those of `fallback` in the result file.
 enum class Fallback : std::int32_t {
@@ -31,13 +36,19 @@ inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 // The scalars of a level. A plain record: checkpoints hold it as it is. Each is declared to files, screen and libraries by one row
 // of the table in observe/quantities.cpp.
 struct LevelValues {
-    double separation = 0;                // Z0 [length]
-    double force = 0;                     // N = sum f [force]
-    double area = 0;                      // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
-    double area_pixels = kNotComputed;    // elements: of all pixels under pressure, not corrected for their border [length^2]
-    double pressure = kNotComputed;       // two flats: nominal, N/A0 [force/length^2]
-    double area_fraction = kNotComputed;  // two flats: A/A0
-    double residual = 0;                  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    double separation = 0;                     // Z0 [length]
+    double force = 0;                          // N = sum f [force]
+    double area = 0;                           // A = sum pi a^2 (hertz, the paper's), or of the union of the elliptic spots [length^2]
+    double area_pixels = kNotComputed;         // elements: of all pixels under pressure, not corrected for their border [length^2]
+    double pressure = kNotComputed;            // two flats: nominal, N/A0 [force/length^2]
+    double area_fraction = kNotComputed;       // two flats: A/A0
+    double residual = 0;                       // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    double pixels_per_contact = kNotComputed;  // elements: half the area belongs to contacts of fewer pixels than this
+    // How far N and A may be from the truth (asperities: from elements; elements: from finer grids), relative; run/expected_error.hpp.
+    double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
+    std::int32_t error_cause = 0;        // asperities: what raises that most (contact/expected_error.hpp); 0: nothing does
+    double slope_ratio = kNotComputed;   // asperities: largest slope of the indenter at a contact over the surface's rms slope
+    double filled_share = kNotComputed;  // of the contact area, on points of a measured map that were missing
     // By add_answers (contact/answers.hpp):
     double stiffness = kNotComputed;                            // dN/dZ0, negative [force/length]
     double energy = kNotComputed;                               // elastic energy W, dW/dZ0 = -N [force length]
@@ -58,7 +69,7 @@ struct LevelValues {
     Method method = Method::direct;      // the one whose answer this is
     Fallback fallback = Fallback::none;  // why it is not the one asked for
     std::int32_t large_contacts = 0;     // contacts with a > <d>/4
-    std::int32_t edge_contacts = 0;      // contacts within <d> of the border of a free surface
+    std::int32_t edge_contacts = 0;      // contacts within <d> of the border of a free surface, or cut by it
     double nominal_area = 0;             // smallest disc about the tip that holds all contacts, at most the surface [length^2]
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
@@ -83,10 +94,6 @@ struct ResidualProfile {
     double dx = 0, dy = 0;            // sides of a pixel [length]
 };
 
-// With more than this share of the contacts beyond the law, spots cover much of each other and the contact area is far too low: measured
-// against elements (README).
-inline constexpr double kMuchBeyondLaw = 0.3;
-
 // A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
 struct Level : LevelValues {
     std::vector<int> asperity;  // index of the asperity (0-based), or of the spot's pixel that carries the most
@@ -95,7 +102,8 @@ struct Level : LevelValues {
     std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
     std::vector<double> u;      // penetration with interaction [length]
     LevelPixels pixels;
-    std::vector<int> yields;  // whether the contact yields (hardness); empty or one a contact
+    std::vector<double> own_area;  // of elliptic spots: what those before do not cover, in all the area of their union; empty: pi a^2
+    std::vector<int> yields;       // whether the contact yields (hardness); empty or one a contact
 
     void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
         asperity.push_back(index);

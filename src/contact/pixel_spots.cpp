@@ -1,5 +1,6 @@
 #include "contact/pixel_spots.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +13,8 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Sides of each pixel without a neighbour under pressure: those of the contacts' borders.
+// Sides of each pixel without a neighbour under pressure: those of the contacts' borders. Where the map itself ends, the contact's border
+// is not known to be.
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bool periodic) {
     std::vector<int> open(pixels.size(), 4);
     std::vector<std::size_t> begin(at(ny) + 1, 0);
@@ -24,6 +26,11 @@ std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bo
         for (std::size_t k = first + 1; k < end; ++k)
             if (pixels[k].x == pixels[k - 1].x + 1) --open[k - 1], --open[k];
         if (periodic && pixels[first].x == 0 && pixels[end - 1].x == nx - 1) --open[first], --open[end - 1];
+        if (!periodic) {
+            if (pixels[first].x == 0) --open[first];
+            if (pixels[end - 1].x == nx - 1) --open[end - 1];
+            for (std::size_t k = first; k < end && (j == 0 || j == ny - 1); ++k) open[k] -= ny == 1 ? 2 : 1;
+        }
         if (j == 0 && !periodic) continue;
         const int above = j > 0 ? j - 1 : ny - 1;
         for (std::size_t k = first, l = begin[at(above)]; k < end; ++k) {
@@ -32,6 +39,19 @@ std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bo
         }
     }
     return open;
+}
+
+// Pixels of a contact: half of all pixels belong to contacts of no more.
+template <class Sums>
+double median_by_area(const Sums& sums) {
+    std::vector<long> sizes;
+    long all = 0;
+    for (const auto& s : sums) sizes.push_back(s.pixels), all += s.pixels;
+    std::sort(sizes.begin(), sizes.end());
+    long so_far = 0;
+    std::size_t k = 0;
+    while (2 * (so_far += sizes[k]) < all) ++k;
+    return static_cast<double>(sizes[k]);
 }
 
 }  // namespace
@@ -92,6 +112,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         s.py += pressure[k] * dy;
         s.own += pressure[k] * substrate.under_pixel(dx * map.dx, dy * map.dy, map.dx, map.dy);
     }
+    if (!touching.empty()) level.pixels_per_contact = median_by_area(sums);
     const auto inside = [&](double column, int n) { return periodic ? column - n * std::floor(column / n) : column; };
     const double pixel = map.dx * map.dy;
     const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;

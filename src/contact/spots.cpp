@@ -144,7 +144,7 @@ long count_overlapping(const std::vector<double>& x, const std::vector<double>& 
     return pairs;
 }
 
-double union_area(const std::vector<Spot>& spots, long* close, const Period& period) {
+double union_area(const std::vector<Spot>& spots, long* close, const Period& period, std::vector<double>* own) {
     const std::size_t n = spots.size();
     std::vector<double> x(n), y(n), reach(n);
     double area = 0;
@@ -220,15 +220,23 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         }
         return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
     };
+    std::vector<double> covered(places.size(), 0.0);  // of a spot by those before it
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& p = places[k];
         if (p.before.empty()) continue;
-        area += open_part(p, {0, 0}, {kStart, kEnd}, k) - pi * p.ellipse.major * p.ellipse.minor;
+        covered[k] = pi * p.ellipse.major * p.ellipse.minor - open_part(p, {0, 0}, {kStart, kEnd}, k);
         for (const auto& [spot, centre] : p.before) {
             const Place& q = places[spot];
             for (const Cover& c : q.covered)
-                if (c.by == k) area -= open_part(q, centre, c, k);
+                if (c.by == k) covered[k] += open_part(q, centre, c, k);
         }
+        area -= covered[k];
+    }
+    if (own) {
+        // Places are numbered as pairs name them, not as the spots are.
+        own->clear();
+        for (std::size_t i = 0; i < n; ++i)
+            own->push_back(pi * spots[i].major * spots[i].minor - (place_of[i] == none ? 0.0 : covered[place_of[i]]));
     }
     return area;
 }

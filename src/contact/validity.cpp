@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/expected_error.hpp"
+
 namespace rsc {
 namespace {
 
@@ -25,6 +27,22 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
+// Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
+void count_edges(Level& level, const SolverOptions& options) {
+    level.edge_contacts = 0;
+    if (!options.surface.known()) return;
+    std::vector<bool> cut(level.x.size(), false);
+    for (std::size_t k = 0; k < cut.size(); ++k)
+        cut[k] = inside(options.surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+    const LevelPixels& p = level.pixels;
+    const auto rows = p.dy > 0 ? static_cast<std::int32_t>(std::lround(options.surface.Ly / p.dy)) : 0;
+    for (std::size_t k = 0; k < p.index.size(); ++k) {
+        const std::int32_t column = p.index[k] % p.columns, row = p.index[k] / p.columns;
+        if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows) cut[static_cast<std::size_t>(p.contact[k])] = true;
+    }
+    level.edge_contacts = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
+}
+
 }  // namespace
 
 bool exceeds_nominal_area(const LevelValues& level) {
@@ -33,26 +51,28 @@ bool exceeds_nominal_area(const LevelValues& level) {
 }
 
 void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options) {
-    level.large_contacts = level.edge_contacts = 0;
+    level.large_contacts = 0;
     for (std::size_t k = 0; k < level.x.size() && options.mean_spacing > 0; ++k) {
         level.large_contacts += level.a[k] > options.mean_spacing / 4;
-        level.edge_contacts += options.surface.known() && inside(options.surface, level.x[k], level.y[k]) < options.mean_spacing;
     }
+    count_edges(level, options);
     level.nominal_area = nominal_area(level, indenter, options.surface);
     const bool too_deep = options.sigma > 0 && level.separation < kLowestSeparation * options.sigma;
-    if (level.large_contacts > 0 || level.beyond_law > 0 || level.edge_contacts > 0 || exceeds_nominal_area(level) || too_deep)
-        level.status = std::max(level.status, LevelStatus::out_of_validity);
+    // Large contacts, and those beyond the law, are in the expected error where there is one.
+    const bool far_off =
+        std::isnan(level.force_error_expected) ? level.large_contacts > 0 || level.beyond_law > 0 : level.force_error_expected > kMuchError;
+    if (far_off || level.edge_contacts > 0 || exceeds_nominal_area(level) || too_deep)
+        level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 
 void judge_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
-    level.large_contacts = level.edge_contacts = 0;
+    level.large_contacts = 0;
     for (std::size_t k = 0; k < level.x.size(); ++k) {
         level.large_contacts += options.mean_spacing > 0 && level.a[k] > options.mean_spacing / 4;
-        level.edge_contacts +=
-            options.surface.known() && inside(options.surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
     }
+    count_edges(level, options);
     level.nominal_area = nominal_area(level, indenter, options.surface);
-    if (level.edge_contacts > 0) level.status = std::max(level.status, LevelStatus::out_of_validity);
+    if (level.edge_contacts > 0) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 
 }  // namespace rsc

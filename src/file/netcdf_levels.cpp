@@ -111,7 +111,16 @@ std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::
 }
 
 void ResultTable::means() {
-    if (r_.force_control) add("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
+    add("converged", {"step"}, "1", "realizations that count in the means", o_.force.count,
+        comment(
+            "levels that did not converge (status 4) are left out of all means of levels, and those that lack a quantity out of its own; "
+            "maps, radial means and distributions are of all realizations"));
+    if (r_.force_control) {
+        add_absent("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
+        add_absent("separation_std", {"step"}, unit(1), "standard deviation of the separation over realizations", o_.separation.deviation,
+                   "divisor M - 1 for M realizations");
+        add_absent("separation_stderr", {"step"}, unit(1), "standard error of separation_mean", o_.separation.error);
+    }
     for (const LevelQuantity& q : level_quantities()) {
         if (!q.statistics) continue;
         LevelStatistics s = o_.statistics([&](const LevelValues& l) { return q.of(l); });
@@ -120,14 +129,13 @@ void ResultTable::means() {
         Names dims{"step"};
         if (q.y) {
             const LevelStatistics y = o_.statistics([&](const LevelValues& l) { return l.*q.y; });
-            s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation)};
+            s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation), pairs(s.error, y.error), s.count};
             dims.push_back("component");
         }
-        if (q.always)
-            add(name + "_mean", dims, units(q), "mean " + of, s.mean);
-        else
-            add_absent(name + "_mean", dims, units(q), "mean " + of, s.mean, "absent where a realization has none");
+        add_absent(name + "_mean", dims, units(q), "mean " + of, s.mean);
         add_absent(name + "_std", dims, units(q), "standard deviation of the " + of, s.deviation, "divisor M - 1 for M realizations");
+        add_absent(name + "_stderr", dims, units(q), "standard error of " + name + "_mean", s.error, name + "_std over the root of M");
+        if (s.count != o_.force.count) add(name + "_count", {"step"}, "1", "realizations that have the " + std::string(q.plain), s.count);
     }
 }
 
@@ -225,18 +233,19 @@ void ResultTable::friction() {
 
 void ResultTable::two_flats(const Moments& m) {
     const double E = r_.indenter.E_star, A0 = r_.indenter.period.area();
-    double summits = 0, kappa = 0;
-    for (const SurfaceStatistics& s : o_.surface) summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g;
+    double summits = 0, kappa = 0, m2 = 0;
+    for (const SurfaceStatistics& s : o_.surface) summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g, m2 += s.m2;
     const auto n = static_cast<double>(o_.surface.size());
+    m2 /= n;  // of the surfaces made: on a band that begins at L their slope is not that of m2_theory
     const FlatSummits own{summits / n / A0, n / kappa, std::sqrt(std::max(0.0, m.m0 - kSummitVariance * m.m2 * m.m2 / m.m4))};
     std::vector<double> persson, bush, greenwood;
     for (double N : o_.force.mean) {
-        const double p = N / (A0 * E * std::sqrt(2 * m.m2));
-        persson.push_back(m.m2 > 0 ? area_persson(p) : kAbsent);
-        bush.push_back(m.m2 > 0 ? area_bgt(p) : kAbsent);
+        const double p = N / (A0 * E * std::sqrt(2 * m2));
+        persson.push_back(m2 > 0 ? area_persson(p) : kAbsent);
+        bush.push_back(m2 > 0 ? area_bgt(p) : kAbsent);
         greenwood.push_back(own.usable() && std::isfinite(N) ? area_gw(N / (A0 * E), own) : kAbsent);
     }
-    const std::string which = r_.theory ? "m2_theory" : "the mean of m2 over realizations";
+    const std::string which = "the mean of m2 over realizations";
     add_absent("area_persson", {"step"}, "1", "area fraction at force_mean by Persson's theory", persson,
                "erf(sqrt(2) p/(E* sqrt(2 m2))), with " + which);
     add_absent("area_bgt", {"step"}, "1", "area fraction at force_mean by the asymptote of Bush, Gibson and Thomas", bush,

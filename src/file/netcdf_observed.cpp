@@ -262,14 +262,24 @@ void ResultTable::compared() {
     const std::string by = " by elements";
     add("compare_step", dims, "1", "number of the level that was solved once more by elements", step,
         {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "of the first realization"}});
-    add("compare_separation", dims, unit(1), "separation of that level, Z0", c.separation);
+    add("compare_separation", dims, unit(1), "separation of that level, Z0", c.separation,
+        comment(r_.force_control ? "of elements under the level's force" : ""));
     add("compare_force", dims, unit(0, 1), "normal force" + by, c.force);
     add("compare_contact_area", dims, unit(2), "true contact area" + by, c.area);
     add("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, not corrected for their border", c.area_pixels);
     add("compare_contacts", dims, "1", "number of contacts" + by, c.contacts, comment("sets of pixels connected by their sides"));
     add("compare_residual", dims, "1", "what the conditions of contact miss", c.residual);
     const std::string over = "of asperities over that of elements, less 1";
-    add_absent("force_error", dims, "1", "force " + over, c.force_error);
+    if (r_.force_control)
+        add_absent("separation_error", dims, unit(1), "separation of asperities less that of elements, at equal force", c.separation_error);
+    else
+        add_absent("force_error", dims, "1", "force " + over, c.force_error);
+    add_absent("compare_force_error_expected", dims, "1", "how far the force of elements may be off itself, relative",
+               c.force_error_expected, "by its change with the grid");
+    add_absent("compare_area_error_expected", dims, "1", "how far the contact area of elements may be off itself, relative",
+               c.area_error_expected, "by its change with the grid");
+    add("compare_columns", dims, "1", "points of the elements' grid along x", c.columns);
+    add("compare_rows", dims, "1", "points of the elements' grid along y", c.rows);
     add_absent("area_error", dims, "1", "contact area " + over, c.area_error);
     add_absent("contacts_error", dims, "1", "number of contacts " + over, c.contacts_error);
     const LevelPixels& p = c.pixels;

@@ -56,9 +56,12 @@ struct ComparedLevels {
     std::vector<std::int32_t> step;  // the level, from 0
     std::vector<std::int32_t> contacts;
     std::vector<double> separation, force, area, area_pixels, residual;
-    std::vector<double> force_error, area_error, contacts_error;  // asperities over elements - 1
-    LevelPixels pixels;                                           // of the last one
-    long failed = 0;                                              // levels at which elements did not converge
+    std::vector<double> force_error, area_error, contacts_error;    // asperities over elements - 1; the force's NaN under force control
+    std::vector<double> separation_error;                           // asperities less elements, under force control [length]
+    std::vector<double> force_error_expected, area_error_expected;  // of the elements themselves; NaN: not known
+    std::vector<std::int32_t> columns, rows;                        // of the grid of elements
+    LevelPixels pixels;                                             // of the last one
+    long failed = 0;                                                // levels at which elements did not converge
 };
 
 struct Result {

@@ -31,27 +31,53 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     return grid;
 }
 
+namespace {
+
+// The cells along one axis that [from, from + length] lies in, and the share of it in each; what sticks out of the map
+// belongs to its last cell. Everything in cells.
+template <class Visit>
+void share_out(double from, double length, int cells, Visit visit) {
+    const double to = from + length;
+    const auto clamped = [cells](double u) { return std::clamp(static_cast<int>(std::floor(u)), 0, cells - 1); };
+    const int first = clamped(from), last = clamped(std::nextafter(to, from));
+    for (int c = first; c <= last; ++c) {
+        const double low = c == first ? from : c, high = c == last ? to : c + 1;
+        visit(c, (high - low) / length);
+    }
+}
+
+}  // namespace
+
 MapLevel map_level(const MapGrid& grid, const Level& level) {
     struct Entry {
         std::int32_t cell;
-        std::size_t place;
+        double area, force;
     };
     MapLevel map;
     std::vector<Entry> entries;
-    // What a level puts on the map: its pixels where it has them, each with its share of its contact's area, or its contacts.
     const LevelPixels& pixels = level.pixels;
-    const bool by_pixels = !pixels.index.empty();
-    const std::size_t n = by_pixels ? pixels.index.size() : level.asperity.size();
-    entries.reserve(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        const int cell = by_pixels ? grid.cell(pixels.x(k), pixels.y(k)) : grid.cell(level.x[k], level.y[k]);
-        if (cell >= 0) entries.push_back({cell, k});
-    }
     for (std::size_t k = 0; k < level.asperity.size(); ++k) map.outside += grid.cell(level.x[k], level.y[k]) < 0;
-    std::vector<double> share(by_pixels ? level.a.size() : 0, 0.0);
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) share[static_cast<std::size_t>(pixels.contact[k])] += 1;
-    const auto area_of = [&](std::size_t contact) { return std::numbers::pi * level.a[contact] * level.a[contact]; };
-    for (std::size_t c = 0; c < share.size(); ++c) share[c] = area_of(c) / share[c];
+    if (pixels.index.empty()) {
+        for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+            const double area = level.own_area.empty() ? std::numbers::pi * level.a[k] * level.a[k] : level.own_area[k];
+            if (const int cell = grid.cell(level.x[k], level.y[k]); cell >= 0) entries.push_back({cell, area, level.f[k]});
+        }
+    } else {
+        // Of elements each pixel has its share of its contact's area. It is put where its cell of the surface lies, which begins at its point.
+        std::vector<double> share(level.a.size(), 0.0);
+        for (const std::int32_t contact : pixels.contact) share[static_cast<std::size_t>(contact)] += 1;
+        for (std::size_t c = 0; c < share.size(); ++c) share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
+        for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+            const double u = (pixels.x(k) - grid.x0) / grid.side, v = (pixels.y(k) - grid.y0) / grid.side;
+            if (grid.cell(pixels.x(k), pixels.y(k)) < 0) continue;
+            const double area = share[static_cast<std::size_t>(pixels.contact[k])], force = pixels.pressure[k] * pixels.dx * pixels.dy;
+            share_out(v, pixels.dy / grid.side, grid.ny, [&](int j, double part_y) {
+                share_out(u, pixels.dx / grid.side, grid.nx, [&](int i, double part_x) {
+                    entries.push_back({j * grid.nx + i, part_x * part_y * area, part_x * part_y * force});
+                });
+            });
+        }
+    }
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
     for (const Entry& e : entries) {
         if (map.cell.empty() || map.cell.back() != e.cell) {
@@ -59,8 +85,8 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
             map.area.push_back(0);
             map.force.push_back(0);
         }
-        map.area.back() += by_pixels ? share[static_cast<std::size_t>(pixels.contact[e.place])] : area_of(e.place);
-        map.force.back() += by_pixels ? pixels.pressure[e.place] * pixels.dx * pixels.dy : level.f[e.place];
+        map.area.back() += e.area;
+        map.force.back() += e.force;
     }
     return map;
 }

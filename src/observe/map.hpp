@@ -31,12 +31,13 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells);
 // holds many of these at a time.
 struct MapLevel {
     std::vector<std::int32_t> cell;
-    std::vector<double> area;   // sum of pi a^2 in the cell [length^2]
+    std::vector<double> area;   // contact area in the cell [length^2]
     std::vector<double> force;  // sum of f in the cell [force]
     std::int32_t outside = 0;   // contacts outside the map: in the level's sums, in no cell
 };
 
-// Sums run over the contacts, or the pixels of a level that has them, in their order in `level`.
+// Contacts go to the cell of their place, elliptic spots with what is theirs alone of the area of their union; pixels of a level that has
+// them are shared by the cells they lie in.
 MapLevel map_level(const MapGrid& grid, const Level& level);
 
 // The area fraction beyond which a cell of contacts counts as crowded: spots in a square array touch at pi/4; interaction by

@@ -34,9 +34,10 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "unregularised, over all candidates: it says whether the forces are right; elements: rms of the gap under pressure and of "
                 "penetrations left, over the mean overlap under pressure", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "how the level ended",
-     .comment = "1: contacts with a > <d>/4, beyond the law or near the border (large_contacts, beyond_law, edge_contacts), contact_area above "
-                "nominal_area, or Z0 below -3 sigma; 2: contacts overlap, d < a_i + a_j; 3: a local "
-                "minimum of the energy, perhaps not the only one; 4: do not use. The larger is the more serious and hides the smaller",
+     .comment = "1: force_error_expected above 10 % (where it is not known: large_contacts or beyond_law; elements: above 1 %), contacts at the border "
+                "(edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, or filled_share above 1 %; 2: contacts "
+                "overlap, d < a_i + a_j; 3: a local minimum of the energy, perhaps not the only one; 4: do not use. 4 hides all others, 1 "
+                "hides 2 and 3, 3 hides 2",
      .heading = "status", .width = 0},
     {.name = "method", .member = &V::method, .meaning = "solver whose answer this is",
      .comment = "fallback says why it is not the one asked for"},
@@ -47,6 +48,21 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "products with the interaction matrix B (direct, mesh) or solves (dgesv)"},
     {.name = "overlapping_pairs", .member = &V::overlapping_pairs,
      .meaning = "pairs of contacts with d < a_i + a_j"},
+    {.name = "pixels_per_contact", .member = &V::pixels_per_contact, .unit = "1",
+     .meaning = "pixels of a contact of elements, the median weighted by area",
+     .comment = "half of the contact area belongs to contacts of no more pixels; on few pixels area and force of a contact are coarse",
+     .always = false},
+    {.name = "force_error_expected", .member = &V::force_error_expected, .unit = "1",
+     .meaning = "how far the force may be off, relative",
+     .comment = "asperities: what their distance from elements keeps in nine of ten cases (calibrated: input/trust); elements: by the change "
+                "of N with the grid, solved on another one at some levels", .always = false},
+    {.name = "area_error_expected", .member = &V::area_error_expected, .unit = "1",
+     .meaning = "how far the contact area may be off, relative", .comment = "as force_error_expected", .always = false},
+    {.name = "slope_ratio", .member = &V::slope_ratio, .unit = "1",
+     .meaning = "largest slope of the indenter at a contact over the rms slope of the surface",
+     .comment = "above 0.2 other points touch than summits of the surface alone", .always = false},
+    {.name = "filled_share", .member = &V::filled_share, .unit = "1",
+     .meaning = "share of the contact area on points of the map that were missing and filled", .always = false},
     {.name = "large_contacts", .member = &V::large_contacts, .meaning = "contacts with a > <d>/4",
      .comment = "<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"},
     {.name = "beyond_law", .member = &V::beyond_law, .meaning = "contacts past the range in which the law describes a summit",

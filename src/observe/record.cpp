@@ -62,19 +62,26 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
 // Two passes in the order of the realizations.
 LevelStatistics Observations::statistics(const std::function<double(const LevelValues&)>& of) const {
     LevelStatistics s;
-    const auto M = static_cast<double>(realizations);
     s.mean.assign(steps, kAbsent);
-    s.deviation.assign(steps, kAbsent);
-    for (std::size_t step = 0; step < steps && realizations > 0; ++step) {
+    s.deviation = s.error = s.mean;
+    s.count.assign(steps, 0);
+    for (std::size_t step = 0; step < steps; ++step) {
+        const auto each = [&](auto visit) {
+            for (std::size_t k = 0; k < realizations; ++k) {
+                const LevelValues& level = row(k, step);
+                const double value = of(level);
+                if (level.status != LevelStatus::not_converged && !std::isnan(value)) visit(value);
+            }
+        };
         double sum = 0, squares = 0;
-        for (std::size_t k = 0; k < realizations; ++k) sum += of(row(k, step));
+        each([&](double value) { sum += value, ++s.count[step]; });
+        const double M = s.count[step];
+        if (M < 1) continue;
         s.mean[step] = sum / M;
-        if (realizations < 2) continue;
-        for (std::size_t k = 0; k < realizations; ++k) {
-            const double off = of(row(k, step)) - s.mean[step];
-            squares += off * off;
-        }
+        if (M < 2) continue;
+        each([&](double value) { squares += (value - s.mean[step]) * (value - s.mean[step]); });
         s.deviation[step] = std::sqrt(squares / (M - 1));
+        s.error[step] = s.deviation[step] / std::sqrt(M);
     }
     return s;
 }

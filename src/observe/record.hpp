@@ -70,9 +70,11 @@ struct Accumulators {
     Observations finish() const;
 };
 
-// Mean and deviation (of the sample, divisor M - 1; NaN for one realization) of a level's quantity over realizations, a value a step.
+// A level's quantity over the M realizations that converged and have it, a value a step: mean (NaN where there is none), deviation of the
+// sample (divisor M - 1; NaN for one) and standard error of the mean, deviation/sqrt(M).
 struct LevelStatistics {
-    std::vector<double> mean, deviation;
+    std::vector<double> mean, deviation, error;
+    std::vector<std::int32_t> count;  // M
 };
 
 // What the realizations added amount to.

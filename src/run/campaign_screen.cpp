@@ -9,20 +9,6 @@
 namespace rsc {
 namespace {
 
-struct Spread {
-    double mean = 0, deviation = 0;
-};
-
-template <class Get>
-Spread spread(std::size_t count, Get value) {
-    Spread s;
-    for (std::size_t k = 0; k < count; ++k) s.mean += value(k);
-    s.mean /= static_cast<double>(count);
-    for (std::size_t k = 0; k < count; ++k) s.deviation += (value(k) - s.mean) * (value(k) - s.mean);
-    s.deviation = count > 1 ? std::sqrt(s.deviation / static_cast<double>(count - 1)) : 0;
-    return s;
-}
-
 // Steps of the table: about ten, the first and the last among them.
 std::vector<std::size_t> shown_steps(std::size_t steps) {
     constexpr std::size_t most = 11;
@@ -48,10 +34,13 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
 
 void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds, std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
-    const auto row = [&](std::size_t k) -> const LevelValues& { return sums.rows[(k + 1) * sums.steps - 1]; };
-    const Spread force = spread(count, [&](std::size_t k) { return row(k).force; });
-    const Spread area = spread(count, [&](std::size_t k) { return row(k).area; });
-    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean, force.deviation, area.mean, area.deviation,
+    Observations last;  // the last level of each
+    last.realizations = count, last.steps = 1;
+    for (std::size_t k = 1; k <= count; ++k) last.rows.push_back(sums.rows[k * sums.steps - 1]);
+    const LevelStatistics force = last.statistics([](const LevelValues& l) { return l.force; });
+    const LevelStatistics area = last.statistics([](const LevelValues& l) { return l.area; });
+    const auto scatter = [](const LevelStatistics& s) { return s.count[0] > 1 ? s.deviation[0] : 0.0; };
+    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0], scatter(force), area.mean[0], scatter(area),
                   duration(seconds).c_str(), static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }

@@ -52,7 +52,9 @@ Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* t
     Observations observations = sums.finish();
     const std::vector<LevelValues> first(observations.rows.begin(),
                                          observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
-    ComparedLevels compared = compare_levels(job, settings.run.first_realization, 1, first, table, [] { return caught_signal() != 0; });
+    ComparedLevels compared;
+    if (compares(job, false))
+        compared = compare_levels(job, settings.run.first_realization, 1, first, table, [] { return caught_signal() != 0; });
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, std::move(observations));
     result.compared = std::move(compared);
     return result;

@@ -13,6 +13,7 @@ namespace rsc {
 CampaignWork::CampaignWork(std::vector<Case> members, RunOptions whole) : members_(std::move(members)), whole_(std::move(whole)) {
     whole_.table = whole_.messages = nullptr;
     whole_.progress = Progress::never;
+    whole_.compare_automatically = false;
 }
 
 std::shared_ptr<const Job> CampaignWork::job(std::int32_t member) {

@@ -2,36 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "contact/element_contact.hpp"
 #include "error.hpp"
 #include "format.hpp"
+#include "run/forecast.hpp"
+#include "run/resolution.hpp"
 
 namespace rsc {
 namespace {
 
-void print(std::ostream& out, const Job& job, const ComparedLevels& c, const LevelValues& asperities) {
+// The grid of elements is refined while that is expected to take no longer than this.
+constexpr double kRefineSeconds = 60;
+// compare%levels = 'auto' is for what takes no longer.
+constexpr double kAutoSeconds = 2;
+// Of a map whose finer grid tells the error: that one has four times the points, a coarser one a quarter.
+constexpr double kWithFiner = 5, kWithCoarser = 1.25;
+
+// "A = 1.2 mm2 (itself +- 0.4 %)"
+std::string itself(double error) {
+    return std::isnan(error) ? " (its own error is not known)" : format(" (itself +- %.2g %%)", 100 * error);
+}
+
+void print(std::ostream& out, const Job& job, const ComparedLevels& c, const LevelValues& asperities, bool by_force) {
     const std::size_t k = c.step.size() - 1;
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
-    char line[400];
-    std::snprintf(line, sizeof line, "level %d, Z0/sigma %.5g: elements N = %.6g %s, A = %.5g %s2, %d contacts; asperities ", c.step[k] + 1,
-                  c.separation[k] / job.sigma, c.force[k], f, c.area[k], l, c.contacts[k]);
-    out << line;
-    if (std::isnan(c.force_error[k]) && c.contacts[k] > 0)
-        std::snprintf(line, sizeof line, "not compared: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n");
-    else if (c.contacts[k] > 0)
-        std::snprintf(line, sizeof line, "N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
-                      100 * c.contacts_error[k]);
+    out << format("level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d contacts; asperities ",
+                  c.step[k] + 1, c.separation[k] / job.sigma, c.columns[k], c.rows[k], c.force[k], f,
+                  by_force ? "" : itself(c.force_error_expected[k]).c_str(), c.area[k], l, itself(c.area_error_expected[k]).c_str(),
+                  c.contacts[k]);
+    if (std::isnan(c.area_error[k]) && c.contacts[k] > 0)
+        out << "not compared: ELEMENTS DID NOT CONVERGE, raise solver%max_iterations\n";
+    else if (c.contacts[k] == 0)
+        out << format("N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f, asperities.area, l, asperities.contacts);
+    else if (by_force)
+        out << format("at the same force Z0 %+.3g %s (%+.3f sigma), A %+.2f %%, contacts %+.1f %%\n", c.separation_error[k], l,
+                      c.separation_error[k] / job.sigma, 100 * c.area_error[k], 100 * c.contacts_error[k]);
     else
-        std::snprintf(line, sizeof line, "N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f, asperities.area, l,
-                      asperities.contacts);
-    out << line;
+        out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
+                      100 * c.contacts_error[k]);
+    if (c.force_error_expected[k] > kUnresolved)
+        out << format("  a finer grid may change N of the elements by %.2g %%: it is no sure reference.\n",
+                      100 * c.force_error_expected[k]);
 }
 
 // The levels to compare: the nearest one to each of &compare levels. Where a level depends on those before it, in the order of the path,
 // and of levels as near as each other one that is not yet taken, so that loading and unloading can be compared both.
 std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels, bool path_dependent) {
+    if (!job.settings.compare.listed()) return {levels.size() - 1};
     const bool by_force = job.settings.indentation.control != Control::separation;
     std::vector<std::size_t> steps;
     for (const double wanted : job.settings.compare.levels) {
@@ -56,29 +74,101 @@ bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
     return k == 0 ? on > 0 : (levels[k].separation - levels[k - 1].separation) * on < 0;
 }
 
+// Elements on the surface of a realization, with a second grid that tells their error. Made surfaces are refined where that error is
+// too large; what yields, and would have to be led along its path again, is not.
+class Reference {
+public:
+    Reference(const Job& job, std::int64_t number, int threads) : job_(job), number_(number), threads_(threads) {
+        points_per_wave_ = job.settings.elements.points_per_wave;
+        map_ = make(points_per_wave_);
+        contact_ = make_element_contact(*map_, job.indenter, job.solver);
+        other_.emplace(job, number, threads, *map_, points_per_wave_);
+    }
+
+    Contact& contact() { return *contact_; }
+    const HeightMap& map() const { return *map_; }
+
+    // The level at a separation, or under the force of `level`, and its own error.
+    Level solve(const LevelValues& level, bool by_force, std::optional<GridError>& error) {
+        for (;;) {
+            Level truth = by_force && level.force > 0 ? contact_->at_force(level.force) : contact_->at_separation(level.separation);
+            error = truth.status == LevelStatus::not_converged ? std::nullopt : other_->error(truth);
+            const bool enough = error ? error->force <= kUnresolved : truth.contacts == 0 && level.contacts == 0;
+            if (enough || !refine(truth)) return truth;
+        }
+    }
+
+private:
+    std::unique_ptr<HeightMap> make(double points_per_wave) const {
+        Case settings = job_.settings;
+        settings.elements.points_per_wave = points_per_wave;
+        auto map = std::make_unique<HeightMap>(make_element_surface(settings, number_, threads_).map);
+        map->x0 = job_.site.domain.x0;  // of several measured maps the first one says where they lie
+        map->y0 = job_.site.domain.y0;
+        return map;
+    }
+
+    // Goes on with twice the points a side. False: that would take too long, or cannot be.
+    bool refine(const Level& level) {
+        if (!job_.spectrum || contact_->path_dependent() || level.status == LevelStatus::not_converged) return false;
+        const double finer = 2 * points_per_wave_;
+        if (finer * job_.spectrum->L_lambda_s > kMostElementPoints || points_per_wave_ >= kMostPointsPerWave ||
+            element_seconds(job_, level.separation, finer) > kRefineSeconds)
+            return false;
+        std::unique_ptr<HeightMap> map = make(finer);
+        std::unique_ptr<Contact> contact = make_element_contact(*map, job_.indenter, job_.solver);
+        other_.reset();
+        coarse_map_ = std::move(map_);
+        other_.emplace(std::move(contact_));
+        map_ = std::move(map);
+        contact_ = std::move(contact);
+        points_per_wave_ = finer;
+        return true;
+    }
+
+    static constexpr double kMostElementPoints = 8192, kMostPointsPerWave = 128;
+    const Job& job_;
+    std::int64_t number_;
+    int threads_;
+    double points_per_wave_;
+    std::unique_ptr<HeightMap> map_, coarse_map_;  // the contacts below stand on them
+    std::unique_ptr<Contact> contact_;
+    std::optional<OtherGrid> other_;
+};
+
 }  // namespace
+
+bool compares(const Job& job, bool automatically) {
+    const Case& c = job.settings;
+    if (c.compare.listed()) return true;
+    if (c.compare.what == CompareWhat::none || !automatically || by_elements(c) || c.run.realizations > 1) return false;
+    const bool possible = c.surface.source != Source::asperities && c.solver.interaction == Interaction::point &&
+                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0);
+    if (!possible || (job.spectrum && !element_memory_suffices(c, *job.spectrum))) return false;
+    const double once = job.settings.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
+    const double grids = job.spectrum ? kWithCoarser : kWithFiner;
+    const double points = c.elements.points_per_wave;
+    return !job.levels.empty() && once * grids * element_seconds(job, likely_separation(job, job.levels.back()), points) < kAutoSeconds;
+}
 
 ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,
                               const std::function<bool()>& stop) {
     ComparedLevels c;
-    if (job.settings.compare.levels.empty() || levels.empty()) return c;
-    Surface surface = make_element_surface(job.settings, number, threads);
-    HeightMap& map = surface.map;
-    map.x0 = job.site.domain.x0;  // of several measured maps the first one says where they lie
-    map.y0 = job.site.domain.y0;
-    const std::unique_ptr<Contact> elements = make_element_contact(map, job.indenter, job.solver);
-    Contact& contact = *elements;
-    if (table) *table << "\ncompared with elements on " << map.nx << " x " << map.ny << " points (asperities over elements - 1):\n";
+    if (levels.empty()) return c;
+    Reference reference(job, number, threads);
+    const bool by_force = job.settings.indentation.control != Control::separation && !reference.contact().path_dependent();
+    if (table) *table << "\ncompared with elements (asperities over elements - 1" << (by_force ? ", at equal force" : "") << "):\n";
     std::size_t next = 0;
     bool on_path = true;  // elements have gone through all levels that matter
-    for (const std::size_t step : steps_to_compare(job, levels, contact.path_dependent())) {
+    for (const std::size_t step : steps_to_compare(job, levels, reference.contact().path_dependent())) {
         const LevelValues& level = levels[step];
         Level truth;
+        std::optional<GridError> own;
         try {
-            for (; contact.path_dependent() && next < step; ++next)
+            for (; reference.contact().path_dependent() && next < step; ++next)
                 if (turns(levels, next))
-                    on_path = contact.at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
-            truth = contact.at_separation(level.separation);
+                    on_path = reference.contact().at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
+            truth = reference.solve(level, by_force, own);
         } catch (const Error& error) {  // two flats nearer than the mean planes: only asperities can be
             if (error.kind() != Failure::bad_input) throw;
             if (table)
@@ -95,11 +185,16 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
         c.area.push_back(truth.area);
         c.area_pixels.push_back(truth.area_pixels);
         c.residual.push_back(truth.residual);
-        c.force_error.push_back(error(level.force, truth.force));
+        c.force_error.push_back(by_force ? kNotComputed : error(level.force, truth.force));
+        c.separation_error.push_back(by_force && found ? level.separation - truth.separation : kNotComputed);
         c.area_error.push_back(error(level.area, truth.area));
         c.contacts_error.push_back(error(level.contacts, truth.contacts));
+        c.force_error_expected.push_back(own ? own->force : kNotComputed);
+        c.area_error_expected.push_back(own ? own->area : kNotComputed);
+        c.columns.push_back(reference.map().nx);
+        c.rows.push_back(reference.map().ny);
         c.pixels = std::move(truth.pixels);
-        if (table) print(*table, job, c, level);
+        if (table) print(*table, job, c, level, by_force);
         if (stop()) break;
     }
     return c;

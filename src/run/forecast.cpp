@@ -62,13 +62,14 @@ double area_under(const Job& job, double Z0) {
     return std::min(everywhere, 2 * 3.14159265358979 * job.indenter.R * mean_excess(Z0, job.sigma, 1));
 }
 
+// Points of the surface that elements stand on.
+double points_of_elements(const Job& job, double points_per_wave) {
+    if (job.given_heights) return static_cast<double>(job.given_heights->nx) * job.given_heights->ny;
+    return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
+}
+
 // A level by elements: so much for each point under the sphere, or, between flats that repeat, for each of the period.
-double element_level_seconds(const Job& job, double Z0) {
-    double points = 0;
-    if (job.given_heights)
-        points = static_cast<double>(job.given_heights->nx) * job.given_heights->ny;
-    else if (job.spectrum)
-        points = std::pow(element_points(job.settings, *job.spectrum), 2);
+double element_level_seconds(const Job& job, double Z0, double points) {
     if (job.indenter.period.finite()) return 1e-6 * points;
     return 5e-6 * points * area_under(job, Z0) / (job.site.domain.Lx * job.site.domain.Ly);
 }
@@ -105,13 +106,25 @@ double expected_candidates(const Job& job, double Z0) {
     return area_under(job, Z0) / (job.site.mean_spacing * job.site.mean_spacing);
 }
 
+double likely_separation(const Job& job, double level) {
+    if (job.settings.indentation.control == Control::separation) return level;
+    return job.given ? 0.0 : separation_at(job, level);
+}
+
+double element_seconds(const Job& job, double Z0, double points_per_wave) {
+    constexpr double making = 1.2e-7;  // a point of a made surface
+    const double points = points_of_elements(job, points_per_wave);
+    return (job.spectrum ? making * points : 0) + element_level_seconds(job, Z0, points);
+}
+
 double expected_seconds(const Job& job, double workers) {
     const bool force = job.settings.indentation.control != Control::separation;
-    const bool elements = job.settings.solver.model == Model::elements;
+    const bool elements = by_elements(job.settings);
     double one = job.given ? 0 : surface_seconds(job.settings);
     for (const double level : job.levels) {
-        const double Z0 = !force ? level : job.given ? 0.0 : separation_at(job, level);
-        const double once = elements ? element_level_seconds(job, Z0) : level_seconds(job, expected_candidates(job, Z0));
+        const double Z0 = likely_separation(job, level);
+        const double once = elements ? element_level_seconds(job, Z0, points_of_elements(job, job.settings.elements.points_per_wave))
+                                     : level_seconds(job, expected_candidates(job, Z0));
         const bool at_once = !force || (elements && job.indenter.period.finite());
         one += at_once ? once : 6 * once;  // some six separations for a force
     }

@@ -8,10 +8,14 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
+#include "contact/ranking.hpp"
 #include "error.hpp"
 #include "format.hpp"
 #include "read/file_list.hpp"
+#include "rough/synthesis.hpp"
 #include "run/friction_loops.hpp"
+#include "run/level_checks.hpp"
+#include "run/resolution.hpp"
 
 namespace rsc {
 namespace {
@@ -51,17 +55,43 @@ void move_to(const Domain& place, Ground& ground, std::int64_t number) {
     ground.site.domain = place;
 }
 
+// The m2 that relative pressures are measured by, the same for all realizations: of the map read, of the one surface made, or of several
+// what the modes of the square give in expectation. Negative or NaN: not known.
+double m2_of_pressures(const Job& job) {
+    if (!job.spectrum) return job.given ? job.given->statistics.m2 : kAbsent;
+    const Case& c = job.settings;
+    if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2;
+    const int n = 2 * static_cast<int>(std::ceil(job.spectrum->L_lambda_s)) + 2;  // the modes are the same on every grid
+    return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1).sampled().m2;
+}
+
+// How much the heights of a map jump across the seam where it repeats, over what they do between its points (rms).
+double seam(const HeightMap& map) {
+    double across = 0, within = 0;
+    long n_across = 0, n_within = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            const double right = map((i + 1) % map.nx, j) - map(i, j), up = map(i, (j + 1) % map.ny) - map(i, j);
+            const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
+            (at_end ? across : within) += right * right;
+            (at_top ? across : within) += up * up;
+            ++(at_end ? n_across : n_within), ++(at_top ? n_across : n_within);
+        }
+    return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
+}
+
 }  // namespace
 
 Job prepare(const Case& settings) {
     Job job;
     job.settings = settings;
-    const bool elements = settings.solver.model == Model::elements;
+    const bool elements = by_elements(settings);
     double sqrt_m4;
     if (has_spectrum(settings)) {
         job.spectrum = spectrum_of(settings);
-        if (elements || !settings.compare.levels.empty()) require_element_memory(settings, *job.spectrum);
+        if (elements || settings.compare.listed()) require_element_memory(settings, *job.spectrum);
         job.site = synthetic_site(*job.spectrum);
+        job.site.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
     } else {
@@ -69,7 +99,8 @@ Job prepare(const Case& settings) {
         if (settings.surface.source == Source::heights) {
             Surface surface = make_surface(settings, settings.run.first_realization, 1);
             ground = elements ? make_bare_ground(surface) : make_ground(surface, settings, 1);
-            if (settings.output.heights || elements || !settings.compare.levels.empty()) job.given_heights = std::move(surface.map);
+            if (surface.map.periodic) job.seam = seam(surface.map);
+            job.given_heights = std::move(surface.map);
         } else {
             ground = make_ground(settings, 1, 1);
         }
@@ -88,12 +119,19 @@ Job prepare(const Case& settings) {
     job.solver = solver_of(settings, job.site);
     job.indenter = indenter_of(settings, job.site);
 
+    if (!elements && job.given && job.given_heights) {
+        const HeightMap& map = *job.given_heights;
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i)
+                job.points_touch =
+                    std::max(job.points_touch, height_under_sphere(job.indenter, map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
+    }
+
     const auto& indentation = settings.indentation;
     job.levels = spaced(indentation);
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
-        // Into forces. m2 is the spectrum's, so that a pressure is the same for every realization, or that of the map read.
-        const double m2 = job.theory ? job.theory->m2 : job.given->statistics.m2, full = job.indenter.E_star * std::sqrt(2 * m2);
+        const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
         const bool relative = indentation.unit == LevelUnit::relative;
         if (relative && !(m2 > 0)) {
             throw Error(Failure::bad_input,
@@ -101,9 +139,10 @@ Job prepare(const Case& settings) {
         }
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
-            if (level * unit >= kClosingPressure * full)
+            if (!elements && level * unit >= kClosingPressure * full)
                 throw Error(Failure::bad_input,
-                            format("indentation: a pressure of %g closes the gap altogether: it must be below E* sqrt(2 m2) = %g",
+                            format("indentation: a pressure of %g: from E* sqrt(2 m2) = %g on less than 5 %% of the area is gap, and no "
+                                   "asperities are left to speak of; solver%%model = 'elements' goes on until the gap is closed",
                                    level * unit, full));
         }
         job.level_unit = unit * job.indenter.period.area();
@@ -117,7 +156,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     Realization r;
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
-    if (settings.solver.model == Model::elements) {
+    std::optional<ResolutionCheck> resolution;  // of elements, of a single run
+    if (by_elements(settings)) {
         if (job.given) {
             r.statistics = job.given->statistics;
         } else {
@@ -130,7 +170,9 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             r.statistics = ground.statistics;
             r.heights = std::move(surface.map);
         }
-        contact = make_element_contact(job.given ? *job.given_heights : *r.heights, job.indenter, job.solver);
+        const HeightMap& map = job.given ? *job.given_heights : *r.heights;
+        contact = make_element_contact(map, job.indenter, job.solver);
+        if (settings.run.realizations == 1) resolution.emplace(job, number, threads, map);
     } else {
         if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
         Ground ground = job.spectrum ? make_ground(settings, *job.spectrum, number, threads)
@@ -155,6 +197,10 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         }
         Level& level = r.levels.back();
         add_answers(*contact, level, settings.solids.resistivity);
+        if (resolution) resolution->judge(k, level);
+        if (job.measured && job.given) judge_filled(level, *job.measured, job.site.domain);
+        if (level.force == 0 && level.separation < job.points_touch)  // points touch where no summit is
+            level.status = graver(level.status, LevelStatus::out_of_validity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
         if (on_level && !on_level(k, r.levels.back())) break;
     }

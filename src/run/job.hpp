@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,8 +29,10 @@ struct Job {
     ObserveOptions observe;
     // What was read, if it is the same in every realization.
     std::optional<Ground> given;
-    std::shared_ptr<const Measured> measured;  // of a measured map, the first of several
-    std::optional<HeightMap> given_heights;    // if the case, or its elements, want them
+    std::shared_ptr<const Measured> measured;                        // of a measured map, the first of several
+    double points_touch = -std::numeric_limits<double>::infinity();  // of a map read, by asperities: Z0 at which one of its points touches
+    double seam = 0;                         // of a map that is to repeat: its jump across the border over those between points
+    std::optional<HeightMap> given_heights;  // if the case, or its elements, want them
 };
 
 // Reads what the case names, works out levels, domain and ranges. Throws Error(bad_input) for what cannot be run.

@@ -158,6 +158,15 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
     throw Error(Failure::bad_input, text);
 }
 
+bool element_memory_suffices(const Case& settings, const Spectrum& spectrum) {
+    try {
+        require_element_memory(settings, spectrum);
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
+
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads) {
     if (!has_spectrum(settings)) return make_surface(settings, number, threads);
     const Spectrum spectrum = spectrum_of(settings);
@@ -194,7 +203,7 @@ Site list_site(const Asperities& asperities, std::optional<double> L, const std:
 Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     const HeightMap& map = surface.map;
     Ground ground;
-    if (settings.solver.model == Model::elements) {
+    if (by_elements(settings)) {
         ground = make_bare_ground(surface);
         auto copy = std::make_shared<HeightMap>();
         copy->allocate(map.nx, map.ny, map.nx);
@@ -227,7 +236,9 @@ Ground make_bare_ground(const Surface& surface) {
     Ground ground;
     ground.measured = surface.origin.measured;
     ground.site.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
+    if (!surface.origin.theory) ground.site.half_step_x = 0.5 * map.dx, ground.site.half_step_y = 0.5 * map.dy;
     ground.site.sigma = surface.origin.sigma;
+    ground.site.points_per_wave = ground.measured ? ground.measured->points_per_wave() : surface.origin.points_per_wave;
     if (surface.origin.theory) ground.site.mean_spacing = surface.origin.theory->mean_spacing();
     auto& s = ground.statistics;
     const Moments grid = grid_moments(map);
@@ -246,6 +257,7 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
     const auto& keys = settings.surface;
     Ground ground;
     ground.site = synthetic_site(spectrum);
+    ground.site.points_per_wave = keys.n / spectrum.L_lambda_s;
     SummitCount count;
     Moments sampled, differences;
     ground.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
@@ -262,7 +274,7 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
 }
 
 Ground make_ground(const Case& settings, std::int64_t number, int threads) {
-    if (settings.solver.model == Model::elements) {
+    if (by_elements(settings)) {
         Surface surface = make_element_surface(settings, number, threads);
         Ground ground = make_bare_ground(surface);
         ground.points = std::make_shared<HeightMap>(std::move(surface.map));
@@ -300,7 +312,8 @@ Indenter indenter_of(const Case& settings, const Site& site) {
     const auto& centre = settings.indentation.centre;
     const Domain& d = site.domain;
     const Indenter indenter{equivalent_modulus(settings.solids.E, settings.solids.nu), equivalent_radius(settings.solids.R),
-                            centre[0].value_or(d.x0 + 0.5 * d.Lx), centre[1].value_or(d.y0 + 0.5 * d.Ly), period_of(settings, site)};
+                            centre[0].value_or(d.x0 + 0.5 * d.Lx - site.half_step_x),
+                            centre[1].value_or(d.y0 + 0.5 * d.Ly - site.half_step_y), period_of(settings, site)};
     try {
         require_tip_above(site, indenter.R, indenter.x0, indenter.y0);
     } catch (const Error& error) {
@@ -333,6 +346,7 @@ SolverOptions solver_of(const Case& settings, const Site& site) {
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
     options.mean_spacing = site.mean_spacing;
+    options.points_per_wave = site.points_per_wave;
     const bool free = settings.indentation.boundary == Boundary::free;
     if (!site.guessed && free) options.surface = {site.domain.x0, site.domain.y0, site.domain.Lx, site.domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {

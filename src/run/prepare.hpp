@@ -50,6 +50,9 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
 // Points a side of the grid of elements on a synthetic surface: points_per_wave in the shortest wave, or a few more.
 int element_points(const Case& settings, const Spectrum& spectrum);
 
+// Whether that grid is allowed and has room in memory.
+bool element_memory_suffices(const Case& settings, const Spectrum& spectrum);
+
 // Throws Error(bad_input) saying how much memory that grid takes when the machine has less.
 void require_element_memory(const Case& settings, const Spectrum& spectrum);
 
@@ -58,10 +61,13 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
 
 // What a contact has to know of the surface beside its asperities.
 struct Site {
-    Domain domain;            // the surface's rectangle
-    double sigma = 0;         // rms height of the surface, or of the asperities of a list [length]
-    bool guessed = false;     // the rectangle is made up: asperities of a list, and no surface%L
-    double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
+    Domain domain;               // the surface's rectangle
+    double sigma = 0;            // rms height of the surface, or of the asperities of a list [length]
+    bool guessed = false;        // the rectangle is made up: asperities of a list, and no surface%L
+    double mean_spacing = 0;     // <d> of the asperities [length]; 0: not known (a single one)
+    double points_per_wave = 0;  // of the grid its summits are found on, in the shortest wave; 0: not known
+    // Of a map read, whose points are cells from [0, dx] on: half a step, by which their middle is below that of the rectangle.
+    double half_step_x = 0, half_step_y = 0;
 };
 
 // Asperities, or the points of the surface themselves, and what is known of where they come from.
@@ -99,7 +105,7 @@ void require_tip_above(const Site& site, double R, double x, double y);
 // The same without asperities, for elements: summits are not looked for.
 Ground make_bare_ground(const Surface& surface);
 
-// E* and R from &solids, the tip above indentation%centre, by default the middle of the surface.
+// E* and R from &solids, the tip above indentation%centre, by default the middle of the surface, or of the points of a map.
 Indenter indenter_of(const Case& settings, const Site& site);
 
 // The sides of the surface with indentation%boundary = 'periodic'.

@@ -16,6 +16,7 @@ struct RunOptions {
     std::vector<std::string> inputs;  // files that the case was read from: no result is written over them
     Progress progress = Progress::never;
     bool quiet = false;                            // no table; the summary's warnings and failures are still told on `messages`
+    bool compare_automatically = false;            // what compare%levels = 'auto' stands for is done: by the program, in single runs
     bool resume = false;                           // a campaign: go on with what an interrupted run left
     std::ostream* table = nullptr;                 // the level table and the summary; null: none
     std::ostream* messages = nullptr;              // warnings, progress; null: none

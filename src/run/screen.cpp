@@ -7,10 +7,13 @@
 #include <utility>
 
 #include "case/units.hpp"
+#include "contact/expected_error.hpp"
 #include "contact/validity.hpp"
 #include "format.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
+#include "run/level_checks.hpp"
+#include "run/resolution.hpp"
 
 namespace rsc {
 namespace {
@@ -52,6 +55,10 @@ void print_case(std::ostream& out, const Job& job) {
     else
         out << format("sphere R = %g %s on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.R, l, job.indenter.E_star, f,
                       l, job.sigma, l);
+    if (job.settings.solver.model == Model::automatic) {
+        const ModelChoice choice = model_of(job.settings);
+        out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
+    }
     if (job.theory) {
         const Moments& m = *job.theory;
         out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s, transition force N* %.5g %s\n",
@@ -64,6 +71,12 @@ void print_measured(std::ostream& out, const Job& job) {
     if (!job.measured) return;
     if (!job.given) out << "the first of the maps:\n";
     for (const std::string& line : told(*job.measured, job.settings.run.length_unit)) out << line << '\n';
+    constexpr double most = 3;
+    if (job.seam > most)
+        out << format(
+            "warning: the map does not repeat: across its border heights jump %.2g times as far as between its points; contacts at "
+            "that seam are made up\n",
+            job.seam);
 }
 
 // The columns after the first three are the level's declared quantities (observe/quantities.hpp).
@@ -114,7 +127,10 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
     out << '\n';
 }
 
-void print_statuses(std::ostream& out, std::span<const LevelValues> levels, double sigma, bool elements) {
+void print_statuses(std::ostream& out, std::span<const LevelValues> levels, const Job& job, bool elements) {
+    const double sigma = job.sigma, points_touch = job.points_touch;
+    const std::string remedy = job.spectrum ? format("elements%%points_per_wave = %g would.", 2 * job.settings.elements.points_per_wave)
+                                            : "the map has no more points; contacts there are of few of them.";
     const auto count = [&](auto holds) { return static_cast<long>(std::count_if(levels.begin(), levels.end(), holds)); };
     const auto tell = [&](long found, const std::string& what) {
         if (found > 0) out << format("  %ld of %zu levels: ", found, levels.size()) << what << '\n';
@@ -125,12 +141,27 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, doub
     // What makes a level out_of_validity; told also where a more serious status hides that one.
     tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
          "contacts within <d> of the surface's border - what would carry beyond it is missing: N is too small.");
+    tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
+         "more than 1 % of the contact area on points that were missing (filled_share): elements and spots press what was filled in.");
+    if (elements) {
+        double worst = 0;
+        for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // a NaN is no larger
+        tell(count([](const LevelValues& l) { return l.force_error_expected > kUnresolved; }),
+             format("a finer grid may change N by more than 1 %%, at most by %.2g %% (force_error_expected); ", 100 * worst) + remedy);
+    }
     if (!elements) {
+        tell(count([points_touch](const LevelValues& l) { return l.force == 0 && l.separation < points_touch; }),
+             "points of the map touch where no summit does: N is not 0; see solver%model = 'elements'.");
         tell(
             count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
             "separation below -3 sigma - the sphere's tip lies under all but a thousandth of the surface: the asperity model is out of its range.");
         tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
              "contact area above the nominal area under the sphere - the asperity model is out of its range.");
+        std::map<std::int32_t, long> causes;
+        for (const LevelValues& l : levels) causes[l.error_cause] += l.force_error_expected > kMuchError;
+        for (const auto& [cause, found] : causes)
+            tell(found, "N may be more than 10 % off elements (force_error_expected)" +
+                            (cause > 0 ? std::string(", most of it by ") + error_cause(cause) : "") + ".");
         tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
              "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is leaving its range.");
     }
@@ -143,6 +174,15 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, doub
         "spots so deep in each other that other solutions may exist: the one given is a local minimum of the energy, reached by a fixed rule.");
     tell_status(LevelStatus::not_converged,
                 "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
+}
+
+// "N = 1.23 N +- 5 %": the last level of a single run and how far it may be from the truth.
+void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+    const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) { return l.force_error_expected >= 0; });
+    if (job.settings.run.realizations > 1 || last == levels.rend()) return;
+    const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    out << format("level %td: N = %.4g %s +- %.2g %%, A = %.4g %s2 +- %.2g %%: kept in nine of ten cases\n", levels.rend() - last,
+                  last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
 }
 
 // What a run with hardness ends in.
@@ -162,20 +202,46 @@ void print_yielding(std::ostream& out, std::span<const LevelValues> levels, cons
     out << ". Levels depend on those before them.\n";
 }
 
+// Dundurs' second parameter: what couples normal and tangential problem; 0 for equal bodies.
+double coupling(const Case::Solids& s) {
+    const auto compliance = [&](int i) { return std::isinf(s.E[i]) ? 0.0 : 2 * (1 + s.nu[i]) / s.E[i]; };  // 1/G
+    const double above = (1 - 2 * s.nu[0]) * compliance(0) - (1 - 2 * s.nu[1]) * compliance(1);
+    const double below = 2 * ((1 - s.nu[0]) * compliance(0) + (1 - s.nu[1]) * compliance(1));
+    return above / below;
+}
+
+// What the keys of the case leave out.
+void print_words(std::ostream& out, const Job& job, bool elements) {
+    const Case& c = job.settings;
+    constexpr double much_coupling = 0.05, least_points = 5;
+    if (c.solids.friction > 0 && std::abs(coupling(c.solids)) > much_coupling)
+        out << format(
+            "  friction between unlike bodies: pressure pushes sideways, too (Dundurs' beta = %.2f); that coupling is left out of the tangential "
+            "forces.\n",
+            coupling(c.solids));
+    if (elements) return;
+    const double points = job.spectrum   ? c.surface.n / job.spectrum->L_lambda_s
+                          : job.measured ? job.measured->points_per_wave()
+                                         : least_points;
+    if (c.asperities.law == LawKind::hertz && points < least_points)
+        out << format(
+            "  law 'hertz' on %.2g points in the shortest wave: summits between the points are missed, N is too low near first contact (by half "
+            "at 3 points); 5 and more, or law 'fourth_order', see them.\n",
+            points);
+    if (c.indentation.selection == Selection::paper && c.indentation.selection_factor < 1.5)
+        out << format(
+            "  selection = 'paper' with a factor of %g leaves out asperities that touch: N may be too low by more than half; 'overlap' leaves out "
+            "none.\n",
+            c.indentation.selection_factor);
+}
+
 }  // namespace
 
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
-    const bool elements = job.settings.solver.model == Model::elements;
+    const bool elements = by_elements(job.settings);
     if (!elements) print_methods(out, levels);
-    print_statuses(out, levels, job.sigma, elements);
-    const auto much = std::count_if(levels.begin(), levels.end(), [](const LevelValues& level) {
-        return static_cast<double>(level.beyond_law) > kMuchBeyondLaw * level.contacts;
-    });
-    if (much > 0 && !std::isfinite(job.settings.solids.hardness))
-        out << format(
-            "  %ld of %zu levels: spots cover much of each other, more than %.0f %% of the contacts lie beyond the law. Against elements on "
-            "such surfaces the area was 32 %% too low on average (1 to 56), the force 7 %% (0 to 26): see &compare.\n",
-            static_cast<long>(much), levels.size(), 100 * kMuchBeyondLaw);
+    print_bounds(out, levels, job);
+    print_statuses(out, levels, job, elements);
     const auto extreme = std::max_element(levels.begin(), levels.end(), [](const LevelValues& p, const LevelValues& q) {
         return p.extreme_area_fraction < q.extreme_area_fraction;
     });
@@ -185,6 +251,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
             "bounds them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
     print_yielding(out, levels, job);
+    print_words(out, job, elements);
     std::int64_t crowded = 0;
     for (const LevelValues& level : levels) crowded += level.crowded_cells;
     if (crowded > 0 && !elements)

@@ -29,7 +29,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     const char* l = job.settings.run.length_unit.c_str();
     char line[600];
     out << '\n';
-    if (job.settings.solver.model == Model::elements)
+    if (by_elements(job.settings))
         std::snprintf(line, sizeof line, "elements, %zu levels in %s\n", levels.size(), duration(seconds).c_str());
     else
         std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %zu levels in %s\n", static_cast<long long>(s.summits),
@@ -109,7 +109,9 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const RealizationRecord record = observe(job, settings.run.first_realization, r);
     sums.add(record);
     const auto stopped = [&] { return caught_signal() != 0 || (options.abandoned && *options.abandoned); };
-    ComparedLevels compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, stopped);
+    ComparedLevels compared;
+    if (compares(job, options.compare_automatically))
+        compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, stopped);
     if (const int signal = caught_signal())
         throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
     if (options.abandoned && *options.abandoned) throw Interrupted(0, "abandoned");

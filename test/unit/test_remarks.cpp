@@ -30,9 +30,9 @@ void thresholds() {
         std::ostringstream out;
         print_remarks(out, levels, job);
         CHECK(out.str().starts_with("method: direct (2 levels)\n") || levels[1].method != Method::direct ||
-              job.settings.solver.model == Model::elements);
+              by_elements(job.settings));
         const std::size_t line = out.str().find('\n');
-        return job.settings.solver.model == Model::elements ? out.str() : out.str().substr(line + 1);
+        return by_elements(job.settings) ? out.str() : out.str().substr(line + 1);
     };
     using V = LevelValues;
     const auto starts = [](const std::string& text, const std::string& with) {

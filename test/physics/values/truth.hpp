@@ -240,7 +240,7 @@ struct Truth {
         steps = r[0].levels.size(), M = r.size();
         list = c.surface.source == Source::asperities;
         synthetic = has_spectrum(c);
-        elements = c.solver.model == Model::elements;
+        elements = by_elements(c);
         periodic = c.indentation.boundary == Boundary::periodic;
         hertz = !elements && c.asperities.law == LawKind::hertz;
         for (int k = 0; k < c.run.realizations && !list; ++k)

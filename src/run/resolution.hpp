@@ -1,0 +1,64 @@
+// How far the answer of elements depends on their grid.
+//
+// A made surface is solved once more on a grid of half as many points a side, a quarter of the work; a map read from a file, of which
+// coarser points would be another surface, on twice as many, interpolated by its own cosine series (rough/resample.hpp). What N changes
+// says what is left to change: the error of elements falls at least as the first power of the grid's step, so half of what N changed
+// on the way to the grid, or all of what it changes beyond it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "contact/contact.hpp"
+#include "run/job.hpp"
+#include "run/prepare.hpp"
+
+namespace rsc {
+
+// N of elements that changes by more than this with the grid makes a level out_of_validity.
+inline constexpr double kUnresolved = 0.01;
+
+// Expected errors of N and A, relative; both are bounds by the argument above.
+struct GridError {
+    double force = 0, area = 0;
+};
+
+// Beside a contact of elements, the same on the other grid.
+class OtherGrid {
+public:
+    // `map`: the heights that the contact stands on, at points_per_wave if they are made. There may be no other grid (a map too large to
+    // be worth it, two flats of a map): then error() has nothing.
+    OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave);
+    // Likewise of two contacts that exist: `coarse` has half the points of the one judged.
+    explicit OtherGrid(std::unique_ptr<Contact> coarse) : contact_(std::move(coarse)), coarser_(true) {}
+    ~OtherGrid();
+
+    bool exists() const { return contact_ != nullptr; }
+    // What a level by elements may be off. Nothing without another grid, or if it did not converge there.
+    std::optional<GridError> error(const LevelValues& level);
+    // A level that must be visited though it is not judged: where the path of a surface that yields turns.
+    void visit(double separation);
+
+private:
+    std::optional<HeightMap> map_;
+    std::unique_ptr<Contact> contact_;
+    bool coarser_ = false;
+};
+
+// Judges the levels of a run one after the other: each has the error of the last one that was solved on the other grid, which is done
+// anew once contacts have grown or shrunk.
+class ResolutionCheck {
+public:
+    ResolutionCheck(const Job& job, std::int64_t number, int threads, const HeightMap& map);
+    // Fills force_error_expected and area_error_expected of level `step` and raises its status where they say so.
+    void judge(std::size_t step, Level& level);
+
+private:
+    const Job& job_;
+    OtherGrid other_;
+    std::optional<GridError> last_;
+    double pixels_ = 0;  // pixels_per_contact there
+};
+
+}  // namespace rsc

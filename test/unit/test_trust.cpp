@@ -1,0 +1,243 @@
+// What a level is worth: status, expected errors, grids of elements, borders, filled points, means of levels that failed.
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "case/registry.hpp"
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/expected_error.hpp"
+#include "contact/spots.hpp"
+#include "observe/map.hpp"
+#include "rough/resample.hpp"
+#include "run/job.hpp"
+#include "run/level_checks.hpp"
+#include "unit/temporary_folder.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double kRounding = 1e-12;
+
+HeightMap map_of(int nx, int ny, double step, auto&& height) {
+    HeightMap map;
+    map.allocate(nx, ny, nx);
+    map.dx = map.dy = step;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) map.row(j)[i] = height(i, j);
+    return map;
+}
+
+// 4 hides all, 1 hides 2 and 3, and the order of two does not matter.
+void statuses() {
+    using enum LevelStatus;
+    const LevelStatus order[] = {converged, overlapping, not_unique, out_of_validity, not_converged};
+    for (int a = 0; a < 5; ++a)
+        for (int b = 0; b < 5; ++b) CHECK(graver(order[a], order[b]) == order[std::max(a, b)]);
+}
+
+// Levels that failed, and values that are not there, leave the mean; the rest is as if they had never been.
+void means() {
+    Observations o;
+    o.realizations = 4, o.steps = 1;
+    for (const double force : {1.0, 2.0, 6.0, 100.0}) {
+        LevelValues level;
+        level.force = force;
+        level.resistance = force > 1 ? force : kNotComputed;
+        if (force == 100) level.status = LevelStatus::not_converged;
+        o.rows.push_back(level);
+    }
+    const LevelStatistics force = o.statistics([](const LevelValues& l) { return l.force; });
+    CHECK(force.count[0] == 3 && force.mean[0] == 3.0);
+    CHECK_RELATIVE(force.deviation[0], std::sqrt(7.0), kRounding);
+    CHECK_RELATIVE(force.error[0], std::sqrt(7.0 / 3), kRounding);
+    const LevelStatistics resistance = o.statistics([](const LevelValues& l) { return l.resistance; });
+    CHECK(resistance.count[0] == 2 && resistance.mean[0] == 4.0);
+    const LevelStatistics none = o.statistics([](const LevelValues&) { return kNotComputed; });
+    CHECK(none.count[0] == 0 && std::isnan(none.mean[0]));
+}
+
+// A map covered by contact, whatever its cells: the fraction is the same in each, and nothing is lost.
+void cells() {
+    for (const int cells : {7, 32, 50, 64}) {
+        constexpr int n = 32;
+        Level level;
+        level.pixels.columns = n;
+        level.pixels.dx = level.pixels.dy = 0.25;
+        for (int k = 0; k < n * n; ++k)
+            level.pixels.index.push_back(k), level.pixels.contact.push_back(0), level.pixels.pressure.push_back(3.0);
+        level.add_contact(0, 4, 4, 3.0 * 64, std::sqrt(64 / pi), 0);
+        const MapGrid grid = make_map_grid(0, 0, 8, 8, cells);
+        const MapLevel map = map_level(grid, level);
+        CHECK(map.cell.size() == static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
+        double worst = 0, N = 0;
+        for (std::size_t k = 0; k < map.cell.size(); ++k) {
+            worst = check::worse(worst, std::abs(map.area[k] / (grid.side * grid.side) - 1));
+            N += map.force[k];
+        }
+        CHECK_CLOSE(worst, 0, 1e-10);
+        CHECK_RELATIVE(N, 192.0, 1e-10);
+    }
+}
+
+// What each spot has for itself adds up to the union; of two in one place one has all.
+void own_areas() {
+    std::vector<Spot> spots;
+    for (int k = 0; k < 40; ++k)
+        spots.push_back({std::fmod(0.37 * k, 1.0), std::fmod(0.71 * k, 1.0), 0.12 + 0.002 * k, 0.05 + 0.001 * k, 0.3 * k});
+    std::vector<double> own;
+    const double area = union_area(spots, nullptr, {}, &own);
+    double sum = 0, least = 1;
+    for (const double a : own) sum += a, least = std::min(least, a);
+    CHECK(own.size() == spots.size());
+    CHECK_RELATIVE(sum, area, 1e-10);
+    CHECK(least > -1e-12);
+    union_area({{0, 0, 1, 1, 0}, {0, 0, 0.5, 0.5, 0}}, nullptr, {}, &own);
+    CHECK_CLOSE(own[0] + own[1], pi, 1e-9);  // the smaller one, inside, has none or what the larger one does not
+    CHECK(own[0] > -1e-12 && own[1] > -1e-12);
+}
+
+// A sphere far larger than the map presses every point: the contact ends where the map does, which is no border of its own, and says so.
+void borders() {
+    const HeightMap map = map_of(20, 16, 0.1, [](int, int) { return 0.0; });
+    SolverOptions options;
+    options.surface = {0, 0, 2.0, 1.6};
+    ElementContact contact(map, {1e3, 1e4, 1.0, 0.8}, options);
+    const Level level = contact.at_separation(-0.1);
+    CHECK_RELATIVE(level.area, 2.0 * 1.6, kRounding);
+    CHECK_RELATIVE(level.area_pixels, 2.0 * 1.6, kRounding);
+    CHECK(level.edge_contacts == 1 && level.status == LevelStatus::out_of_validity);
+    CHECK(level.pixels_per_contact == 320);
+}
+
+// A cosine of the map's own series is known between its points.
+void finer() {
+    const auto wave = [](double x, double y) { return 1.5 + std::cos(3 * pi * x) * std::cos(5 * pi * y); };
+    const HeightMap map = map_of(16, 12, 1.0, [&](int i, int j) { return wave((i + 0.5) / 16, (j + 0.5) / 12); });
+    const HeightMap fine = twice_as_fine(map);
+    double worst = 0;
+    for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 32; ++i) worst = check::worse(worst, std::abs(fine(i, j) - wave((i + 0.5) / 32, (j + 0.5) / 24)));
+    CHECK_CLOSE(worst, 0, 1e-12);
+    CHECK(fine.dx == 0.5 && fine.x0 == -0.25);
+}
+
+void models() {
+    Case c;
+    CHECK(!by_elements(c));
+    c.surface.source = Source::heights;
+    CHECK(by_elements(c));
+    c.solids.friction = 0.1;
+    CHECK(!by_elements(c));
+    c.solids.friction = 0;
+    c.compare.levels = {1};
+    CHECK(!by_elements(c));
+    c.solver.model = Model::elements;
+    CHECK(by_elements(c));
+}
+
+void words() {
+    Case c;
+    CHECK(get_key(c, "compare%levels") == "'auto'");
+    set_key(c, "compare%levels", "'none'");
+    CHECK(get_key(c, "compare%levels") == "'none'" && !c.compare.listed());
+    set_key(c, "compare%levels", "2.0, 1.0");
+    CHECK((c.compare.levels == std::vector<double>{2, 1}));
+    set_key(c, "compare%levels", "'auto'");
+    CHECK(c.compare.levels.empty() && c.compare.what == CompareWhat::automatic);
+    CHECK_THROWS(set_key(c, "compare%levels", "'some'"), Error);
+    CHECK_THROWS(set_key(c, "compare%levels", "'none', 2.0"), Error);
+}
+
+void filled() {
+    Measured map;
+    map.nx = map.ny = 4;
+    map.dx = map.dy = 1;
+    map.filled.assign(16, 0);
+    map.filled[5] = 1;  // the point (1, 1)
+    Level level;
+    level.add_contact(0, 1, 1, 1, 1.2, 0);  // over (1, 1) and its four neighbours
+    judge_filled(level, map, {0, 0, 4, 4});
+    CHECK_RELATIVE(level.filled_share, 0.2, kRounding);
+    CHECK(level.status == LevelStatus::out_of_validity);
+    level = {};
+    level.add_contact(0, 3, 3, 1, 0.5, 0);
+    judge_filled(level, map, {0, 0, 4, 4});
+    CHECK(level.filled_share == 0 && level.status == LevelStatus::converged);
+}
+
+// A smooth sphere on coarse pixels of a map that is read: N is Hertz's, and the error told is at least the one there is.
+void resolution() {
+    const Folder folder;
+    const std::string path = folder / "flat.txt";
+    std::ofstream file(path);
+    for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i) file << ((i + j) % 2 ? "1e-9" : "-1e-9") << (i < 23 ? ' ' : '\n');
+    file.close();
+    Case c;
+    c.surface.source = Source::heights;
+    c.surface.file = path;
+    c.surface.L = 24.0;
+    c.indentation.unit = LevelUnit::length;
+    c.indentation.levels = {-0.004, -0.03, -0.2};
+    c.solids.R[1] = 200;
+    const Job job = prepare(c);
+    CHECK_CLOSE(job.indenter.x0, 11.5, kRounding);  // the middle of the points
+    const Realization r = realize(job, 1, 1);
+    CHECK(r.levels.size() == 3);
+    for (const Level& level : r.levels) {
+        const double N = 4.0 / 3 * job.indenter.E_star * std::sqrt(200.0) * std::pow(-level.separation, 1.5);
+        const double error = std::abs(level.force / N - 1);
+        CHECK(level.force_error_expected >= 0.5 * error);
+        CHECK((level.status == LevelStatus::out_of_validity) == (level.force_error_expected > 0.01));
+    }
+    CHECK(r.levels[0].status == LevelStatus::out_of_validity);
+    CHECK(r.levels[2].force_error_expected < r.levels[0].force_error_expected);
+}
+
+// Bounds are where a level touches and is of what they were fitted to, and what makes them worse never makes them smaller.
+void bounds() {
+    Asperities a;
+    a.x = {0.5}, a.y = {0.5}, a.z = {0}, a.radius = {0.1}, a.kappa1 = {10}, a.kappa2 = {10}, a.angle = {0};
+    SolverOptions options;
+    options.mean_spacing = 0.1;
+    options.points_per_wave = 8;
+    const Indenter indenter{1e3, 10, 0.5, 0.5};
+    Level level;
+    level.add_contact(0, 0.5, 0.5, 1, 0.02, 0.004);
+    level.force = 1;
+    expect_error(level, a, indenter, options);
+    const double least = level.force_error_expected;
+    CHECK(least > 0 && level.area_error_expected > 0);
+    for (double LevelValues::*const member : {&LevelValues::slope_ratio}) {
+        level.*member = 2;
+        expect_error(level, a, indenter, options);
+        CHECK(level.force_error_expected >= least);
+    }
+    Level untouched;
+    expect_error(untouched, a, indenter, options);
+    CHECK(std::isnan(untouched.force_error_expected));
+    options.mean_spacing = 0;
+    level.force_error_expected = kNotComputed;
+    expect_error(level, a, indenter, options);
+    CHECK(std::isnan(level.force_error_expected));
+}
+
+}  // namespace
+
+TESTS {
+    statuses();
+    means();
+    cells();
+    own_areas();
+    borders();
+    finer();
+    models();
+    words();
+    filled();
+    resolution();
+    bounds();
+}
