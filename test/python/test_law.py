@@ -85,22 +85,6 @@ def uinter(props, k, displacements):
 
 
 class Springs(unittest.TestCase):
-    def test_points(self):
-        """Every level with contact is a point; the origin is the last level without."""
-        data = rsc.read(path("sphere"), xarray=False)
-        force, z = data["force_mean"], data["separation"]
-        first = np.flatnonzero(force > 0)[0]
-        self.assertGreater(first, 0)
-        for flag in ("--calculix", "--abaqus"):
-            text = run(path("sphere"), flag, "--name", "MINE")
-            self.assertIn("*SPRING, ELSET=MINE, NONLINEAR\n\n", text)
-            rows = points(text)
-            self.assertTrue(np.all(np.diff(rows[:, 1]) > 0) and np.all(np.diff(rows[:, 0])[:-1] > 0))  # elongation and force increase
-            self.assertTrue(np.array_equal(rows[-2], [0, 0]) and rows[-1, 0] == 0 < rows[-1, 1])  # no tension
-            self.assertTrue(np.allclose(-rows[-2::-1, 0], np.append(0, force[first:]), rtol=1e-9, atol=0))
-            self.assertTrue(np.allclose(-rows[-2::-1, 1], z[first - 1] - z[first - 1 :], rtol=1e-9, atol=1e-15))
-            self.assertIn("units: force N, approach mm", text)
-            self.assertIn(f"approach = {z[first - 1]:.9g} - separation", text)
 
     def test_scatter(self):
         data = rsc.read(path("campaign"), xarray=False)
@@ -120,10 +104,6 @@ class Springs(unittest.TestCase):
         self.assertIn("no level without contact", run(path("touching"), "--table"))
         n, d = found.load[1:3], found.approach[1:3]
         self.assertAlmostEqual((n[1] / n[0]) / (d[1] / d[0]) ** 1.5, 1, delta=1e-12)
-
-    def test_refused(self):
-        for name, words in (("far", "0 levels with contact"), ("flat", "boundary='periodic'"), ("nothing", "cannot read")):
-            self.assertIn(words, run(path(name), "--table"))
 
     def test_levels_that_failed(self):
         status = rsc.read(path("failed"), xarray=False)["status"][0]
@@ -200,12 +180,6 @@ class WholeText(unittest.TestCase):
         self.assertTrue(np.array_equal(rows[:, 1], [0, 1, 3, 4, 10, 14, 40]) and np.array_equal(rows[:, 0], [0, 1, 2.5, 3, 4, 5, 7]))
         self.assertTrue(np.array_equal(rows[:, [2, 4, 5]], np.zeros((7, 3))))
 
-    def test_the_same_load_twice(self):
-        """A load that does not grow is no point: the curve would be flat there. Nor is one that grows at the same separation."""
-        z, n = np.array([5.0, 4.0, 3.0, 2.0, 2.0, 1.0]), np.array([[0, 1, 1, 2.0, 2.5, 3]])
-        rows = np.array([[float(v) for v in line.split()] for line in run(made("twice", z, n, 10 * n, 0 * n), "--table").splitlines() if line[0] != "#"])
-        self.assertTrue(np.array_equal(rows[:, :2], [[0, 0], [1, 1], [3, 2], [4, 3]]), rows)
-
     def test_refused(self):
         none = np.zeros((3, 8))
         single = np.where(self.Z == 2, 5.0, none)
@@ -244,34 +218,6 @@ class Flats(unittest.TestCase):
         found = law.Law(file)
         self.assertEqual((found.unconverged, found.load.size), (1, 1 + self.Z.size - 1))
 
-    def test_points(self):
-        p = np.outer([0.9, 1.0, 1.1], np.where(self.Z < 0.0395, 1e4 * np.exp(-self.Z / 0.008), 0))
-        file = flats_file("flats", self.Z, p)
-        text = run(file, "--calculix")
-        self.assertIn("*SURFACE INTERACTION, NAME=ROUGH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n0, 0\n", text)
-        rows = points(text)
-        self.assertTrue(np.allclose(rows[:, 0], p.mean(axis=0), rtol=1e-9) and np.allclose(rows[:, 1], 0.04 - self.Z, rtol=1e-9, atol=1e-15))
-        self.assertIn("10 % of the pressure", text)
-        self.assertIn("units: pressure N mm-2, overclosure mm", text)
-
-    def test_falling_level(self):
-        file = flats_file("falling", self.Z, 1e4 * np.exp(-self.Z / 0.008), fall=10)
-        found = law.Law(file)
-        self.assertEqual((found.not_increasing, found.approach.size), (1, 21))  # 20 levels and the origin
-        self.assertTrue(np.all(np.diff(found.load) > 0) and np.all(np.diff(found.approach) > 0))
-
-    def test_pressure_control(self):
-        """Loads prescribed: separations are averaged at equal pressure, and scatter."""
-        z = np.array([0.9, 1.1])[:, None] * self.Z[None, :-1]
-        file = flats_file("pressed", self.Z[:-1], np.broadcast_to(1e4 * np.exp(-self.Z[:-1] / 0.008), z.shape).copy())
-        with netCDF4.Dataset(file, "a") as data:
-            data.renameVariable("separation", "gone")
-            data.createVariable("separation", "f8", ("realization", "step"))[:] = z
-            data["separation"].units = "mm"
-        found = law.Law(file)
-        self.assertEqual(found.prescribed, "load")
-        self.assertTrue(np.allclose(found.separation_std[1:], z.std(axis=0, ddof=1)))
-        self.assertTrue(np.allclose(np.diff(found.approach)[1:], -np.diff(z.mean(axis=0))))
 
 
 class Uinter(unittest.TestCase):

@@ -110,30 +110,6 @@ class Values(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "separations"):
             contact.curve()
 
-    def test_no_memory(self):
-        """A failure of the whole of press_all is raised, one of some contacts is told in their statuses, NaN for what was not found."""
-        library, contacts = rsc._library, [one_asperity(), one_asperity()]
-
-        class Refusing:
-            def __getattr__(self, name):
-                return getattr(library, name) if name == "rsc_message" else self.refuse
-
-            @staticmethod
-            def refuse(n, handles, given, answers, statuses, threads):
-                for k, status in enumerate(told):
-                    rsc.ctypes.cast(statuses, rsc.ctypes.POINTER(rsc.ctypes.c_int32))[k] = status
-                return rsc.NO_MEMORY
-
-        rsc._library, told = Refusing(), (0, 0)
-        try:
-            with self.assertRaises(rsc.Error) as caught:
-                rsc.press_all(contacts, [1.0, 2.0])
-            told = 0, rsc.NO_MEMORY
-            separations, statuses = rsc.press_all(contacts, [1.0, 2.0])
-        finally:
-            rsc._library = library
-        self.assertEqual(caught.exception.status, rsc.NO_MEMORY)
-        self.assertTrue(np.isnan(separations).all() and statuses.tolist() == [0, rsc.NO_MEMORY])
 
 
 class Lifetimes(unittest.TestCase):
