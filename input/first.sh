@@ -6,5 +6,4 @@ cd "$top"
 sh input/setup.sh -DRSC_TESTS=OFF
 cp build/rsc ./rsc
 ./rsc < input/first.nml
-if python3 -c 'import numpy, matplotlib, netCDF4' 2> /dev/null; then python=python3; else python=/usr/bin/python3; fi
-"$python" output/plot/plot.py output/first.nc
+python3 output/plot/plot.py output/first.nc

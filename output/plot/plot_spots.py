@@ -2,7 +2,7 @@
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import to_rgb
 
 from plot_style import Page, amount, colour_bar, label
 
@@ -44,16 +44,19 @@ def spots_of(result, step):
 
 
 def pixels_of(result, step):
-    """(extent, pressure) on the points of a level solved by elements, NaN where nothing touches, from the fields of the file; None where it
-    holds none of this level."""
-    if "field_pressure" not in result:
+    """(extent, share of the area in contact) on the points of a level solved by elements, from the fields of the file, or else in the cells of
+    the map; None for asperities, and where the file holds neither."""
+    if not result.by_elements():
         return None
-    at = np.flatnonzero(result["field_step"].astype(int) == step + 1)
-    if at.size == 0:
+    at = np.flatnonzero(result["field_step"].astype(int) == step + 1) if "field_pressure" in result else np.array([], int)
+    if at.size:
+        x, y, share = result["field_x"], result["field_y"], 1.0 * (result.window("field_pressure", int(at[0])) > 0)
+    elif "map_area_fraction" in result:
+        x, y, share = result["x"], result["y"], np.nan_to_num(result.window("map_area_fraction", step))
+    else:
         return None
-    x, y, p = result["field_x"], result["field_y"], result.window("field_pressure", int(at[0]))
     dx, dy = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
-    return (x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy), np.where(p > 0, p, np.nan)
+    return (x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy), np.clip(share, 0, 1)
 
 
 def draw_spots(axis, spots, least=0.0, edge=0.0):
@@ -79,9 +82,9 @@ def spots(results, options):
     big = int(np.argmax(a))
     low, high = np.array([(x - a).min(), (y - a).min()]), np.array([(x + a).max(), (y + a).max()])
     half = 0.54 * (high - low).max()
-    near = min(max(14 * np.median(a), 4 * a[big]), half)
     page = Page(options, 2, aspect=0.86)
     pixels = pixels_of(result, step)
+    near = half / 4 if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
     image = None
     for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big], y[big]])), (half, near)):
         if "x" in result:  # stay on the surface where it is large enough
@@ -92,7 +95,7 @@ def spots(results, options):
         drawn = heights(result, axis, window, bright=0.8)
         image = image or drawn
         if pixels:
-            axis.imshow(np.ma.masked_invalid(pixels[1] * 0 + 1), extent=pixels[0], cmap=ListedColormap([ELASTIC]), interpolation="nearest", gid="pixels")
+            axis.imshow(np.dstack([np.broadcast_to(c, pixels[1].shape) for c in to_rgb(ELASTIC)] + [pixels[1]]), extent=pixels[0], interpolation="nearest", gid="pixels")
         else:
             draw_spots(axis, found, least=0.006 * h if axis is page.axes[0] else 0.0, edge=0.0 if axis is page.axes[0] else 0.3)
         if axis is page.axes[1] and "asperity_x" in result:
@@ -114,8 +117,8 @@ def spots(results, options):
         page.entry("elastic" if "contact_yields" in result else "contact", marker="o", color=ELASTIC, ls="none", ms=5)
     if yields.any():
         page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
-    what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels else "true to size"
+    what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else "share of each cell in contact" if pixels else "true to size"
     page.axes[0].set_title(f"{x.size} spots" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))
-    page.axes[1].set_title(f"around the largest: {what}")
+    page.axes[1].set_title(f"{'in' if pixels else 'around'} the largest: {what}")
     force = "" if result.control() == "force" else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"
     return page.finish(result.heading(f"Contact spots at {result.level_name(step)}{force}{result.warning(step)}"))

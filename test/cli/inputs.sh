@@ -55,7 +55,7 @@ END
     (cd / && sh "$folder/input/first.sh") > said 2>&1 || fail "first.sh: $(cat said)"
     grep -q RSC_TESTS=OFF setup_was_called || fail "setup.sh was not called to build without tests"
     [ -s output/first.nc ] || fail "no output/first.nc: $(ls output)"
-    grep -q '^  *100  ' said || fail "no table of 100 levels: $(cat said)"
+    grep -q '^  *6  ' said || fail "no table of 6 levels: $(cat said)"
     [ "$(pictures)" -ge 1 ] || fail "no picture: $(ls output)"
 }
 
