@@ -113,9 +113,9 @@ def spots(results, options):
         bar.ax.set_ylim(low, high)  # the darker half of the greys is left to the spots
     if result.has_sphere() and max(abs(float(result["tip_x"]) - sum(page.axes[0].get_xlim()) / 2), abs(float(result["tip_y"]) - sum(page.axes[0].get_ylim()) / 2)) < half:
         page.axes[0].plot(float(result["tip_x"]), float(result["tip_y"]), "kx", ms=6, label="tip", ls="none", zorder=4)
-    if (~yields).any():
-        page.entry("elastic" if "contact_yields" in result else "contact", marker="o", color=ELASTIC, ls="none", ms=5)
-    if yields.any():
+    if pixels or (~yields).any():
+        page.entry("elastic" if "contact_yields" in result and not pixels else "contact", marker="o", color=ELASTIC, ls="none", ms=5)
+    if yields.any() and not pixels:
         page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
     what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else "share of each cell in contact" if pixels else "true to size"
     page.axes[0].set_title(f"{x.size} spots" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))

@@ -12,7 +12,9 @@ namespace rsc {
 int MapGrid::cell(double px, double py) const {
     const double u = (px - x0) / side, v = (py - y0) / side;
     if (!(u >= 0 && u <= nx && v >= 0 && v <= ny)) return -1;
-    const int i = std::min(static_cast<int>(u), nx - 1), j = std::min(static_cast<int>(v), ny - 1);
+    // Points of a grid lie on the borders of cells: rounding must not put some of them into the cell before.
+    const double up = 1 + 8 * std::numeric_limits<double>::epsilon();
+    const int i = std::min(static_cast<int>(u * up), nx - 1), j = std::min(static_cast<int>(v * up), ny - 1);
     return j * nx + i;
 }
 
