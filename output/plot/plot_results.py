@@ -108,7 +108,9 @@ class Result:
         """The worst status of each level over realizations, 0 where nothing touches, and the names of the numbers."""
         if "status" not in self:
             return np.zeros(self.steps, int), ["converged"]
-        return self.worst("status").astype(int), [name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()]
+        grave = np.array([0, 3, 1, 2, 4])  # out of validity says more than overlapping and not unique
+        status = np.nan_to_num(self["status"].reshape(-1, self.steps)).astype(int)
+        return status[grave[status].argmax(axis=0), np.arange(self.steps)], [name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()]
 
     def warning(self, step):
         """What is to be said about a level: ' (overlapping)'; nothing for a converged one."""
@@ -146,7 +148,8 @@ class Result:
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
 
     def by_elements(self):
-        return "contact_x" in self or self.case.get("solver%model", "").strip("'") == "elements"
+        model, source = (self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source"))
+        return "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
 
 
 def _keys(text):
