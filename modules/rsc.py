@@ -959,3 +959,33 @@ def study(case, over, run, mode="product", threads=1, progress=None):
             if progress is not None:
                 progress(done, len(members), members[k][0])
     return [(values, result) for (values, _), result in zip(members, results)]
+
+
+# ---- functions of rsc.h that no class above has by hand ------------------------------------------------------------------------
+def _plain(function):
+    """A method that does no more than call `function`: inputs as arguments; returns its output, a tuple of several, None without any.
+    None where there is no rule for its arguments."""
+    rest = _FUNCTIONS[function][1:]
+    inputs = [a for a in rest if a.stars == 0 or a.const]
+    outputs = [a for a in rest if a.stars == 1 and not a.const]
+    if any(a.stars > 1 or a.name == "n" or a.type in ("char", "void") for a in outputs + inputs if not a.const) or any(a.type not in ("double", "int32_t", "int64_t", "char") and not a.stars for a in inputs):
+        return None
+
+    def method(self, *values):
+        if len(values) != len(inputs):
+            raise TypeError(f"{function[4:]} takes {', '.join(a.name for a in inputs) or 'no argument'}")
+        given, made = iter(values), [ctypes.c_double() if a.type == "double" else _INTEGERS[a.type][0]() for a in outputs]
+        back = iter(made)
+        _call(function, self, *[next(given) if a in inputs else next(back) for a in rest])
+        return tuple(o.value for o in made) if len(made) > 1 else made[0].value if made else None
+
+    method.__name__ = function[4:].partition("_")[2]
+    method.__doc__ = f"{_rsc_h.BRIEF[function]} values: {', '.join(a.name for a in inputs) or 'none'}. Returns {', '.join(a.name for a in outputs) or 'nothing'}. Raises as rsc.h says of {function}."
+    return method
+
+
+for _class in (Surface, Asperities, Contact, Friction):
+    for _name in [n for n in _FUNCTIONS if n.startswith(f"rsc_{_class._kind}_") and _FUNCTIONS[n][0].stars == 1 and not n.endswith("_result")]:
+        _verb = _name[len(f"rsc_{_class._kind}_") :]
+        if not hasattr(_class, _verb) and _verb not in ("count", "move_tip") and _plain(_name):
+            setattr(_class, _verb, _plain(_name))
