@@ -54,6 +54,7 @@ struct Case {
         double hurst = 0.8, L_lambda_l = 24.0, L_lambda_s = 512.0;
         bool plateau = false;
         std::optional<double> sigma;  // default 0.01 for synthetic; otherwise of what was read unless set
+        double aspect = 1.0, direction = 0.0, skewness = 0.0, kurtosis = 3.0;
         Normalise normalise = Normalise::sample;
         Detrend detrend = Detrend::plane;
         Missing missing = Missing::refuse;

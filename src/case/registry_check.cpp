@@ -136,16 +136,21 @@ private:
                     "realizations: a surface that is read is one realization (several height maps: a pattern such as maps/*.gwy as the file)");
             return;
         }
+        if (!(s.kurtosis > s.skewness * s.skewness + 1))
+            complain({"surface%kurtosis", "surface%skewness"},
+                     "kurtosis = " + namelist::from_real(s.kurtosis) + ": must be greater than skewness^2 + 1 = " +
+                         namelist::from_real(s.skewness * s.skewness + 1) + ", as that of any heights");
         if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
         if (s.source == Source::spectrum) return;
         if (!(s.L_lambda_s > s.L_lambda_l))
             complain({"surface%L_lambda_s", "surface%L_lambda_l"},
                      "L_lambda_s = " + namelist::from_real(s.L_lambda_s) +
                          ": must be larger than L_lambda_l = " + namelist::from_real(s.L_lambda_l));
-        if (!(s.n > 2 * s.L_lambda_s))
-            complain({"surface%n", "surface%L_lambda_s"},
-                     "n = " + std::to_string(s.n) + ": must be larger than 2 L_lambda_s = " + namelist::from_real(2 * s.L_lambda_s) +
-                         " for the grid to carry the shortest wavelength");
+        const double stretched = std::sqrt(std::max(s.aspect, 1 / s.aspect));
+        if (!(s.n > 2 * s.L_lambda_s * stretched))
+            complain({"surface%n", "surface%L_lambda_s", "surface%aspect"},
+                     "n = " + std::to_string(s.n) + ": must be larger than 2 L_lambda_s" + (s.aspect == 1 ? "" : " sqrt(aspect)") + " = " +
+                         namelist::from_real(2 * s.L_lambda_s * stretched) + " for the grid to carry the shortest wavelength");
         const double L = s.L.value_or(1.0);
         for (const std::optional<double>& x : c_.indentation.centre)
             if (x && (*x < 0 || *x > L)) {
@@ -170,10 +175,11 @@ private:
                                                             ": is a method of model = 'asperities'; with elements only 'auto' is possible");
         if (c_.solver.interaction != Interaction::point)
             complain({key, "solver%interaction"}, what + ": interaction = 'none' is for asperities; elements always act on each other");
-        if (c_.surface.source == Source::synthetic && c_.elements.points_per_wave * c_.surface.L_lambda_s > 32768)
+        const double shortest = c_.surface.L_lambda_s * std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect));
+        if (c_.surface.source == Source::synthetic && c_.elements.points_per_wave * shortest > 32768)
             complain({"elements%points_per_wave", "surface%L_lambda_s"},
                      "points_per_wave = " + namelist::from_real(c_.elements.points_per_wave) + ": makes a grid of " +
-                         count(std::ceil(c_.elements.points_per_wave * c_.surface.L_lambda_s)) + " points a side, and 32768 is the most");
+                         count(std::ceil(c_.elements.points_per_wave * shortest)) + " points a side, and 32768 is the most");
     }
 
     void check_levels() {

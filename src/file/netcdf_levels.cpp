@@ -141,17 +141,32 @@ void ResultTable::means() {
 
 void ResultTable::surfaces() {
     const Names dims{"realization"};
+    const bool directional = r_.theory && (r_.theory->tensor.m20 != r_.theory->tensor.m02 || r_.theory->tensor.m11 != 0);
     const std::string origin = r_.theory ? "exact sum over the modes drawn" : "finite differences on the grid of heights";
     add_absent("sigma", dims, unit(1), "rms height of the surface", of_surfaces([](const auto& s) { return s.sigma; }));
     add_absent("m2", dims, "1", "second profile moment: half the mean square gradient", of_surfaces([](const auto& s) { return s.m2; }),
                origin);
     add_absent("m4", dims, unit(-2), "fourth profile moment: mean square profile curvature",
-               of_surfaces([](const auto& s) { return s.m4; }), origin + ", (m40 + m04 + 3 m22)/3");
+               of_surfaces([](const auto& s) { return s.m4; }),
+               origin + (directional ? ", 3/8 (m40 + m04 + 2 m22)" : ", (m40 + m04 + 3 m22)/3"));
+    const struct {
+        const char* name;
+        double MomentTensor::*of;
+    } components[] = {{"m20", &MomentTensor::m20}, {"m11", &MomentTensor::m11}, {"m02", &MomentTensor::m02}, {"m40", &MomentTensor::m40},
+                      {"m31", &MomentTensor::m31}, {"m22", &MomentTensor::m22}, {"m13", &MomentTensor::m13}, {"m04", &MomentTensor::m04}};
+    for (const auto& [name, of] : components)
+        add_absent(name, dims, name[1] - '0' + name[2] - '0' == 2 ? "1" : unit(-2),
+                   std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
+                   of_surfaces([&](const auto& s) { return s.tensor.*of; }), origin);
     add_absent("m2_grid", dims, "1", "second profile moment from finite differences", of_surfaces([](const auto& s) { return s.m2_grid; }),
                "its distance from m2 says how well the grid resolves the shortest waves");
     add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",
                of_surfaces([](const auto& s) { return s.m4_grid; }),
                "its distance from m4 says how well the grid resolves the shortest waves");
+    if (computed(of_surfaces([](const auto& s) { return s.skewness; }))) {
+        add("skewness", dims, "1", "skewness of the heights made", of_surfaces([](const auto& s) { return s.skewness; }));
+        add("kurtosis", dims, "1", "kurtosis of the heights made", of_surfaces([](const auto& s) { return s.kurtosis; }));
+    }
     add_absent("rms_slope", dims, "1", "rms gradient of the surface", of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
                "sqrt(2 m2); the theory is one of small slopes");
     std::vector<std::int32_t> summits, saddles;

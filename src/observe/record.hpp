@@ -13,6 +13,7 @@
 #include "contact/level.hpp"
 #include "observe/distributions.hpp"
 #include "observe/map.hpp"
+#include "rough/spectrum.hpp"
 
 namespace rsc {
 
@@ -26,9 +27,11 @@ struct ObserveOptions {
 
 // The surface of a realization; NaN is absent (asperities read from a file have no m2, say).
 struct SurfaceStatistics {
-    double sigma = kAbsent;                                 // rms height [length]
-    double m2 = kAbsent, m4 = kAbsent;                      // profile moments from the modes drawn (synthetic) or the grid (measured)
-    double m2_grid = kAbsent, m4_grid = kAbsent;            // from finite differences
+    double sigma = kAbsent;             // rms height [length]
+    double m2 = kAbsent, m4 = kAbsent;  // profile moments from the modes drawn (synthetic) or the grid (measured)
+    MomentTensor tensor{kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent};  // the same by direction
+    double skewness = kAbsent, kurtosis = kAbsent;                                                // of made heights that are not Gaussian
+    double m2_grid = kAbsent, m4_grid = kAbsent;                                                  // from finite differences
     double mean_kappa_g = kAbsent, mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
     std::int64_t summits = 0, saddles = 0;
 };

@@ -127,8 +127,8 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     const bool refined = detail == Detail::subgrid;
     int fine = n;
     // RowSource refuses an n that is not allowed.
-    if (refined && n >= 2 && n % 2 == 0 && 2 * spectrum.L_lambda_s <= n)
-        while (fine < 4 * spectrum.L_lambda_s * (1 - 1e-12)) fine += n;
+    if (refined && n >= 2 && n % 2 == 0 && 2 * shortest_wave(spectrum) <= n)
+        while (fine < 4 * shortest_wave(spectrum) * (1 - 1e-12)) fine += n;
     const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
     threads = std::min(threads, fine);
     std::vector<Part> parts(static_cast<std::size_t>(threads));
@@ -136,7 +136,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
     if (refined) {
-        const Stencil stencil = Stencil::band_limited(fine / spectrum.L_lambda_s);
+        const Stencil stencil = Stencil::band_limited(fine / shortest_wave(spectrum));
         share_rows(fine, threads, [&](int t, int first, int last) {
             SummitClimber climber(stencil, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature);
             // Twice the rows kept from one filling of the window to the next: moving them costs little then.

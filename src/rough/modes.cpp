@@ -14,18 +14,18 @@ constexpr int kBatch = Differences::kBatch;
 constexpr int kLanes = 8;  // partial sums, fixed so that the sum has the same bits on every machine
 
 // Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < kBatch; (kx, ky) is nowhere (0, 0).
-RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, int kx, int ky_first, double* amplitude) {
-    const double x2 = static_cast<double>(kx) * kx;
+RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, const Stretch& stretched, int kx, int ky_first, double* amplitude) {
+    const double x2 = stretched.xx * kx * kx, xy = 2 * stretched.xy * kx, yy = stretched.yy;
     const double log_ql2 = vector_math::log_positive(s.L_lambda_l * s.L_lambda_l);
     const double exponent = -0.5 * (1.0 + s.hurst);
     for (int i = 0; i < kBatch; ++i) {
         const double y = static_cast<double>(ky_first + i);
-        amplitude[i] = vector_math::exp_moderate(exponent * (vector_math::log_positive(x2 + y * y) - log_ql2));
+        amplitude[i] = vector_math::exp_moderate(exponent * (vector_math::log_positive(x2 + y * (xy + yy * y)) - log_ql2));
     }
 }
 
 struct Lanes {
-    double e[kLanes] = {}, y2[kLanes] = {}, y4[kLanes] = {}, a[kLanes] = {};
+    double e[kLanes] = {}, y1[kLanes] = {}, y2[kLanes] = {}, y3[kLanes] = {}, y4[kLanes] = {}, a[kLanes] = {};
     double d2[kLanes] = {}, d4[kLanes] = {};  // with the squares of the differences in the place of ky^2
 };
 
@@ -41,7 +41,9 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
             const double square = amplitude[k] * amplitude[k];
             const double e = square * (re[k] * re[k] + im[k] * im[k]);
             sums.e[l] += e;
+            sums.y1[l] += e * y;
             sums.y2[l] += e * y2;
+            sums.y3[l] += e * y * y2;
             sums.y4[l] += e * (y2 * y2);
             sums.a[l] += square;
             const double d2 = difference[k];
@@ -51,7 +53,8 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
     total = sums;
 }
 
-RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, int kx, int ky_first, double* amplitude), (s, kx, ky_first, amplitude))
+RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, const Stretch& stretched, int kx, int ky_first, double* amplitude),
+             (s, stretched, kx, ky_first, amplitude))
 RSC_DISPATCH(add_energies, add_energies_body,
              (const double* amplitude, const double* re, const double* im, const double* difference, int ky_first, Lanes& total),
              (amplitude, re, im, difference, ky_first, total))
@@ -63,20 +66,19 @@ double sum(const double* lanes) {
 }
 
 // The modes (kx, first..last) into coefficient[0..last-first].
-void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, const Differences& differences, int kx, int first, int last,
-              std::complex<double>* coefficient, Lanes& lanes) {
+void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key, const Differences& differences, int kx, int first,
+              int last, std::complex<double>* coefficient, Lanes& lanes) {
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
-    const double x2 = static_cast<double>(kx) * kx;
     for (int ky = first; ky <= last; ky += kBatch) {
         const int count = std::min(kBatch, last - ky + 1);
         if (spectrum.table)
-            for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, x2 + static_cast<double>(ky + i) * (ky + i)));
+            for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, limits.stretched(kx, ky + i)));
         else
-            power_law(spectrum, kx, ky, amplitude);
+            power_law(spectrum, limits.stretched, kx, ky, amplitude);
         std::fill(amplitude + count, amplitude + kBatch, 0.0);
-        if (!spectrum.table && x2 < lowest_q2)
+        if (!spectrum.table && kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
             for (int i = 0; i < count; ++i)
-                if (x2 + static_cast<double>(ky + i) * (ky + i) < lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
+                if (limits.stretched(kx, ky + i) < limits.lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);
         add_energies(amplitude, re, im, differences.from(ky), ky, lanes);
         for (int i = 0; i < count; ++i) coefficient[i] = {amplitude[i] * re[i], amplitude[i] * im[i]};
@@ -89,6 +91,9 @@ void draw_run(const Spectrum& spectrum, double lowest_q2, const NoiseKey& key, c
 void ModeSums::add(const ModeSums& other) {
     expected += other.expected;
     m0 += other.m0;
+    tensor.m20 += other.tensor.m20, tensor.m11 += other.tensor.m11, tensor.m02 += other.tensor.m02;
+    tensor.m40 += other.tensor.m40, tensor.m31 += other.tensor.m31, tensor.m22 += other.tensor.m22;
+    tensor.m13 += other.tensor.m13, tensor.m04 += other.tensor.m04;
     m2 += other.m2;
     m4 += other.m4;
     m2_differences += other.m2_differences;
@@ -106,36 +111,39 @@ Differences::Differences(int most, double h) : most_(most), square_(static_cast<
 ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, const Differences& differences,
                      std::complex<double>* column) {
     const Band limits = band(spectrum);
-    const int top = limits.highest_ky(kx);
+    const auto [bottom, top] = limits.column(kx);
     std::fill(column, column + n, std::complex<double>());
     Lanes lanes;
-    draw_run(spectrum, limits.lowest_q2, key, differences, kx, kx > 0 ? 0 : 1, top, column + (kx > 0 ? 0 : 1), lanes);
+    const int first = std::max(kx > 0 ? 0 : 1, bottom);
+    draw_run(spectrum, limits, key, differences, kx, first, top, column + first, lanes);
     const double nyquist_energy = 2.0 * std::norm(column[n / 2]);  // of the mode (0, n/2), if there is one
     if (kx > 0) {
-        draw_run(spectrum, limits.lowest_q2, key, differences, kx, -top, -1, column + n - top, lanes);
+        draw_run(spectrum, limits, key, differences, kx, bottom, std::min(top, -1), column + n + bottom, lanes);
     } else {
         // The column kx = 0 is its own mirror image. The mode at n/2 and its mirror image share one place.
         for (int ky = 1; ky < std::min(top + 1, n / 2); ++ky) column[n - ky] = std::conj(column[ky]);
         column[n / 2] += std::conj(column[n / 2]);
     }
     const double x2 = static_cast<double>(kx) * kx;
-    const double e = sum(lanes.e), y2 = sum(lanes.y2), y4 = sum(lanes.y4);
+    const bool isotropic = spectrum.aspect == 1;
+    const double x = kx, e = sum(lanes.e), y1 = sum(lanes.y1), y2 = sum(lanes.y2), y3 = sum(lanes.y3), y4 = sum(lanes.y4);
     ModeSums sums;
     sums.expected = 2.0 * sum(lanes.a);
     sums.m0 = 2.0 * e;
     sums.m2 = x2 * e + y2;
-    sums.m4 = 2.0 * (x2 * x2 * e + y4 + 3.0 * x2 * y2) / 3.0;
+    sums.tensor = {2 * x2 * e, 2 * x * y1, 2 * y2, 2 * x2 * x2 * e, 2 * x2 * x * y1, 2 * x2 * y2, 2 * x * y3, 2 * y4};
+    sums.m4 = isotropic ? 2.0 * (x2 * x2 * e + y4 + 3.0 * x2 * y2) / 3.0 : sums.tensor.m4();
     sums.grid = sums.m0;
     const double dx2 = *differences.from(kx), d2 = sum(lanes.d2), d4 = sum(lanes.d4);
     sums.m2_differences = dx2 * e + d2;
-    sums.m4_differences = 2.0 * (dx2 * dx2 * e + d4 + 3.0 * dx2 * d2) / 3.0;
+    sums.m4_differences = isotropic ? 2.0 * (dx2 * dx2 * e + d4 + 3.0 * dx2 * d2) / 3.0 : 0.75 * (dx2 * dx2 * e + d4 + 2 * dx2 * d2);
     // Of a mode at the grid's Nyquist limit the points see the real part alone.
     const auto correct = [&](double more, double k2) {
         sums.grid += more;
         sums.m2_differences += 0.5 * more * k2;
-        sums.m4_differences += more * k2 * k2 / 3.0;
+        sums.m4_differences += more * k2 * k2 * (isotropic ? 1.0 / 3.0 : 3.0 / 8.0);
     };
-    if (kx == 0) correct(std::norm(column[n / 2]) - nyquist_energy, *differences.from(std::min(n / 2, limits.highest_kx)));
+    if (kx == 0) correct(std::norm(column[n / 2]) - nyquist_energy, *differences.from(std::min(n / 2, limits.highest_ky)));
     if (kx == n / 2) {
         column[0] += std::conj(column[0]);
         correct(std::norm(column[0]) - sums.m0, dx2);

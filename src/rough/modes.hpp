@@ -14,8 +14,9 @@ namespace rsc {
 struct ModeSums {
     double expected = 0;        // mean square height in expectation
     double m0 = 0;              // mean square height, continuous in x and y
+    MomentTensor tensor;        // by direction
     double m2 = 0;              // (m20 + m02)/2
-    double m4 = 0;              // (m40 + m04 + 3 m22)/3
+    double m4 = 0;              // (m40 + m04 + 3 m22)/3, of an anisotropic spectrum MomentTensor::m4()
     double m2_differences = 0;  // m2 and m4 from finite differences, in units of the step of the differences
     double m4_differences = 0;
     double grid = 0;  // mean square height over the n x n points (differs from m0 by the modes at the grid's Nyquist limit)
@@ -37,7 +38,8 @@ private:
 };
 
 // Writes the Fourier coefficients of column kx (0 <= kx <= n/2) of an n x n complex-to-real transform to column[0..n), index
-// ky mod n, and zero where there is no mode. The band must fit the grid: highest_kx <= n/2.
+// ky mod n, and zero where there is no mode. The band must fit the grid: highest_kx and highest_ky <= n/2, and less than n/2 where the mode
+// at n/2 is not alone in its column.
 ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int n, const Differences& differences,
                      std::complex<double>* column);
 

@@ -14,6 +14,8 @@ namespace {
 constexpr double kEdgeTolerance = 1e-12;  // of q2: a cutoff such as 0.1*240 still holds the modes that lie on it
 constexpr double kMostModes = 46340.0;    // largest L / lambda_s: integer wavevectors and their squares stay in 32 bits
 
+constexpr double kMostAspect = 100;
+
 [[noreturn]] void refuse(const std::string& what, double value) {
     throw Error(Failure::bad_input, "surface: " + what + ", not " + std::to_string(value));
 }
@@ -87,14 +89,16 @@ double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
 
 namespace {
 
-// Of each column the mode with the shortest wave, which is in the band if any of the column is; a table may have gaps.
+// Throws unless some mode of the square lies in the band. The modes of a power law are without gaps: one at either end of a column is enough.
 void require_modes(const Spectrum& s, const std::string& otherwise) {
     const Band b = band(s);
-    for (int kx = 0; kx <= b.highest_kx; ++kx)
-        for (int ky = b.highest_ky(kx); ky >= 0; --ky) {
-            if (relative_psd(s, static_cast<double>(kx) * kx + static_cast<double>(ky) * ky) > 0.0) return;
-            if (!s.table) break;
+    for (int kx = 0; kx <= b.highest_kx; ++kx) {
+        const auto [first, last] = b.column(kx);
+        for (int ky = last; ky >= first; --ky) {
+            if (relative_psd(s, b.stretched(kx, ky)) > 0.0) return;
+            if (!s.table && ky == last) ky = std::min(ky, first + 1);
         }
+    }
     refuse(otherwise, s.L_lambda_s);
 }
 
@@ -103,6 +107,11 @@ void require_modes(const Spectrum& s, const std::string& otherwise) {
 void validate(const Spectrum& s) {
     const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
     if (!positive(s.L)) refuse("L must be positive and finite", s.L);
+    if (!(s.aspect >= 1 / kMostAspect && s.aspect <= kMostAspect)) refuse("aspect must lie between 0.01 and 100", s.aspect);
+    if (!std::isfinite(s.direction)) refuse("direction must be finite", s.direction);
+    if (!(shortest_wave(s) <= kMostModes))
+        refuse("the shortest wave across the direction, as L/lambda, must be at most 46340", shortest_wave(s));
+    if (!s.gaussian() && !s.heights) HeightDistribution::of_moments(s.shape.skewness, s.shape.kurtosis);
     if (s.table) {
         if (!(s.L_lambda_s <= kMostModes))
             refuse("L times the largest wavenumber of the spectrum over 2 pi must be at most 46340", s.L_lambda_s);
@@ -119,16 +128,29 @@ void validate(const Spectrum& s) {
     require_modes(s, "no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) + " and L_lambda_s; widen the band");
 }
 
-int Band::highest_ky(int kx) const {
-    const double rest = highest_q2 - static_cast<double>(kx) * kx;
-    return rest < 0.0 ? -1 : static_cast<int>(std::sqrt(rest));
+Stretch stretch(const Spectrum& s) {
+    if (s.aspect == 1) return {};
+    const double angle = s.direction * std::numbers::pi / 180, c = std::cos(angle), d = std::sin(angle);
+    const double along = s.aspect, across = 1 / s.aspect;
+    return {along * c * c + across * d * d, (along - across) * c * d, along * d * d + across * c * c};
+}
+
+double shortest_wave(const Spectrum& s) { return s.L_lambda_s * std::sqrt(std::max(s.aspect, 1 / s.aspect)); }
+
+Band::Run Band::column(int kx) const {
+    const double rest = stretched.yy * highest_q2 - static_cast<double>(kx) * kx;
+    if (rest < 0.0) return {};
+    const double root = std::sqrt(rest), middle = -stretched.xy * kx;
+    return {static_cast<int>(std::ceil((middle - root) / stretched.yy)), static_cast<int>(std::floor((middle + root) / stretched.yy))};
 }
 
 Band band(const Spectrum& s) {
     Band b;
+    b.stretched = stretch(s);
     b.lowest_q2 = s.L_lambda_l * s.L_lambda_l * (1.0 - kEdgeTolerance);
     b.highest_q2 = s.L_lambda_s * s.L_lambda_s * (1.0 + kEdgeTolerance);
-    b.highest_kx = static_cast<int>(std::sqrt(b.highest_q2));
+    b.highest_kx = static_cast<int>(std::sqrt(b.stretched.yy * b.highest_q2));
+    b.highest_ky = static_cast<int>(std::sqrt(b.stretched.xx * b.highest_q2));
     return b;
 }
 
@@ -136,17 +158,25 @@ double relative_psd(const Spectrum& s, double q2) {
     if (s.table) return q2 > 0 ? (*s.table)(2 * std::numbers::pi / s.L * std::sqrt(q2)) / s.table->largest() : 0.0;
     const Band b = band(s);
     if (!(q2 > 0.0 && q2 <= b.highest_q2)) return 0.0;
-    // The plateau begins at K = 2 pi / L, q2 = 1.
-    if (q2 < b.lowest_q2) return s.plateau && q2 >= 1.0 - kEdgeTolerance ? 1.0 : 0.0;
+    if (q2 < b.lowest_q2) return s.plateau ? 1.0 : 0.0;
     return std::pow(q2 / (s.L_lambda_l * s.L_lambda_l), -(1.0 + s.hurst));
 }
 
+// With k = A k', k' of an isotropic surface: kx = a.k', ky = b.k', and <(a.k')^4> = m4 |a|^4, <(k1' k2')^2> = m4/3.
+MomentTensor directional_moments(double m2, double m4, double aspect, double direction) {
+    if (aspect == 1) direction = 0;  // exactly the same along x and y
+    const double angle = direction * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+    const double aa = c * c / aspect + s * s * aspect, bb = s * s / aspect + c * c * aspect, ab = c * s * (1 / aspect - aspect);
+    return {m2 * aa, m2 * ab, m2 * bb, m4 * aa * aa, m4 * aa * ab, m4 / 3 * (aa * bb + 2 * ab * ab), m4 * bb * ab, m4 * bb * bb};
+}
+
+namespace {
+
 // m_p = T(p) times the integral of K^(p+1) Phi(K) over K, T(p) = integral of cos^p over the circle; in units of kl.
-Moments theoretical_moments(const Spectrum& s) {
-    validate(s);
+Moments isotropic_moments(const Spectrum& s) {
     if (s.table) {
         const double scale = s.sigma * s.sigma / (2.0 * s.table->integral(1));
-        return {s.sigma * s.sigma, scale * s.table->integral(3), 0.75 * scale * s.table->integral(5)};
+        return {s.sigma * s.sigma, scale * s.table->integral(3), 0.75 * scale * s.table->integral(5), {}, {}};
     }
     const double kl = 2.0 * std::numbers::pi * s.L_lambda_l / s.L;
     const double log_zeta = std::log(s.L_lambda_s / s.L_lambda_l);
@@ -162,6 +192,16 @@ Moments theoretical_moments(const Spectrum& s) {
     return m;
 }
 
+}  // namespace
+
+Moments theoretical_moments(const Spectrum& s) {
+    validate(s);
+    Moments m = isotropic_moments(s);
+    m.tensor = directional_moments(m.m2, m.m4, s.aspect, s.direction);
+    if (s.aspect != 1) m.m2 = m.tensor.m2(), m.m4 = m.tensor.m4();
+    return m;
+}
+
 Moments discrete_moments(const Spectrum& s) {
     validate(s);
     const Band b = band(s);
@@ -169,17 +209,17 @@ Moments discrete_moments(const Spectrum& s) {
     double s0 = 0, s2 = 0, s4 = 0;
     for (int kx = 0; kx <= b.highest_kx; ++kx) {
         const double x2 = static_cast<double>(kx) * kx;
-        for (int ky = 0; ky <= b.highest_ky(kx); ++ky) {
+        const auto [first, last] = b.column(kx);
+        for (int ky = first; ky <= last; ++ky) {
             const double y2 = static_cast<double>(ky) * ky;
-            const double copies = (kx > 0 ? 2.0 : 1.0) * (ky > 0 ? 2.0 : 1.0);
-            const double w = copies * relative_psd(s, x2 + y2);
+            const double w = (kx > 0 ? 2.0 : 1.0) * relative_psd(s, b.stretched(kx, ky));
             s0 += w;
             s2 += w * (x2 + y2) / 2.0;
-            s4 += w * (x2 * x2 + y2 * y2 + 3.0 * x2 * y2) / 3.0;
+            s4 += w * (s.aspect == 1 ? (x2 * x2 + y2 * y2 + 3.0 * x2 * y2) / 3.0 : 3.0 / 8.0 * (x2 + y2) * (x2 + y2));
         }
     }
     const double scale = s.sigma * s.sigma / s0;
-    return {s.sigma * s.sigma, scale * step * step * s2, scale * step * step * step * step * s4};
+    return {s.sigma * s.sigma, scale * step * step * s2, scale * step * step * step * step * s4, {}, {}};
 }
 
 }  // namespace rsc

@@ -90,7 +90,7 @@ Moments grid_moments(const HeightMap& map) {
     if (map.nx < 3 || map.ny < 3) return m;
 
     const int edge = map.periodic ? 0 : 1;
-    Mean g2, m40, m04, m22;
+    Mean g2, m20, m11, m40, m31, m22, m13, m04;
     for (int j = edge; j < map.ny - edge; ++j) {
         const double* const below = map.row(j > 0 ? j - 1 : map.ny - 1);
         const double* const z = map.row(j);
@@ -102,12 +102,17 @@ Moments grid_moments(const HeightMap& map) {
             const double zyy = (below[i] - 2.0 * z[i] + above[i]) / (map.dy * map.dy);
             const double zxy = (above[r] - above[i] - z[r] + z[i]) / (map.dx * map.dy);
             g2.add(zx * zx + zy * zy);
+            m20.add(zx * zx);
+            m11.add(zx * zy);
+            m31.add(zxx * zxy);
+            m13.add(zyy * zxy);
             m40.add(zxx * zxx);
             m04.add(zyy * zyy);
             m22.add(zxy * zxy);
         }
-        g2.end_row(), m40.end_row(), m04.end_row(), m22.end_row();
+        for (Mean* mean : {&g2, &m20, &m11, &m40, &m31, &m22, &m13, &m04}) mean->end_row();
     }
+    m.tensor = {m20.value(), m11.value(), g2.value() - m20.value(), m40.value(), m31.value(), m22.value(), m13.value(), m04.value()};
     m.m2 = g2.value() / 2.0;
     m.m4 = (m40.value() + m04.value() + 3.0 * m22.value()) / 3.0;
     return m;

@@ -38,7 +38,7 @@ enum class Normalise { sample, ensemble };
 inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 
 // Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): beside the spectral ones they
-// say how well the grid resolves lambda_s. First differences between neighbours give m20, m02; second differences m40, m04, m22.
+// say how well the grid resolves lambda_s. First differences between neighbours give m20, m11, m02; second differences m40 ... m04.
 // A map that is not periodic gives what lies inside it; too small a map gives zeros. Points whose height is NaN are missing: the
 // differences that need them are left out.
 Moments grid_moments(const HeightMap& map);

@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "rough/modes.hpp"
+#include "rough/reshape.hpp"
 
 namespace rsc {
 namespace {
@@ -22,16 +23,55 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
                      double difference_step) {
     validate(spectrum);
     if (n < 2 || n % 2 != 0) throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
-    columns_ = band(spectrum).highest_kx + 1;
-    if (columns_ - 1 > n / 2)
-        throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot carry L_lambda_s = " +
-                                            std::to_string(spectrum.L_lambda_s) + ": n must be at least 2 L_lambda_s");
     n_ = n;
+    if (!(difference_step > 0)) difference_step = spectrum.L / n;
+    threads = std::max(threads, 1);
+    const double angle = spectrum.direction - 180 * std::floor(spectrum.direction / 180);
+    if (spectrum.aspect != 1 && angle > 45 && angle <= 135) {
+        transpose(spectrum, normalise, seed, realization, threads, difference_step);
+        return;
+    }
+    const Band limits = band(spectrum);
+    columns_ = limits.highest_kx + 1;
+    // At n/2 the grid sees the real part of a mode alone: a Gaussian mode (n/2, 0) or (0, n/2) is allowed there, others are not.
+    const bool tilted = limits.stretched.xy != 0 || !spectrum.gaussian();
+    if (const int most = std::max(limits.highest_kx, limits.highest_ky); most > n / 2 || (tilted && most == n / 2))
+        throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot carry waves of L/lambda = " +
+                                            std::to_string(most) + ": n must be at least " + std::to_string(2 * most + (tilted ? 2 : 0)));
     column_stride_ = (n + 3) / 4 * 4 + 4;  // rows of 64 bytes, and columns not a power of two apart
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
     columns_data_.reset(allocate_doubles(2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
                                          "the modes of a synthetic surface"));
-    draw(spectrum, normalise, seed, realization, std::max(threads, 1), difference_step > 0 ? difference_step : spectrum.L / n);
+    draw(spectrum, normalise, seed, realization, threads, difference_step);
+}
+
+void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+                          double difference_step) {
+    Spectrum mirrored = spectrum;
+    mirrored.direction = 90 - spectrum.direction;
+    const RowSource other(mirrored, n_, normalise, seed, realization, threads, difference_step);
+    sampled_ = other.sampled_;
+    differences_ = other.differences_;
+    sampled_.tensor = other.sampled_.tensor.transposed();
+    transposed_.allocate(n_, n_, n_ + 8);
+    std::vector<Scratch> scratch;
+    std::vector<Buffer> block;
+    const std::ptrdiff_t stride = (n_ + 7) / 8 * 8 + 8;
+    for (int t = 0; t < threads; ++t) {
+        scratch.emplace_back(other);
+        block.emplace_back(allocate_doubles(static_cast<std::size_t>(kBlock * stride), "rows of a synthetic surface"));
+    }
+    const int blocks = (n_ + kBlock - 1) / kBlock;
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int t = 0; t < threads; ++t) {
+        double* const rows = block[static_cast<std::size_t>(t)].get();
+        for (int b = t; b < blocks; b += threads) {
+            const int first = b * kBlock, count = std::min(kBlock, n_ - first);
+            other.rows(first, count, rows, stride, scratch[static_cast<std::size_t>(t)]);
+            for (int i = 0; i < n_; ++i)
+                for (int r = 0; r < count; ++r) transposed_.row(i)[first + r] = rows[r * stride + i];
+        }
+    }
 }
 
 void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -53,14 +93,28 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     // Nothing in the loop throws. The sums go by column and are added in order, whichever thread drew them.
     std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
     auto& plan = *column_plan;
-    const Differences differences(columns_ - 1, difference_step / spectrum.L);
+    const Band limits = band(spectrum);
+    const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
     // Thread t takes the columns t, t + threads, ...: the low ones hold more modes than the high ones.
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
     for (int t = 0; t < threads; ++t) {
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
         for (int kx = t; kx < columns_; kx += threads) {
-            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, column);
-            fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
+            auto* const stored = store + kx * column_stride_;
+            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
+            if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
+        }
+    }
+    HeightShape shape;
+    if (!spectrum.gaussian()) {
+        shape = reshape_heights(spectrum, store, column_stride_, n_);
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+        for (int t = 0; t < threads; ++t) {
+            auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
+            for (int kx = t; kx < columns_; kx += threads) {
+                std::copy_n(store + kx * column_stride_, n_, column);
+                fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
+            }
         }
     }
     ModeSums total;
@@ -69,15 +123,25 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     factor_ = spectrum.sigma / std::sqrt(mean_square);
     const double step = 2.0 * std::numbers::pi / spectrum.L;
     const double f2 = factor_ * factor_, k2 = step * step;
-    sampled_ = {f2 * total.m0, f2 * k2 * total.m2, f2 * k2 * k2 * total.m4};
+    const double f2k2 = f2 * k2, f2k4 = f2 * k2 * k2;
+    const MomentTensor& t = total.tensor;
+    sampled_ = {f2 * total.m0,
+                f2 * k2 * total.m2,
+                f2 * k2 * k2 * total.m4,
+                {f2k2 * t.m20, f2k2 * t.m11, f2k2 * t.m02, f2k4 * t.m40, f2k4 * t.m31, f2k4 * t.m22, f2k4 * t.m13, f2k4 * t.m04},
+                shape};
     const double h2 = difference_step * difference_step;
-    differences_ = {f2 * total.grid, f2 * total.m2_differences / h2, f2 * total.m4_differences / (h2 * h2)};
+    differences_ = {f2 * total.grid, f2 * total.m2_differences / h2, f2 * total.m4_differences / (h2 * h2), {}, {}};
 }
 
 RowSource::Scratch::Scratch(const RowSource& source)
     : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_), "rows of a synthetic surface")) {}
 
 void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const {
+    if (transposed_.data) {
+        for (int r = 0; r < count; ++r) std::copy_n(transposed_.row(((j + r) % n_ + n_) % n_), n_, out + r * stride);
+        return;
+    }
     const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
     double* const coefficients = scratch.coefficients_.get();
     const double factor = factor_;

@@ -15,7 +15,7 @@ namespace rsc {
 class RowSource {
 public:
     // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is sound, n even and
-    // L_lambda_s <= n/2, Error(no_memory). `difference_step` is the step of the finite differences of differences(), L/n if 0.
+    // shortest_wave() <= n/2, Error(no_memory). `difference_step` is the step of the finite differences of differences(), L/n if 0.
     RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
               double difference_step = 0);
 
@@ -41,6 +41,10 @@ public:
     static constexpr int kBlock = 16;  // rows at a time for which rows() is efficient
 
 private:
+    // A surface whose long waves lie nearer to the y axis than to the x axis is the one mirrored on the diagonal, transposed: so a direction
+    // of 90 degrees gives the bits of 0 degrees.
+    void transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+                   double difference_step);
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
               double difference_step);
 
@@ -51,13 +55,14 @@ private:
     std::unique_ptr<double[], HeightMap::Free> columns_data_;
     double factor_ = 1;  // from relative amplitudes to lengths
     Moments sampled_, differences_;
+    HeightMap transposed_;  // the rows themselves, where they are columns of another surface; empty otherwise
     FftwPlan row_plan_;
 };
 
 // Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
-// integer wavevector) alone, so that the surface is the same on every grid that holds its modes: L_lambda_s <= n/2, or
+// integer wavevector) alone, so that the surface is the same on every grid that holds its modes: shortest_wave() <= n/2, or
 // Error(bad_input). The rms height is sigma: of this surface over its points (sample), or in expectation (ensemble).
-// `sampled` (optional) receives the isotropic moments summed exactly over the modes drawn. The bits do not depend on `threads`.
+// `sampled` (optional) receives the moments summed exactly over the modes drawn, and the shape of heights that are not Gaussian. The bits do not depend on `threads`.
 // make_asperities() of asperities.hpp finds the summits of the same surface without ever storing it.
 HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                      Moments* sampled = nullptr, int threads = 1);

@@ -42,6 +42,12 @@ void count_summits(const SummitCount& count, SurfaceStatistics& s) {
     s.saddles = count.saddles + count.repeated;
 }
 
+// Heights made Gaussian have no shape of their own in the file.
+void made_heights(const Moments& sampled, SurfaceStatistics& s) {
+    if (sampled.heights.skewness == 0 && sampled.heights.kurtosis == 3) return;
+    s.skewness = sampled.heights.skewness, s.kurtosis = sampled.heights.kurtosis;
+}
+
 void require_summits(const Ground& ground, const std::string& name, const std::string& where) {
     if (ground.asperities.size() > 0) return;
     throw Error(Failure::bad_input, name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
@@ -89,9 +95,14 @@ Spectrum spectrum_of(const Case& settings) {
     const auto& keys = settings.surface;
     if (keys.source == Source::spectrum) {
         const auto table = read_spectrum(keys.file, settings.run.length_unit);
-        return tabulated_spectrum(table, keys.L.value_or(2 * std::numbers::pi / table->lowest()), keys.sigma.value_or(table->sigma()));
+        Spectrum spectrum =
+            tabulated_spectrum(table, keys.L.value_or(2 * std::numbers::pi / table->lowest()), keys.sigma.value_or(table->sigma()));
+        spectrum.aspect = keys.aspect, spectrum.direction = keys.direction;
+        spectrum.shape = {keys.skewness, keys.kurtosis};
+        return spectrum;
     }
-    return {keys.L.value_or(1.0), keys.hurst, keys.L_lambda_l, keys.L_lambda_s, keys.plateau, keys.sigma.value_or(0.01)};
+    return {keys.L.value_or(1.0),      keys.hurst,  keys.L_lambda_l, keys.L_lambda_s, keys.plateau,
+            keys.sigma.value_or(0.01), keys.aspect, keys.direction};
 }
 
 bool differs_by_realization(const Case& settings) {
@@ -106,7 +117,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
     const auto& keys = settings.surface;
     Surface surface;
     surface.origin.sigma = spectrum.sigma;
-    surface.origin.points_per_wave = keys.n / spectrum.L_lambda_s;
+    surface.origin.points_per_wave = keys.n / shortest_wave(spectrum);
     surface.origin.theory = theoretical_moments(spectrum);
     surface.origin.sampled.emplace();
     surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, &*surface.origin.sampled, threads);
@@ -125,7 +136,7 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
 
 int element_points(const Case& settings, const Spectrum& spectrum) {
     // The next even number whose transforms are fast.
-    int n = static_cast<int>(std::ceil(settings.elements.points_per_wave * spectrum.L_lambda_s));
+    int n = static_cast<int>(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum)));
     for (n += n % 2;; n += 2) {
         int rest = n;
         for (int factor : {2, 3, 5, 7})
@@ -135,7 +146,7 @@ int element_points(const Case& settings, const Spectrum& spectrum) {
 }
 
 void require_element_memory(const Case& settings, const Spectrum& spectrum) {
-    const double wanted = settings.elements.points_per_wave * spectrum.L_lambda_s;
+    const double wanted = settings.elements.points_per_wave * shortest_wave(spectrum);
     constexpr double most = 32768;
     char text[300];
     if (wanted > most) {
@@ -245,10 +256,13 @@ Ground make_bare_ground(const Surface& surface) {
     s.sigma = surface.origin.sigma;
     s.m2 = s.m2_grid = grid.m2;
     s.m4 = s.m4_grid = grid.m4;
+    s.tensor = grid.tensor;
     if (surface.origin.sampled) {
         s.sigma = std::sqrt(surface.origin.sampled->m0);
         s.m2 = surface.origin.sampled->m2;
         s.m4 = surface.origin.sampled->m4;
+        s.tensor = surface.origin.sampled->tensor;
+        made_heights(*surface.origin.sampled, s);
     }
     return ground;
 }
@@ -267,6 +281,8 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
     s.sigma = std::sqrt(sampled.m0);
     s.m2 = sampled.m2;
     s.m4 = sampled.m4;
+    s.tensor = sampled.tensor;
+    made_heights(sampled, s);
     s.m2_grid = differences.m2;
     s.m4_grid = differences.m4;
     count_summits(count, s);

@@ -1,0 +1,138 @@
+#include "rough/height_distribution.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+// The function is tabulated at normal scores from -kEnd to kEnd; beyond, which one point in 10^9 is, it goes on straight.
+constexpr double kEnd = 6, kStep = 0.005;
+constexpr int kValues = 2 * static_cast<int>(kEnd / kStep) + 1;
+constexpr double kMostKurtosis = 100;
+
+double score(int i) { return -kEnd + i * kStep; }
+
+// x = u/delta + shift of a normal variable u, as Johnson's SU (sinh) or SB (logistic function) has it; both are skewed to the right for
+// shift > 0, and become the lognormal distribution as it grows.
+struct Johnson {
+    bool bounded = false;
+    double delta = 1, shift = 0;
+    double operator()(double u) const { return bounded ? 1 / (1 + std::exp(shift - u / delta)) : std::sinh(u / delta + shift); }
+};
+
+struct Shape {
+    double mean = 0, deviation = 1, skewness = 0, kurtosis = 3;
+};
+
+// By the trapezoidal rule, which converges exponentially under the normal density.
+Shape shape_of(const std::function<double(double)>& of) {
+    constexpr double end = 10, step = 0.025;
+    constexpr int most = static_cast<int>(end / step);
+    std::vector<double> value, weight;
+    double total = 0, mean = 0;
+    for (int i = -most; i <= most; ++i) {
+        const double u = i * step;
+        value.push_back(of(u)), weight.push_back(std::exp(-0.5 * u * u));
+        total += weight.back(), mean += weight.back() * value.back();
+    }
+    mean /= total;
+    double m2 = 0, m3 = 0, m4 = 0;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const double d = value[i] - mean, w = weight[i] / total;
+        m2 += w * d * d, m3 += w * d * d * d, m4 += w * d * d * d * d;
+    }
+    return {mean, std::sqrt(m2), m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+}
+
+// Where a function of one sign at `low` and the other at `high` vanishes; the end with the smaller value if it does not.
+double root(const std::function<double(double)>& f, double low, double high) {
+    const double at_low = f(low), at_high = f(high);
+    if (at_low * at_high >= 0) return std::abs(at_low) < std::abs(at_high) ? low : high;
+    std::uintmax_t steps = 60;
+    const auto [a, b] =
+        boost::math::tools::toms748_solve(f, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(36), steps);
+    return 0.5 * (a + b);
+}
+
+// The shift that gives a distribution of this delta the skewness; at most kMostShift, where it is lognormal.
+constexpr double kMostShift = 30;
+Johnson skewed(bool bounded, double delta, double skewness) {
+    Johnson j{bounded, delta, 0};
+    if (skewness > 0)
+        j.shift = root([&](double shift) { return shape_of(Johnson{bounded, delta, shift}).skewness - skewness; }, 0, kMostShift);
+    return j;
+}
+
+// The delta of the lognormal distribution of a skewness > 0: (w - 1)(w + 2)^2 = skewness^2 with w = exp(1/delta^2).
+double lognormal_delta(double skewness) {
+    const double w = root([&](double x) { return (x - 1) * (x + 2) * (x + 2) - skewness * skewness; }, 1, 2 + skewness * skewness);
+    return 1 / std::sqrt(std::log(w));
+}
+
+[[noreturn]] void refuse(double skewness, double kurtosis, const std::string& bound) {
+    throw Error(Failure::bad_input, "surface: kurtosis = " + std::to_string(kurtosis) + " with skewness = " + std::to_string(skewness) +
+                                        ": no distribution of heights is known that has them; " + bound);
+}
+
+}  // namespace
+
+HeightDistribution::HeightDistribution(std::vector<double> values) : values_(std::move(values)) {}
+
+HeightDistribution HeightDistribution::of_moments(double skewness, double kurtosis) {
+    const double s = std::abs(skewness), least = s * s + 1;
+    if (!(kurtosis > least)) refuse(skewness, kurtosis, "the kurtosis must be greater than skewness^2 + 1 = " + std::to_string(least));
+    if (!(kurtosis <= kMostKurtosis)) refuse(skewness, kurtosis, "the kurtosis must be at most 100");
+    // Skewness 0: the normal distribution is the limit of large delta.
+    constexpr double normal = 1000, smallest_bounded = 0.05, smallest_unbounded = 0.45;
+    const double lognormal = s > 1e-6 ? std::min(normal, lognormal_delta(s)) : normal;
+    const double w = std::exp(1 / (lognormal * lognormal));
+    const bool bounded = kurtosis < ((w + 2) * w + 3) * w * w - 3;
+    const double smallest = std::min(bounded ? smallest_bounded : smallest_unbounded, 0.5 * lognormal);
+    const Johnson found = skewed(
+        bounded, root([&](double delta) { return shape_of(skewed(bounded, delta, s)).kurtosis - kurtosis; }, smallest, lognormal), s);
+    const Shape shape = shape_of(found);
+    constexpr double near = 1e-3;
+    if (!(std::abs(shape.skewness - s) <= near && std::abs(shape.kurtosis - kurtosis) <= near * kurtosis))
+        refuse(skewness, kurtosis, "they lie too near to the bound kurtosis = skewness^2 + 1 = " + std::to_string(least));
+    std::vector<double> values(kValues);
+    for (int i = 0; i < kValues; ++i) {
+        const double value = (found(score(i)) - shape.mean) / shape.deviation;
+        values[static_cast<std::size_t>(skewness < 0 ? kValues - 1 - i : i)] = skewness < 0 ? -value : value;
+    }
+    return HeightDistribution(std::move(values));
+}
+
+HeightDistribution HeightDistribution::of_sample(std::vector<double> heights) {
+    std::sort(heights.begin(), heights.end());
+    if (heights.size() < 2 || !(heights.front() < heights.back()))
+        throw Error(Failure::bad_input, "heights: two different values are needed for a distribution");
+    const double count = static_cast<double>(heights.size());
+    std::vector<double> values(kValues);
+    for (int i = 0; i < kValues; ++i) {
+        const double p = 0.5 * boost::math::erfc(-score(i) / std::numbers::sqrt2);
+        const double place = std::clamp(p * count - 0.5, 0.0, count - 1);
+        const auto k = std::min(static_cast<std::size_t>(place), heights.size() - 2);
+        values[static_cast<std::size_t>(i)] = std::lerp(heights[k], heights[k + 1], place - static_cast<double>(k));
+    }
+    HeightDistribution distribution(std::move(values));
+    const Shape shape = shape_of(distribution);
+    for (double& value : distribution.values_) value = (value - shape.mean) / shape.deviation;
+    return distribution;
+}
+
+double HeightDistribution::operator()(double normal) const {
+    const double place = (normal + kEnd) / kStep;
+    const int k = std::clamp(static_cast<int>(place), 0, kValues - 2);
+    const auto i = static_cast<std::size_t>(k);
+    return values_[i] + (values_[i + 1] - values_[i]) * (place - k);
+}
+
+}  // namespace rsc
