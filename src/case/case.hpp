@@ -15,6 +15,11 @@
 namespace rsc {
 
 // Enumerations with the spellings of their values, in their order. Those of the contact stand in contact/indentation.hpp.
+// What source = 'spectrum' keeps of the map the spectrum came from.
+enum class Twins { radial, directional };
+inline constexpr std::array kTwinsNames = {"radial", "directional"};
+enum class TwinHeights { gaussian, measured };
+inline constexpr std::array kTwinHeightsNames = {"gaussian", "measured"};
 enum class Source { synthetic, heights, asperities, spectrum };
 inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities", "spectrum"};
 enum class Boundary { free, periodic };
@@ -55,6 +60,8 @@ struct Case {
         bool plateau = false;
         std::optional<double> sigma;  // default 0.01 for synthetic; otherwise of what was read unless set
         double aspect = 1.0, direction = 0.0, skewness = 0.0, kurtosis = 3.0;
+        Twins twins = Twins::radial;
+        TwinHeights twin_heights = TwinHeights::gaussian;
         Normalise normalise = Normalise::sample;
         Detrend detrend = Detrend::plane;
         Missing missing = Missing::refuse;

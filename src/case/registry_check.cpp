@@ -141,7 +141,16 @@ private:
                      "kurtosis = " + namelist::from_real(s.kurtosis) + ": must be greater than skewness^2 + 1 = " +
                          namelist::from_real(s.skewness * s.skewness + 1) + ", as that of any heights");
         if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
+        if (s.twin_heights == TwinHeights::measured && (s.skewness != 0 || s.kurtosis != 3))
+            complain({"surface%twin_heights", "surface%skewness", "surface%kurtosis"},
+                     "twin_heights = 'measured': gives the heights their distribution; skewness and kurtosis would, too");
+        if (s.twins == Twins::directional && s.aspect != 1)
+            complain({"surface%twins", "surface%aspect"},
+                     "twins = 'directional': the spectrum has its direction; aspect would give it another");
         if (s.source == Source::spectrum) return;
+        if (s.twins != Twins::radial) complain({"surface%twins", "surface%source"}, "twins = 'directional': needs source = 'spectrum'");
+        if (s.twin_heights != TwinHeights::gaussian)
+            complain({"surface%twin_heights", "surface%source"}, "twin_heights = 'measured': needs source = 'spectrum'");
         if (!(s.L_lambda_s > s.L_lambda_l))
             complain({"surface%L_lambda_s", "surface%L_lambda_l"},
                      "L_lambda_s = " + namelist::from_real(s.L_lambda_s) +

@@ -68,6 +68,42 @@ void ResultTable::measured() {
     add("wavenumber", {"wavenumber"}, unit(-1), "wavenumber k = 2 pi/lambda, middle of a ring of Fourier modes", m.spectrum.wavenumber);
     add("psd", {"wavenumber"}, unit(4), "power spectral density Phi, mean over the ring", m.spectrum.psd,
         comment("after a Hann window; the integral of 2 pi k Phi dk is the mean square height"));
+    file_.dimension("plane_wavenumber", m.spectrum.plane_wavenumber.size());
+    file_.dimension("angle", MeasuredSpectrum::kAngles);
+    std::vector<double> angles;
+    for (std::size_t a = 0; a < MeasuredSpectrum::kAngles; ++a)
+        angles.push_back(180.0 * static_cast<double>(a) / MeasuredSpectrum::kAngles);
+    add("plane_wavenumber", {"plane_wavenumber"}, unit(-1), "wavenumber of psd_plane", m.spectrum.plane_wavenumber);
+    add("angle", {"angle"}, "degree", "direction of the wave vector, from the x axis towards the y axis", angles);
+    add("psd_plane", {"plane_wavenumber", "angle"}, unit(4), "power spectral density by direction", m.spectrum.plane_psd,
+        comment("the other half plane is the mirror image; surface%twins = 'directional' makes surfaces with it"));
+    const Texture& t = m.texture;
+    add_absent("sal", {}, unit(1), "autocorrelation length Sal (ISO 25178-2)", {t.sal},
+               "shortest lag at which the autocorrelation falls to 0.2");
+    add_absent("str", {}, "1", "texture aspect ratio Str (ISO 25178-2)", {t.str},
+               t.str_bounded ? "at most this: along the lay the autocorrelation does not fall to 0.2 within half the map" : "");
+    scalar("std", "degree", "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO 25178-2)",
+           m.spectrum.lay(), "at right angles to the direction with the most power");
+    scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);
+    scalar("spk", unit(1), "reduced peak height Spk (ISO 25178-2)", t.spk);
+    scalar("svk", unit(1), "reduced valley height Svk (ISO 25178-2)", t.svk);
+    file_.dimension("normal_score", t.score.size());
+    add("normal_score", {"normal_score"}, "1", "normal score: the share erfc(-score/sqrt 2)/2 of the points is lower", t.score);
+    add("height_quantile", {"normal_score"}, unit(1), "height about the mean at a normal score", t.height,
+        comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' makes surfaces with it"));
+    if (!t.autocorrelation.empty()) {
+        const auto lags = [](int reach, double step) {
+            std::vector<double> all;
+            for (int i = -reach; i <= reach; ++i) all.push_back(i * step);
+            return all;
+        };
+        const std::vector<double> x = lags(t.reach_x, t.step_x), y = lags(t.reach_y, t.step_y);
+        file_.dimension("lag_y", y.size());
+        file_.dimension("lag_x", x.size());
+        add("lag_y", {"lag_y"}, unit(1), "lag along y", y);
+        add("lag_x", {"lag_x"}, unit(1), "lag along x", x);
+        add("autocorrelation", {"lag_y", "lag_x"}, "1", "autocorrelation of the heights", t.autocorrelation);
+    }
     if (!m.fit) return;
     const SelfAffineFit& found = *m.fit;
     std::vector<double> fit;

@@ -9,16 +9,19 @@
 namespace rsc {
 namespace {
 
-std::vector<double> read_variable(const NetcdfInput& file, const char* name, const std::string& length_unit, int power) {
+std::vector<double> read_variable(const NetcdfInput& file, const char* name, const std::string& length_unit, int power,
+                                  std::size_t rank = 1) {
     const auto variable = file.find(name);
     const auto refuse = [&](const std::string& what) { throw Error(Failure::bad_input, file.path() + ": " + what); };
     if (!variable)
         refuse(std::string("there is no variable ") + name +
-               "; wavenumber and psd were expected, as in the result of a measured map (surface%source = 'heights')");
-    if (variable->lengths.size() != 1 || !variable->numeric())
-        refuse(std::string(name) + " over one dimension was expected, not " + variable->shape());
-    check_memory(file.path(), variable->shape(), 4.0 * static_cast<double>(variable->lengths[0]));
-    std::vector<double> values(variable->lengths[0]);
+               "; it was expected as in the result of a measured map (surface%source = 'heights')");
+    if (variable->lengths.size() != rank || !variable->numeric())
+        refuse(std::string(name) + " over " + (rank == 1 ? "one dimension" : "two dimensions") + " was expected, not " + variable->shape());
+    std::size_t count = 1;
+    for (const std::size_t length : variable->lengths) count *= length;
+    check_memory(file.path(), variable->shape(), 4.0 * static_cast<double>(count));
+    std::vector<double> values(count);
     file.read(*variable, values.data());
     double factor = 1;
     if (const auto units = file.text_attribute(*variable, "units")) try {
@@ -32,21 +35,39 @@ std::vector<double> read_variable(const NetcdfInput& file, const char* name, con
 
 }  // namespace
 
-std::shared_ptr<const SpectrumTable> read_spectrum(const std::string& path, const std::string& length_unit) {
-    std::vector<double> wavenumber, psd;
-    if (is_netcdf(path)) {
-        const NetcdfInput file(path);
-        wavenumber = read_variable(file, "wavenumber", length_unit, -1);
-        psd = read_variable(file, "psd", length_unit, 4);
-    } else {
-        const TextTable table = read_table(path, 2);
-        for (std::size_t i = 0; i < table.rows; ++i) wavenumber.push_back(table.values[2 * i]), psd.push_back(table.values[2 * i + 1]);
-    }
+InputSpectrum read_spectrum(const std::string& path, const std::string& length_unit, bool by_direction, bool heights) {
+    InputSpectrum found;
     try {
-        return std::make_shared<const SpectrumTable>(std::move(wavenumber), std::move(psd));
+        std::vector<double> wavenumber, psd;
+        if (is_netcdf(path)) {
+            const NetcdfInput file(path);
+            const auto read = [&](const char* name, int power, std::size_t rank = 1) {
+                return read_variable(file, name, length_unit, power, rank);
+            };
+            if (by_direction) {
+                const auto plane = read("psd_plane", 4, 2);
+                const std::size_t angles = file.find("psd_plane")->lengths[1];
+                found.plane = std::make_shared<const PlaneSpectrum>(read("plane_wavenumber", -1), angles, plane);
+            }
+            if (heights)
+                found.heights = std::make_shared<const HeightDistribution>(
+                    HeightDistribution::of_quantiles(read("normal_score", 0), read("height_quantile", 1)));
+            wavenumber = read("wavenumber", -1);
+            psd = read("psd", 4);
+        } else {
+            if (by_direction || heights)
+                throw Error(Failure::bad_input,
+                            "a text file has the radial spectrum alone; surface%twins = 'directional' and surface%twin_heights = "
+                            "'measured' need the result file of a measured map");
+            const TextTable table = read_table(path, 2);
+            for (std::size_t i = 0; i < table.rows; ++i) wavenumber.push_back(table.values[2 * i]), psd.push_back(table.values[2 * i + 1]);
+        }
+        found.table = std::make_shared<const SpectrumTable>(std::move(wavenumber), std::move(psd));
     } catch (const Error& error) {
-        throw Error(error.kind(), path + ": " + error.what());
+        const std::string what = error.what();
+        throw Error(error.kind(), what.starts_with(path) ? what : path + ": " + what);
     }
+    return found;
 }
 
 }  // namespace rsc

@@ -110,22 +110,33 @@ HeightDistribution HeightDistribution::of_moments(double skewness, double kurtos
     return HeightDistribution(std::move(values));
 }
 
-HeightDistribution HeightDistribution::of_sample(std::vector<double> heights) {
-    std::sort(heights.begin(), heights.end());
-    if (heights.size() < 2 || !(heights.front() < heights.back()))
-        throw Error(Failure::bad_input, "heights: two different values are needed for a distribution");
-    const double count = static_cast<double>(heights.size());
+HeightDistribution HeightDistribution::of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights) {
+    bool rising = scores.size() == heights.size() && scores.size() >= 2 && heights.front() < heights.back();
+    for (std::size_t i = 1; rising && i < scores.size(); ++i) rising = scores[i] > scores[i - 1] && heights[i] >= heights[i - 1];
+    if (!rising) throw Error(Failure::bad_input, "the distribution of heights: heights that rise with the normal score were expected");
     std::vector<double> values(kValues);
     for (int i = 0; i < kValues; ++i) {
-        const double p = 0.5 * boost::math::erfc(-score(i) / std::numbers::sqrt2);
-        const double place = std::clamp(p * count - 0.5, 0.0, count - 1);
-        const auto k = std::min(static_cast<std::size_t>(place), heights.size() - 2);
-        values[static_cast<std::size_t>(i)] = std::lerp(heights[k], heights[k + 1], place - static_cast<double>(k));
+        const double u = std::clamp(score(i), scores.front(), scores.back());
+        const auto k = static_cast<std::size_t>(std::upper_bound(scores.begin() + 1, scores.end() - 1, u) - scores.begin());
+        values[static_cast<std::size_t>(i)] = std::lerp(heights[k - 1], heights[k], (u - scores[k - 1]) / (scores[k] - scores[k - 1]));
     }
     HeightDistribution distribution(std::move(values));
     const Shape shape = shape_of(distribution);
     for (double& value : distribution.values_) value = (value - shape.mean) / shape.deviation;
     return distribution;
+}
+
+std::vector<double> quantiles(std::vector<double> heights, const std::vector<double>& scores) {
+    std::sort(heights.begin(), heights.end());
+    const double count = static_cast<double>(heights.size());
+    std::vector<double> found;
+    for (const double u : scores) {
+        const double p = 0.5 * boost::math::erfc(-u / std::numbers::sqrt2);
+        const double place = std::clamp(p * count - 0.5, 0.0, count - 1);
+        const auto k = static_cast<std::size_t>(place);
+        found.push_back(std::lerp(heights[k], heights[std::min(k + 1, heights.size() - 1)], place - static_cast<double>(k)));
+    }
+    return found;
 }
 
 double HeightDistribution::operator()(double normal) const {

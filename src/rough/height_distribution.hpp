@@ -13,8 +13,8 @@ public:
     // all heights would have one of two values.
     static HeightDistribution of_moments(double skewness, double kurtosis);
 
-    // That of a sample of heights in any unit. Throws Error(bad_input) for less than two values or values that are all the same.
-    static HeightDistribution of_sample(std::vector<double> heights);
+    // From heights at rising normal scores, linear between them and straight beyond them. Throws Error(bad_input) unless heights rise.
+    static HeightDistribution of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights);
 
     double operator()(double normal) const;
 
@@ -22,5 +22,9 @@ private:
     explicit HeightDistribution(std::vector<double> values);
     std::vector<double> values_;  // at equally spaced normal scores
 };
+
+// The heights of a sample, in its unit and in any order, at these normal scores: the height below which the share
+// erfc(-score/sqrt 2)/2 of the sample lies.
+std::vector<double> quantiles(std::vector<double> heights, const std::vector<double>& scores);
 
 }  // namespace rsc

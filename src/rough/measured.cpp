@@ -63,6 +63,8 @@ Roughness roughness(const HeightMap& map) {
     return {std::sqrt(m.m0), m.rms_slope(), std::sqrt(m.m4)};
 }
 
+bool Measured::gaussian() const { return std::abs(parameters.ssk) <= 0.3 && std::abs(parameters.sku - 3) <= 0.6; }
+
 double Measured::shortest_wave() const { return fit ? 2 * std::numbers::pi / fit->ks.value : 2 * std::max(dx, dy); }
 
 double Measured::points_per_wave() const { return shortest_wave() / std::max(dx, dy); }
@@ -94,6 +96,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     }
     m.parameters = height_parameters(map);
     m.isotropy = isotropy_ratio(map);
+    m.texture = measure_texture(map);
     count_heights(map, m);
     m.spectrum = measure_spectrum(map);
     if (can_fit(m.spectrum)) m.fit = fit_self_affine(m.spectrum);
@@ -132,10 +135,15 @@ std::vector<std::string> told(const Measured& m, const std::string& length_unit)
             "warning: fewer than %.0f points in the shortest wave: the grid, or noise at the pixel, makes the slopes, curvatures and "
             "summits; surface%%filter_cutoff takes out what is no roughness",
             kFewPointsPerWave));
-    if (m.isotropy < 0.8 || std::abs(m.parameters.ssk) > 0.3 || std::abs(m.parameters.sku - 3) > 0.6)
-        lines.push_back(
-            "warning: the map is not isotropic or not Gaussian (isotropy ratio 1, Ssk 0, Sku 3 would be): surfaces made from its "
-            "spectrum are both");
+    const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
+    if (directional)
+        lines.push_back(format("texture: lay at %.0f degrees from x, Sal %.4g %s, Str %s%.2f", m.spectrum.lay(), m.texture.sal, l,
+                               m.texture.str_bounded ? "at most " : "", m.texture.str));
+    if (directional || !gaussian)
+        lines.push_back(std::string("the map ") + (directional ? "has a direction" : "") + (directional && !gaussian ? " and " : "") +
+                        (gaussian ? "" : "has heights that are not Gaussian") + ": surfaces like it keep that with " +
+                        (directional ? "surface%twins = 'directional'" : "") + (directional && !gaussian ? ", " : "") +
+                        (gaussian ? "" : "surface%twin_heights = 'measured'"));
     return lines;
 }
 

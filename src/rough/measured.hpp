@@ -10,6 +10,7 @@
 #include "rough/form.hpp"
 #include "rough/measured_spectrum.hpp"
 #include "rough/surface.hpp"
+#include "rough/texture.hpp"
 
 namespace rsc {
 
@@ -42,13 +43,18 @@ struct Measured {
     Roughness as_read, without_form, filtered;  // the last two are equal when there is no filter
     HeightParameters parameters;
     double isotropy = 1;
+    Texture texture;
     std::vector<double> height_pdf;  // density of the heights about their mean, in an even number of bins around it [1/length]
     double height_bin = 0;           // their width [length]
     MeasuredSpectrum spectrum;
     std::optional<SelfAffineFit> fit;  // none for a map too small or too flat for one
+    bool gaussian() const;             // skewness within 0.3 of 0, kurtosis within 0.6 of 3: as samples of Gaussian surfaces have them
     double shortest_wave() const;      // 2 pi/ks [length]
     double points_per_wave() const;    // grid steps in the shortest wave
 };
+
+// Least ratio of rms slopes that isotropic maps have, those of few waves too.
+inline constexpr double kIsotropic = 0.8;
 
 // Fewer points in the shortest wave than this, and the grid, or noise at the pixel, makes the curvatures.
 inline constexpr double kFewPointsPerWave = 4;

@@ -131,6 +131,69 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Power of modes by ring and angle.
+class Plane {
+public:
+    explicit Plane(std::size_t rings) : group_(rings + 1), power_{}, count_{} {
+        // Rings one by one, then a tenth wider each: first_ are those where a group begins.
+        for (std::size_t r = 1; r <= rings;) {
+            const std::size_t next = std::min(rings + 1, r + std::max<std::size_t>(1, r / 10));
+            // The last ring is alone, so that the table ends where the spectrum does.
+            const std::size_t end = r < rings && next == rings + 1 ? rings : next;
+            for (std::size_t i = r; i < end; ++i) group_[i] = first_.size();
+            first_.push_back(r), last_.push_back(end - 1);
+            r = end;
+        }
+        power_.resize(first_.size() * kAngles), count_.resize(first_.size() * kAngles);
+    }
+    void add(std::size_t ring, double kx, double ky, double power, double copies) {
+        if (ring == 0) return;
+        const double turn = std::atan2(ky, kx) / std::numbers::pi * kAngles;
+        const auto angle = static_cast<std::size_t>(std::floor(turn + 0.5) + kAngles) % kAngles;
+        power_[group_[ring] * kAngles + angle] += power;
+        count_[group_[ring] * kAngles + angle] += copies;
+    }
+    void finish(MeasuredSpectrum& s, double ring, double scale) const {
+        for (std::size_t g = 0; g < first_.size(); ++g) {
+            const double middle = std::sqrt(static_cast<double>(first_[g]) * static_cast<double>(last_[g]));
+            s.plane_wavenumber.push_back(middle * ring);
+            for (std::size_t a = 0; a < kAngles; ++a) {
+                // Two modes along the half circle of middle*pi modes.
+                auto wide = static_cast<std::size_t>(kAngles / (std::numbers::pi * middle));
+                double power = 0, count = 0;
+                for (; count == 0 && wide < kAngles; ++wide) {
+                    const std::size_t reach = std::min(wide, kAngles / 2 - 1);
+                    for (std::size_t t = 0; t <= 2 * reach; ++t) {
+                        const std::size_t place = g * kAngles + (a + kAngles + t - reach) % kAngles;
+                        power += power_[place], count += count_[place];
+                    }
+                }
+                s.plane_psd.push_back(count > 0 ? scale * power / count : 0);
+            }
+        }
+    }
+
+private:
+    static constexpr std::size_t kAngles = MeasuredSpectrum::kAngles;
+    std::vector<std::size_t> group_, first_, last_;
+    std::vector<double> power_, count_;
+};
+
+}  // namespace
+
+double MeasuredSpectrum::lay() const {
+    double best = -1, angle = 0;
+    for (std::size_t a = 0; a < kAngles; ++a) {
+        double power = 0;
+        for (std::size_t g = 1; g < plane_wavenumber.size(); ++g)
+            power += plane_psd[g * kAngles + a] * plane_wavenumber[g] * (plane_wavenumber[g] - plane_wavenumber[g - 1]);
+        if (power > best) best = power, angle = 180.0 * static_cast<double>(a) / kAngles;
+    }
+    return angle < 90 ? angle + 90 : angle - 90;
+}
+
 double SelfAffineFit::operator()(double k) const {
     if (k > ks.value * (1 + 1e-12)) return 0;
     if (k < kl.value) return plateau ? Phi0.value : 0;
@@ -171,6 +234,7 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
     const double nyquist = std::numbers::pi / std::max(map.dx, map.dy);
     const auto rings = static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
     std::vector<double> power(rings + 1, 0.0), count(rings + 1, 0.0);
+    Plane plane(rings);
     for (int j = 0; j < ny; ++j) {
         const double ky = step_y * (j <= ny / 2 ? j : j - ny);
         for (int i = 0; i < columns; ++i) {
@@ -178,8 +242,10 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
             if (!(q < static_cast<double>(rings) + 0.5)) continue;
             const auto r = static_cast<std::size_t>(q + 0.5);
             const double copies = i == 0 || 2 * i == nx ? 1 : 2;  // the other half plane is the mirror image
-            power[r] += copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
+            const double of_mode = copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
+            power[r] += of_mode;
             count[r] += copies;
+            plane.add(r, kx, ky, of_mode, copies);
         }
     }
     // Parseval: the squares of the modes sum up to nx ny times those of the windowed heights.
@@ -196,6 +262,7 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
         s.psd.push_back(scale * power[r] / count[r]);
         s.modes.push_back(count[r]);
     }
+    plane.finish(s, ring, scale);
     return s;
 }
 

@@ -30,6 +30,14 @@ struct MeasuredSpectrum {
     std::vector<double> modes;       // Fourier modes in the ring, mirror images included
     double independent = 0.5;        // share of independent amplitudes among them: half are mirror images, a window couples neighbours
     double coupled = 1;              // rings that tell the same, because the window couples them
+    // The same by direction: at fewer rings, wider ones where there are many, and at kAngles angles, 0, 2.5, ... degrees from the x axis towards
+    // the y axis (the other half plane is the mirror image). Near the origin a value is a mean over as many angles as the window blurs into
+    // one: two modes along the circle.
+    static constexpr std::size_t kAngles = 72;
+    std::vector<double> plane_wavenumber;  // [1/length]
+    std::vector<double> plane_psd;         // [ring][angle], [length^4]
+    // The direction of the lay: at right angles to the direction with the most power, from the x axis, 0 to 180 [degree].
+    double lay() const;
 };
 
 // A map that is not periodic is multiplied by a Hann window, whose loss of power is restored. No point may be missing.

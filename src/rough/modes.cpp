@@ -71,12 +71,12 @@ void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key,
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
     for (int ky = first; ky <= last; ky += kBatch) {
         const int count = std::min(kBatch, last - ky + 1);
-        if (spectrum.table)
-            for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, limits.stretched(kx, ky + i)));
+        if (spectrum.tabulated())
+            for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, kx, ky + i));
         else
             power_law(spectrum, limits.stretched, kx, ky, amplitude);
         std::fill(amplitude + count, amplitude + kBatch, 0.0);
-        if (!spectrum.table && kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
+        if (!spectrum.tabulated() && kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
             for (int i = 0; i < count; ++i)
                 if (limits.stretched(kx, ky + i) < limits.lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);
@@ -125,7 +125,7 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
         column[n / 2] += std::conj(column[n / 2]);
     }
     const double x2 = static_cast<double>(kx) * kx;
-    const bool isotropic = spectrum.aspect == 1;
+    const bool isotropic = !spectrum.directional();
     const double x = kx, e = sum(lanes.e), y1 = sum(lanes.y1), y2 = sum(lanes.y2), y3 = sum(lanes.y3), y4 = sum(lanes.y4);
     ModeSums sums;
     sums.expected = 2.0 * sum(lanes.a);

@@ -72,13 +72,80 @@ double SpectrumTable::integral(double power) const {
 
 double SpectrumTable::sigma() const { return std::sqrt(2 * std::numbers::pi * integral(1)); }
 
-Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma) {
+PlaneSpectrum::PlaneSpectrum(std::vector<double> wavenumber, std::size_t angles, std::vector<double> psd)
+    : k_(std::move(wavenumber)), psd_(std::move(psd)), angles_(angles) {
+    if (k_.size() < 2 || angles_ < 2 || psd_.size() != k_.size() * angles_)
+        throw Error(Failure::bad_input, "spectrum by direction: two rings and two angles at least, and a value for each, were expected");
+    for (std::size_t i = 0; i < k_.size(); ++i)
+        if (!usable_positive(k_[i]) || (i > 0 && !(k_[i] > k_[i - 1])))
+            throw Error(Failure::bad_input, "spectrum by direction: wavenumbers must be positive and rise");
+    for (const double value : psd_) {
+        if (!(value >= 0 && usable(value)))
+            throw Error(Failure::bad_input, "spectrum by direction: the power spectral density must be finite and not negative");
+        largest_ = std::max(largest_, value);
+    }
+    if (!(largest_ > 0)) throw Error(Failure::bad_input, "spectrum by direction: it is zero everywhere");
+}
+
+double PlaneSpectrum::along(std::size_t ring, double turn) const {
+    const double whole = std::floor(turn);
+    const auto first = static_cast<std::size_t>(whole) % angles_;
+    return std::lerp(psd_[ring * angles_ + first], psd_[ring * angles_ + (first + 1) % angles_], turn - whole);
+}
+
+double PlaneSpectrum::operator()(double kx, double ky) const {
+    const double k = std::hypot(kx, ky);
+    if (!(k >= k_.front() * (1 - kEdgeTolerance) && k <= k_.back() * (1 + kEdgeTolerance))) return 0;
+    const double angle = std::atan2(ky, kx) / std::numbers::pi, turn = (angle < 0 ? angle + 1 : angle) * static_cast<double>(angles_);
+    const auto i = static_cast<std::size_t>(std::upper_bound(k_.begin() + 1, k_.end() - 1, k) - k_.begin());
+    const double low = along(i - 1, turn), high = along(i, turn);
+    if (low == 0 || high == 0) return 0;
+    const double t = std::clamp(std::log(k / k_[i - 1]) / std::log(k_[i] / k_[i - 1]), 0.0, 1.0);
+    return low * std::pow(high / low, t);
+}
+
+double PlaneSpectrum::integral(int p, int q) const {
+    constexpr int parts = 8;  // of the step between two angles
+    const double step = std::numbers::pi / (parts * static_cast<double>(angles_));
+    double sum = 0;
+    for (std::size_t a = 0; a < parts * angles_; ++a) {
+        const double turn = (static_cast<double>(a) + 0.5) / parts, angle = (static_cast<double>(a) + 0.5) * step;
+        double radial = 0;
+        for (std::size_t i = 1; i < k_.size(); ++i) {
+            const double low = along(i - 1, turn), high = along(i, turn);
+            if (low == 0 || high == 0) continue;
+            const double log_ratio = std::log(k_[i] / k_[i - 1]), power = p + q + 2;
+            radial += low * std::pow(k_[i - 1], power) * power_integral(log_ratio, power + std::log(high / low) / log_ratio);
+        }
+        sum += radial * std::pow(std::cos(angle), p) * std::pow(std::sin(angle), q);
+    }
+    return 2 * step * sum;
+}
+
+double PlaneSpectrum::sigma() const { return std::sqrt(integral(0, 0)); }
+
+namespace {
+
+Spectrum tabulated(double lowest, double highest, double L, double sigma) {
     Spectrum s;
     s.L = L;
-    s.L_lambda_l = table->lowest() * L / (2 * std::numbers::pi);
-    s.L_lambda_s = table->highest() * L / (2 * std::numbers::pi);
+    s.L_lambda_l = lowest * L / (2 * std::numbers::pi);
+    s.L_lambda_s = highest * L / (2 * std::numbers::pi);
     s.sigma = sigma;
+    return s;
+}
+
+}  // namespace
+
+Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma) {
+    Spectrum s = tabulated(table->lowest(), table->highest(), L, sigma);
     s.table = std::move(table);
+    return s;
+}
+
+Spectrum tabulated_spectrum(std::shared_ptr<const PlaneSpectrum> plane, double L, double sigma) {
+    Spectrum s = tabulated(plane->lowest(), plane->highest(), L, sigma);
+    s.plane = std::move(plane);
     return s;
 }
 
@@ -95,8 +162,8 @@ void require_modes(const Spectrum& s, const std::string& otherwise) {
     for (int kx = 0; kx <= b.highest_kx; ++kx) {
         const auto [first, last] = b.column(kx);
         for (int ky = last; ky >= first; --ky) {
-            if (relative_psd(s, b.stretched(kx, ky)) > 0.0) return;
-            if (!s.table && ky == last) ky = std::min(ky, first + 1);
+            if (relative_psd(s, kx, ky) > 0.0) return;
+            if (!s.tabulated() && ky == last) ky = std::min(ky, first + 1);
         }
     }
     refuse(otherwise, s.L_lambda_s);
@@ -112,7 +179,7 @@ void validate(const Spectrum& s) {
     if (!(shortest_wave(s) <= kMostModes))
         refuse("the shortest wave across the direction, as L/lambda, must be at most 46340", shortest_wave(s));
     if (!s.gaussian() && !s.heights) HeightDistribution::of_moments(s.shape.skewness, s.shape.kurtosis);
-    if (s.table) {
+    if (s.tabulated()) {
         if (!(s.L_lambda_s <= kMostModes))
             refuse("L times the largest wavenumber of the spectrum over 2 pi must be at most 46340", s.L_lambda_s);
         if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
@@ -154,9 +221,12 @@ Band band(const Spectrum& s) {
     return b;
 }
 
-double relative_psd(const Spectrum& s, double q2) {
-    if (s.table) return q2 > 0 ? (*s.table)(2 * std::numbers::pi / s.L * std::sqrt(q2)) / s.table->largest() : 0.0;
+double relative_psd(const Spectrum& s, double kx, double ky) {
+    const double step = 2 * std::numbers::pi / s.L;
+    if (s.plane) return (*s.plane)(step * kx, step * ky) / s.plane->largest();
     const Band b = band(s);
+    const double q2 = b.stretched(kx, ky);
+    if (s.table) return q2 > 0 ? (*s.table)(step * std::sqrt(q2)) / s.table->largest() : 0.0;
     if (!(q2 > 0.0 && q2 <= b.highest_q2)) return 0.0;
     if (q2 < b.lowest_q2) return s.plateau ? 1.0 : 0.0;
     return std::pow(q2 / (s.L_lambda_l * s.L_lambda_l), -(1.0 + s.hurst));
@@ -196,6 +266,13 @@ Moments isotropic_moments(const Spectrum& s) {
 
 Moments theoretical_moments(const Spectrum& s) {
     validate(s);
+    if (s.plane) {
+        const double scale = s.sigma * s.sigma / s.plane->integral(0, 0);
+        const auto moment = [&](int p, int q) { return scale * s.plane->integral(p, q); };
+        const MomentTensor tensor{moment(2, 0), moment(1, 1), moment(0, 2), moment(4, 0),
+                                  moment(3, 1), moment(2, 2), moment(1, 3), moment(0, 4)};
+        return {s.sigma * s.sigma, tensor.m2(), tensor.m4(), tensor, {}};
+    }
     Moments m = isotropic_moments(s);
     m.tensor = directional_moments(m.m2, m.m4, s.aspect, s.direction);
     if (s.aspect != 1) m.m2 = m.tensor.m2(), m.m4 = m.tensor.m4();
@@ -212,10 +289,10 @@ Moments discrete_moments(const Spectrum& s) {
         const auto [first, last] = b.column(kx);
         for (int ky = first; ky <= last; ++ky) {
             const double y2 = static_cast<double>(ky) * ky;
-            const double w = (kx > 0 ? 2.0 : 1.0) * relative_psd(s, b.stretched(kx, ky));
+            const double w = (kx > 0 ? 2.0 : 1.0) * relative_psd(s, kx, ky);
             s0 += w;
             s2 += w * (x2 + y2) / 2.0;
-            s4 += w * (s.aspect == 1 ? (x2 * x2 + y2 * y2 + 3.0 * x2 * y2) / 3.0 : 3.0 / 8.0 * (x2 + y2) * (x2 + y2));
+            s4 += w * (!s.directional() ? (x2 * x2 + y2 * y2 + 3.0 * x2 * y2) / 3.0 : 3.0 / 8.0 * (x2 + y2) * (x2 + y2));
         }
     }
     const double scale = s.sigma * s.sigma / s0;

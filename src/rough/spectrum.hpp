@@ -33,6 +33,29 @@ private:
     double largest_ = 0;
 };
 
+// A power spectral density that depends on the direction, known at rings of wavenumbers and at equally spaced angles: linear in logarithms
+// between rings, linear between angles, zero below the first ring and above the last.
+class PlaneSpectrum {
+public:
+    // wavenumber [1/length]; psd [length^4], [ring][angle] at the angles 0, 180/angles, ... degrees from the x axis towards the y axis, the
+    // other half plane being the mirror image. Throws Error(bad_input) unless wavenumbers are positive and rise, densities are finite and not
+    // negative, there are two rings and two angles or more, and something is positive.
+    PlaneSpectrum(std::vector<double> wavenumber, std::size_t angles, std::vector<double> psd);
+    double operator()(double kx, double ky) const;
+    double lowest() const { return k_.front(); }
+    double highest() const { return k_.back(); }
+    double largest() const { return largest_; }  // psd
+    // Integral of kx^p ky^q Phi over the plane, p + q even.
+    double integral(int p, int q) const;
+    double sigma() const;  // rms height
+
+private:
+    double along(std::size_t ring, double turn) const;  // at an angle in steps of the table
+    std::vector<double> k_, psd_;
+    std::size_t angles_;
+    double largest_ = 0;
+};
+
 // What defines the statistics of a synthetic rough surface on a square L x L.
 struct Spectrum {
     double L = 1.0;             // side of the square [length]
@@ -51,10 +74,15 @@ struct Spectrum {
     bool gaussian() const { return !heights && shape.skewness == 0 && shape.kurtosis == 3; }
     // If there is one, it is the spectrum, scaled to sigma; hurst and plateau mean nothing then, and the cutoffs are its ends.
     std::shared_ptr<const SpectrumTable> table = nullptr;
+    // The same by direction, instead of the table.
+    std::shared_ptr<const PlaneSpectrum> plane = nullptr;
+    bool tabulated() const { return table || plane; }
+    bool directional() const { return aspect != 1 || plane; }
 };
 
 // The spectrum of a table on a square of side L.
 Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma);
+Spectrum tabulated_spectrum(std::shared_ptr<const PlaneSpectrum> plane, double L, double sigma);
 
 // Moments of the surface by direction: m_pq is the integral of kx^p ky^q Phi over the plane, m20 = <(dz/dx)^2>, m11 = <dz/dx dz/dy>, m40 = <(d2z/dx2)^2>, ... [length^(2-p-q)].
 struct MomentTensor {
@@ -105,9 +133,9 @@ Stretch stretch(const Spectrum& spectrum);
 // The shortest wave in any direction as L/lambda: L_lambda_s, or more of an anisotropic surface.
 double shortest_wave(const Spectrum& spectrum);
 
-// Relative PSD (Phi / Phi0; Phi over its largest value of a table) of the mode with integer wavevector of stretched squared length q2;
-// 0 outside the band. A mode exactly at K = kl (or ks) belongs to the surface either way, to a relative 1e-12 of q2.
-double relative_psd(const Spectrum& spectrum, double q2);
+// Relative PSD (Phi / Phi0; Phi over its largest value of a table) of the mode with integer wavevector (kx, ky); 0 outside the band. A mode
+// exactly at K = kl (or ks) belongs to the surface either way, to a relative 1e-12 of its square.
+double relative_psd(const Spectrum& spectrum, double kx, double ky);
 
 // The band in integer wavevectors, the tolerance at its ends included.
 struct Band {

@@ -94,11 +94,14 @@ Ground read_list(const Case& settings) {
 Spectrum spectrum_of(const Case& settings) {
     const auto& keys = settings.surface;
     if (keys.source == Source::spectrum) {
-        const auto table = read_spectrum(keys.file, settings.run.length_unit);
-        Spectrum spectrum =
-            tabulated_spectrum(table, keys.L.value_or(2 * std::numbers::pi / table->lowest()), keys.sigma.value_or(table->sigma()));
+        const auto found = read_spectrum(keys.file, settings.run.length_unit, keys.twins == Twins::directional,
+                                         keys.twin_heights == TwinHeights::measured);
+        const double lowest = found.plane ? found.plane->lowest() : found.table->lowest();
+        const double L = keys.L.value_or(2 * std::numbers::pi / lowest), sigma = keys.sigma.value_or(found.table->sigma());
+        Spectrum spectrum = found.plane ? tabulated_spectrum(found.plane, L, sigma) : tabulated_spectrum(found.table, L, sigma);
         spectrum.aspect = keys.aspect, spectrum.direction = keys.direction;
         spectrum.shape = {keys.skewness, keys.kurtosis};
+        spectrum.heights = found.heights;
         return spectrum;
     }
     return {keys.L.value_or(1.0),      keys.hurst,  keys.L_lambda_l, keys.L_lambda_s, keys.plateau,

@@ -31,7 +31,10 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
-    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) * (1 - 1e-12)));
+    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) * (1 - 1e-12))) +
+                      2;  // heights of any distribution need a point more
+    twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
+    twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
     twins.surface.sigma = m.parameters.sq;
     twins.surface.normalise = Normalise::ensemble;  // the map's rms height is one sample's; that of the twins may scatter as it does
     if (keys.sigma && twins.indentation.control == Control::separation && twins.indentation.unit == LevelUnit::sigma) {
