@@ -38,7 +38,7 @@ inline void read_input(const std::string& path, std::optional<double> L) {
         refused(error);
     }
     try {
-        const auto table = rsc::read_spectrum(path, "mm");
+        const auto table = rsc::read_spectrum(path, "mm").table;
         PROMISE(std::isfinite(table->sigma()) && table->sigma() >= 0 && table->lowest() < table->highest(), "a spectrum");
     } catch (const rsc::Error& error) {
         refused(error);

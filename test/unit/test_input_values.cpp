@@ -287,15 +287,18 @@ void lists() {
     const auto table = read_spectrum(netcdf("s.nc", {{"k", 3}},
                                             {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 5}, {{"units", "um-1"}}},
                                              {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}, {{"units", "nm4"}}}}),
-                                     "mm");
+                                     "mm")
+                           .table;
     CHECK_RELATIVE(table->lowest(), 2e3, 1e-13);
     CHECK_RELATIVE(table->highest(), 5e3, 1e-13);
     CHECK_RELATIVE((*table)(3e3), 11e-24, 1e-12);
     CHECK_RELATIVE((*table)(std::sqrt(15.0) * 1e3), std::sqrt(143.0) * 1e-24, 1e-12);
-    const auto columns_of_two = read_spectrum(write("s.txt", "2 7\n3 11\n5 13\n"), "um");
+    const auto columns_of_two = read_spectrum(write("s.txt", "2 7\n3 11\n5 13\n"), "um").table;
     CHECK(columns_of_two->lowest() == 2 && columns_of_two->highest() == 5 && columns_of_two->largest() == 13);
-    const auto bare = read_spectrum(
-        netcdf("s.nc", {{"k", 3}}, {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 5}}, {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}}}), "um");
+    const auto bare =
+        read_spectrum(netcdf("s.nc", {{"k", 3}}, {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 5}}, {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}}}),
+                      "um")
+            .table;
     CHECK(bare->lowest() == 2 && bare->largest() == 13);
 }
 

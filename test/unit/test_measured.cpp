@@ -238,8 +238,8 @@ void circle() {
                 // Phi of the ensemble by its definition: the sum over modes is sigma^2.
                 double sum = 0;
                 for (int q = -static_cast<int>(high); q <= high; ++q)
-                    for (int r = -static_cast<int>(high); r <= high; ++r) sum += relative_psd(s, q * q + r * r);
-                const double phi = s.sigma * s.sigma / (sum * step * step) * relative_psd(s, low * high);
+                    for (int r = -static_cast<int>(high); r <= high; ++r) sum += relative_psd(s, q, r);
+                const double phi = s.sigma * s.sigma / (sum * step * step) * relative_psd(s, std::sqrt(low * high), 0);
                 CHECK_CLOSE(mean_phi, std::log(phi), 0.05);
                 CHECK(told < 4 * scatter && scatter < 9 * told);
             }

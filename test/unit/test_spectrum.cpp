@@ -71,23 +71,23 @@ void closed_forms() {
 
 void band_edges() {
     const Spectrum s = spectrum(0.8, 5, 13, false);
-    CHECK(relative_psd(s, 24) == 0.0);
-    CHECK(relative_psd(s, 25) == 1.0);  // at kl: inside
-    CHECK(relative_psd(s, 169) > 0.0);  // at ks: inside
-    CHECK(relative_psd(s, 170) == 0.0);
-    CHECK_RELATIVE(relative_psd(s, 100), std::pow(2.0, -3.6), 1e-14);  // K = 2 kl
+    CHECK(relative_psd(s, 4, 2) == 0.0);
+    CHECK(relative_psd(s, 3, 4) == 1.0);  // at kl: inside
+    CHECK(relative_psd(s, 12, 5) > 0.0);  // at ks: inside
+    CHECK(relative_psd(s, 13, 1) == 0.0);
+    CHECK_RELATIVE(relative_psd(s, 6, 8), std::pow(2.0, -3.6), 1e-14);  // K = 2 kl
     Spectrum flat = s;
     flat.plateau = true;
-    CHECK(relative_psd(flat, 0) == 0.0);
-    CHECK(relative_psd(flat, 1) == 1.0);
-    CHECK(relative_psd(flat, 24) == 1.0);
-    CHECK(relative_psd(flat, 25) == 1.0);
+    CHECK(relative_psd(flat, 0, 0) == 0.0);
+    CHECK(relative_psd(flat, 0, 1) == 1.0);
+    CHECK(relative_psd(flat, 4, 2) == 1.0);
+    CHECK(relative_psd(flat, 3, 4) == 1.0);
     // A cutoff that rounding has moved still holds the modes on it.
     Spectrum rounded = s;
     rounded.L_lambda_l = 5 * (1 + 1e-15);
     rounded.L_lambda_s = 13 * (1 - 1e-15);
-    CHECK_CLOSE(relative_psd(rounded, 25), 1.0, 1e-12);
-    CHECK(relative_psd(rounded, 169) > 0.0);
+    CHECK_CLOSE(relative_psd(rounded, 3, 4), 1.0, 1e-12);
+    CHECK(relative_psd(rounded, 12, 5) > 0.0);
 }
 
 void discrete_tend_to_continuous() {

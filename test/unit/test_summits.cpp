@@ -63,7 +63,7 @@ Waves waves_of(const Spectrum& s, std::int64_t seed, std::int64_t realization) {
     const int most = static_cast<int>(s.L_lambda_s);
     for (int kx = 0; kx <= most; ++kx)
         for (int ky = kx > 0 ? -most : 1; ky <= most; ++ky) {
-            const double phi = relative_psd(s, static_cast<double>(kx) * kx + static_cast<double>(ky) * ky);
+            const double phi = relative_psd(s, kx, ky);
             if (phi == 0) continue;
             const std::complex<double> c = std::sqrt(phi) * mode_noise({seed, realization}, kx, ky);
             w.waves.push_back({kx, ky, c});

@@ -43,7 +43,7 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
     const int top = static_cast<int>(s.L_lambda_s);
     for (int kx = 0; kx <= top; ++kx)
         for (int ky = kx > 0 ? -top : 1; ky <= top; ++ky) {
-            const double psd = relative_psd(s, kx * kx + ky * ky);
+            const double psd = relative_psd(s, kx, ky);
             if (!(psd > 0)) continue;
             modes.push_back({kx, ky, std::sqrt(psd) * mode_noise(key, kx, ky)});
             expected += 2 * psd;

@@ -1,0 +1,208 @@
+// Surfaces with a direction, with heights that are not Gaussian, and what is measured of them.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "rough/height_distribution.hpp"
+#include "rough/measured_spectrum.hpp"
+#include "rough/synthesis.hpp"
+#include "rough/texture.hpp"
+
+using namespace rsc;
+
+namespace {
+
+Spectrum ground(double aspect, double direction, double hurst = 0.8) {
+    Spectrum s;
+    s.L_lambda_l = 4, s.L_lambda_s = 32, s.hurst = hurst;
+    s.aspect = aspect, s.direction = direction;
+    return s;
+}
+
+HeightMap made(const Spectrum& s, int n, Moments* sampled = nullptr, int threads = 1) {
+    return synthesize(s, n, Normalise::sample, 3, 7, sampled, threads);
+}
+
+double difference(const HeightMap& a, const HeightMap& b, int step = 1, bool transposed = false) {
+    double worst = 0;
+    for (int j = 0; j < a.ny; ++j)
+        for (int i = 0; i < a.nx; ++i) worst = check::worse(worst, std::abs(a(i, j) - (transposed ? b(j, i) : b(step * i, step * j))));
+    return worst;
+}
+
+void directions() {
+    const HeightMap isotropic = made(ground(1, 0), 128);
+    CHECK(difference(isotropic, made(ground(1, 70), 128)) == 0);  // a direction without anisotropy is none
+    CHECK(difference(made(ground(5, 0), 192), made(ground(5, 90), 192), 1, true) == 0);
+    CHECK(difference(made(ground(5, 20), 192), made(ground(5, 70), 192), 1, true) == 0);
+    CHECK(difference(made(ground(5, 20), 192), made(ground(5, 20), 192, nullptr, 3)) == 0);
+    CHECK(difference(made(ground(5, 20), 192), made(ground(5, 20), 384), 2) < 1e-12 * 0.01);
+    // Stretched by 1/a along a direction is stretched by a across it: the same but for rounding.
+    CHECK(difference(made(ground(4, 0), 192), made(ground(0.25, 90), 192)) < 1e-12 * 0.01);
+    try {
+        made(ground(16, 0), 254);  // waves across the lay are four times as short as L_lambda_s says
+        CHECK(!"refused");
+    } catch (const Error& error) {
+        CHECK(error.kind() == Failure::bad_input && std::string(error.what()).find("256") != std::string::npos);
+    }
+}
+
+// The closed forms of the moments against sums over the modes drawn, whose mean over surfaces they are, and against finite differences.
+void moments() {
+    for (const auto& [aspect, direction] : {std::pair{3.0, 0.0}, {3.0, 30.0}, {6.0, 115.0}}) {
+        const Spectrum s = ground(aspect, direction);
+        const MomentTensor theory = theoretical_moments(s).tensor;
+        MomentTensor mean;
+        constexpr int surfaces = 100;
+        for (int k = 1; k <= surfaces; ++k) {
+            const Moments sampled = RowSource(s, 192, Normalise::ensemble, 1, k, 1).sampled();
+            mean.m20 += sampled.tensor.m20 / surfaces, mean.m11 += sampled.tensor.m11 / surfaces, mean.m02 += sampled.tensor.m02 / surfaces;
+            mean.m40 += sampled.tensor.m40 / surfaces, mean.m31 += sampled.tensor.m31 / surfaces, mean.m22 += sampled.tensor.m22 / surfaces;
+            mean.m13 += sampled.tensor.m13 / surfaces, mean.m04 += sampled.tensor.m04 / surfaces;
+            CHECK_RELATIVE(sampled.m2, sampled.tensor.m2(), 1e-12);
+            CHECK_RELATIVE(sampled.m4, sampled.tensor.m4(), 1e-12);
+        }
+        // Sampling error of the sums, and the sum over integer wave vectors in place of the integral.
+        constexpr double near = 0.06;
+        const double slope = theory.m20 + theory.m02, curvature = theory.m40 + theory.m04;
+        CHECK_CLOSE(mean.m20, theory.m20, near * slope);
+        CHECK_CLOSE(mean.m11, theory.m11, near * slope);
+        CHECK_CLOSE(mean.m02, theory.m02, near * slope);
+        CHECK_CLOSE(mean.m40, theory.m40, near * curvature);
+        CHECK_CLOSE(mean.m31, theory.m31, near * curvature);
+        CHECK_CLOSE(mean.m22, theory.m22, near * curvature);
+        CHECK_CLOSE(mean.m13, theory.m13, near * curvature);
+        CHECK_CLOSE(mean.m04, theory.m04, near * curvature);
+        // A turn leaves the traces.
+        CHECK_RELATIVE(theory.m2(), theoretical_moments(ground(aspect, 0)).m2, 1e-12);
+        CHECK_RELATIVE(theory.m4(), theoretical_moments(ground(aspect, 0)).m4, 1e-12);
+        Moments sampled;
+        const MomentTensor grid = grid_moments(made(s, 1536, &sampled)).tensor;
+        CHECK_CLOSE(grid.m20, sampled.tensor.m20, 0.02 * slope);
+        CHECK_CLOSE(grid.m11, sampled.tensor.m11, 0.02 * slope);
+        CHECK_CLOSE(grid.m31, sampled.tensor.m31, 0.03 * curvature);
+        CHECK_CLOSE(grid.m13, sampled.tensor.m13, 0.03 * curvature);
+    }
+}
+
+// The spectrum by direction of a surface made with a table of one is the table's, and its moments are the integrals of the closed form.
+void circle() {
+    for (const double hurst : {0.5, 0.8, 1.0})
+        for (const auto& [aspect, direction] : {std::pair{1.0, 0.0}, {3.0, 40.0}, {10.0, 100.0}}) {
+            const Spectrum s = ground(aspect, direction, hurst);
+            const HeightMap map = made(s, 256);
+            const MeasuredSpectrum measured = measure_spectrum(map);
+            if (aspect > 1) {
+                const double off = std::remainder(measured.lay() - direction, 180);
+                CHECK(std::abs(off) <=
+                      2.5 + 180 / (std::numbers::pi * 12));  // a step of the table, and the modes along its ring of most power
+                // Rms slopes are in the ratio of the correlation lengths.
+                CHECK_RELATIVE(isotropy_ratio(map), 1 / aspect, 0.15);
+            }
+            const PlaneSpectrum plane(measured.plane_wavenumber, MeasuredSpectrum::kAngles, measured.plane_psd);
+            CHECK_RELATIVE(plane.sigma(), 0.01, 0.12);
+            Spectrum twin = tabulated_spectrum(std::make_shared<PlaneSpectrum>(plane), s.L, s.sigma);
+            Moments of_twin;
+            const HeightMap again = synthesize(twin, 258, Normalise::sample, 5, 1, &of_twin);
+            CHECK_RELATIVE(isotropy_ratio(again), isotropy_ratio(map), 0.2);
+            CHECK_RELATIVE(of_twin.rms_slope(), grid_moments(map).rms_slope(), 0.15);
+            CHECK_RELATIVE(of_twin.m2, theoretical_moments(twin).m2, 0.15);
+        }
+}
+
+void distributions() {
+    for (const auto& [skewness, kurtosis] :
+         {std::pair{0.0, 3.5}, {-1.0, 4.5}, {-2.0, 9.0}, {0.0, 1.8}, {0.5, 2.5}, {1.0, 4.83}, {-3.0, 20.0}}) {
+        const auto of = HeightDistribution::of_moments(skewness, kurtosis);
+        double m[5] = {};
+        for (double u = -8, last = -HUGE_VAL; u <= 8; u += 1e-3) {
+            const double z = of(u), w = std::exp(-u * u / 2);
+            for (int p = 0; p < 5; ++p) m[p] += w * std::pow(z, p);
+            CHECK(z > last);
+            last = z;
+        }
+        CHECK_CLOSE(m[1] / m[0], 0, 1e-4);
+        CHECK_CLOSE(m[2] / m[0], 1, 1e-3);
+        CHECK_CLOSE(m[3] / m[0], skewness, 1e-3);
+        CHECK_CLOSE(m[4] / m[0], kurtosis, 1e-3 * kurtosis);
+    }
+    for (const auto& [skewness, kurtosis] : {std::pair{2.0, 5.0}, {0.0, 0.9}, {1.0, 1.9}}) try {
+            HeightDistribution::of_moments(skewness, kurtosis);
+            CHECK(!"refused");
+        } catch (const Error& error) {
+            CHECK(std::string(error.what()).find(std::to_string(skewness * skewness + 1)) != std::string::npos);
+        }
+}
+
+// Amplitude of a mode of a map by its definition.
+double amplitude(const HeightMap& map, int kx, int ky) {
+    std::complex<double> sum = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            sum += map(i, j) * std::polar(1.0, -2 * std::numbers::pi * (1.0 * kx * i / map.nx + 1.0 * ky * j / map.ny));
+    return std::abs(sum) / (map.nx * map.ny);
+}
+
+void heights() {
+    for (const auto& [skewness, kurtosis, aspect] : {std::tuple{-1.0, 4.5, 1.0}, {0.0, 2.0, 3.0}, {0.6, 3.5, 1.0}}) {
+        Spectrum s = ground(aspect, 25);
+        const HeightMap gaussian = made(s, 256);
+        s.shape = {skewness, kurtosis};
+        Moments sampled;
+        const HeightMap map = made(s, 256, &sampled);
+        const HeightParameters p = height_parameters(map);
+        CHECK_CLOSE(p.ssk, skewness, 0.02);
+        CHECK_CLOSE(p.sku, kurtosis, 0.05);
+        CHECK_CLOSE(p.ssk, sampled.heights.skewness, 1e-3);
+        CHECK_CLOSE(p.sku, sampled.heights.kurtosis, 1e-2);
+        CHECK_RELATIVE(p.sq, 0.01, 1e-12);
+        for (const auto& [kx, ky] : {std::pair{4, 3}, {5, -7}, {0, 9}, {12, 0}})
+            CHECK_CLOSE(amplitude(map, kx, ky), amplitude(gaussian, kx, ky), 1e-14);
+        CHECK(difference(map, made(s, 256, nullptr, 3)) == 0);
+        CHECK(difference(map, made(s, 512), 2) < 1e-12 * 0.01);
+    }
+}
+
+void texture() {
+    // A wave along x: the autocorrelation is its cosine; across it there is no decay.
+    HeightMap wave;
+    wave.allocate(240, 60, 240);
+    wave.dx = 0.5, wave.dy = 1, wave.periodic = true;
+    for (int j = 0; j < wave.ny; ++j)
+        for (int i = 0; i < wave.nx; ++i) wave.row(j)[i] = std::cos(2 * std::numbers::pi * i / 40.0);
+    const Texture t = measure_texture(wave);
+    CHECK_RELATIVE(t.sal, std::acos(0.2) / (2 * std::numbers::pi) * 20, 2e-3);  // straight between grid points
+    CHECK(t.str_bounded && t.str < 0.2);
+    // Heights spread evenly: all core.
+    HeightMap even;
+    even.allocate(64, 64, 64);
+    even.dx = even.dy = 1;
+    for (int j = 0; j < 64; ++j)
+        for (int i = 0; i < 64; ++i) even.row(j)[i] = (37 * (i + 64 * j)) % 4096;
+    const Texture flat = measure_texture(even);
+    CHECK_RELATIVE(flat.sk, 4096, 0.01);
+    CHECK(flat.spk < 0.01 * flat.sk && flat.svk < 0.01 * flat.sk);
+    CHECK_CLOSE(flat.height[Texture::kScores / 2], 0, 1);  // the median
+    // A plateau with valleys: one in ten points lies deep.
+    for (int j = 0; j < 64; ++j)
+        for (int i = 0; i < 64; ++i) even.row(j)[i] = i % 10 == 0 ? -100.0 - j : 0.01 * ((37 * i + 11 * j) % 64);
+    const Texture valleys = measure_texture(even);
+    CHECK(valleys.sk < 2 && valleys.svk > 100 && valleys.spk < 1);
+    // Isotropic and stretched surfaces; the sampling error of few waves is some tenths.
+    CHECK(measure_texture(made(ground(1, 0), 256)).str > 0.6);
+    const Texture stretched = measure_texture(made(ground(6, 0), 256));
+    CHECK(stretched.str < 0.35 && stretched.str > 0.08);
+}
+
+}  // namespace
+
+TESTS {
+    directions();
+    moments();
+    circle();
+    distributions();
+    heights();
+    texture();
+}
