@@ -131,44 +131,6 @@ void symmetry() {
     }
 }
 
-// Shifting the points leaves the product, other units of length and force change it by their factors.
-void invariance() {
-    const Points p = uniform_points(3000, 16);
-    const Vector f = random_forces(p.size(), 17, true);
-    constexpr double wanted = 1e-9;
-    const Vector phi = product(MeshPotential(p.size(), p.x.data(), p.y.data(), wanted), f);
-    Points shifted = p, scaled = p;
-    Vector forces = f;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        shifted.x[i] += 100, shifted.y[i] -= 50;
-        scaled.x[i] *= 3e-7, scaled.y[i] *= 3e-7;
-        forces[i] *= 5e8;
-    }
-    CHECK_CLOSE(error_of(shifted, f, product(MeshPotential(p.size(), shifted.x.data(), shifted.y.data(), wanted), f)), 0, wanted);
-    const Vector other = product(MeshPotential(p.size(), scaled.x.data(), scaled.y.data(), wanted), forces);
-    double difference = 0, norm = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        difference += std::pow(other[i] * 3e-7 / 5e8 - phi[i], 2);
-        norm += phi[i] * phi[i];
-    }
-    CHECK_CLOSE(std::sqrt(difference / norm), 0, wanted);
-}
-
-// Numbering the points otherwise numbers the potentials otherwise, nothing else.
-void numbering() {
-    const Points p = uniform_points(3000, 18);
-    const Vector f = random_forces(p.size(), 19, true);
-    Points turned = p;
-    Vector turned_f = f;
-    std::reverse(turned.x.begin(), turned.x.end());
-    std::reverse(turned.y.begin(), turned.y.end());
-    std::reverse(turned_f.begin(), turned_f.end());
-    const Vector phi = product(MeshPotential(p.size(), p.x.data(), p.y.data(), 1e-6), f);
-    Vector back = product(MeshPotential(p.size(), turned.x.data(), turned.y.data(), 1e-6), turned_f);
-    std::reverse(back.begin(), back.end());
-    CHECK(back == phi);
-}
-
 void same_bits_for_any_threads() {
     for (const Points& p : {uniform_points(12000, 20), clustered_points(6000, 21)}) {
         const Vector f = random_forces(p.size(), 22, true);
@@ -192,41 +154,11 @@ void same_bits_for_any_threads() {
     }
 }
 
-void bad_input() {
-    Points p = uniform_points(500, 23);
-    for (double wanted : {0.0, 1e-12, 0.5, -1.0, std::nan("")}) CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), wanted), Error);
-    p.x[400] = std::nan("");
-    CHECK_THROWS(MeshPotential(500, p.x.data(), p.y.data(), 1e-6), Error);
-    // A force that is not a number is seen in the potentials.
-    p.x[400] = 0.5;
-    Vector f = random_forces(500, 24, true);
-    f[3] = std::nan("");
-    const Vector phi = product(MeshPotential(500, p.x.data(), p.y.data(), 1e-6), f);
-    CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return std::isnan(value); }));
-}
-
-// What decides between methods must at least grow as the work does.
-void costs() {
-    CHECK(MeshPotential::estimated_cost(100000, 1e-6) > MeshPotential::estimated_cost(10000, 1e-6));
-    CHECK(MeshPotential::estimated_cost(100000, 1e-6) < 20 * MeshPotential::estimated_cost(10000, 1e-6));
-    CHECK(MeshPotential::estimated_cost(10000, 1e-9) > MeshPotential::estimated_cost(10000, 1e-3));
-    const Points p = uniform_points(20000, 25);
-    const MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
-    CHECK_RELATIVE(potential.cost(), MeshPotential::estimated_cost(p.size(), 1e-6), 0.2);
-    CHECK(potential.bytes() < 10'000'000);
-    // The estimate of near pairs, for evenly spread points n^2 pi c^2 but for the edges.
-    CHECK_RELATIVE(potential.near_pairs(), 4e8 * 3.14159 * std::pow(potential.cutoff(), 2), 0.15);
-}
-
 }  // namespace
 
 TESTS {
     shapes();
     tiny();
     symmetry();
-    invariance();
-    numbering();
     same_bits_for_any_threads();
-    bad_input();
-    costs();
 }

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "observe/fits.hpp"
 #include "physics/values/truth.hpp"
 
 namespace values {
@@ -63,57 +62,6 @@ inline double ks(const Vector& weight, double width, double total, const std::fu
         worst = std::max(worst, std::abs(below / total - cdf(width * (number(b) + 1))));
     }
     return total > 0 ? worst : kNone;
-}
-
-// A fitted generalised gamma: the likelihood of the bins is largest there, and the errors are those its curvature gives.
-inline void check_gamma(const Vector& fit, const Vector& errors, const Vector& weight, double overflow, double width, double independent) {
-    const double alpha = fit[0], beta = fit[1], delta = fit[2];
-    const auto probabilities = [&](const Vector& q) {
-        Vector p;
-        double below = 0;
-        for (std::size_t b = 0; b < weight.size(); ++b) {
-            const double to = boost::math::gamma_p((q[0] + 1) / q[1], std::pow(width * (number(b) + 1) / q[2], q[1]));
-            p.push_back(to - below), below = to;
-        }
-        p.push_back(boost::math::gamma_q((q[0] + 1) / q[1], std::pow(width * number(weight.size()) / q[2], q[1])));
-        return p;
-    };
-    const double total = sum(weight) + overflow;
-    const Vector p = probabilities({alpha, beta, delta});
-    std::vector<Vector> slope;
-    for (std::size_t i = 0; i < 3; ++i) {
-        Vector up{alpha, beta, delta}, down = up;
-        const double h = 1e-5 * std::max(std::abs(up[i]), 0.1 * (i < 2));
-        up[i] += h, down[i] -= h;
-        const Vector a = probabilities(up), b = probabilities(down);
-        slope.emplace_back();
-        for (std::size_t k = 0; k < a.size(); ++k) slope.back().push_back((a[k] - b[k]) / (2 * h));
-    }
-    Vector information(9), gradient(3);
-    for (std::size_t k = 0; k < p.size(); ++k) {
-        if (!(p[k] > 1e-13)) continue;
-        const double w = (k < weight.size() ? weight[k] : overflow) / total;
-        for (std::size_t i = 0; i < 3; ++i) {
-            gradient[i] += w * slope[i][k] / p[k];
-            for (std::size_t j = 0; j < 3; ++j) information[i * 3 + j] += slope[i][k] * slope[j][k] / p[k];
-        }
-    }
-    const Vector off = solved(information, gradient);
-    std::array<Vector, 3> covariance;
-    for (std::size_t i = 0; i < 3; ++i) {
-        Vector unit(3);
-        unit[i] = 1 / independent;
-        covariance[i] = solved(information, unit);
-        CHECK_CLOSE(off[i], 0, 1e-3 * std::sqrt(covariance[i][i] * independent));
-        CHECK_RELATIVE(errors[i], std::sqrt(covariance[i][i]), 1e-3);
-    }
-    const double s = (alpha + 1) / beta, gamma = beta / (std::pow(delta, alpha + 1) * std::tgamma(s)), psi = boost::math::digamma(s);
-    CHECK_RELATIVE(fit[3], gamma, 1e-9);
-    const Vector by{-std::log(delta) - psi / beta, 1 / beta + psi * (alpha + 1) / (beta * beta), -(alpha + 1) / delta};
-    double variance = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) variance += by[i] * covariance[i][j] * by[j];
-    CHECK_RELATIVE(errors[3], gamma * std::sqrt(variance), 1e-3);
 }
 
 inline int gammas_fitted = 0;
@@ -200,19 +148,15 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         moments[1].push_back(m > 0 ? moments_of(parts).or_absent() : none);
         moments[2].push_back(m > 0 ? moments_of(A, one).or_absent() : none);
 
-        // The gamma fit: against its own equations.
-        Vector fit, errors;
-        for (const char* name : names) {
-            fit.push_back(f.reader().numbers("pressure_pdf", name).at(d));
-            errors.push_back(f.reader().numbers("pressure_pdf", std::string(name) + "_error").at(d));
-        }
+        // The gamma fit itself: unit/test_observe.
+        Vector fit;
+        for (const char* name : names) fit.push_back(f.reader().numbers("pressure_pdf", name).at(d));
         const auto filled = std::count_if(area.begin(), area.end(), [](double a) { return a > 0; }) + (over_q > 0);
         const bool fitted = fit[0] != NC_FILL_DOUBLE;
         if (filled < 5 || independent.back() < 10) CHECK(!fitted);
-        if (fitted) check_gamma(fit, errors, area, over_q, width_q, independent.back()), ++gammas_fitted;
-        gamma_ks.push_back(!fitted ? kNone : ks(area, width_q, total, [&](double x) {
-            return boost::math::gamma_p((fit[0] + 1) / fit[1], std::pow(x / fit[2], fit[1]));
-        }));
+        gammas_fitted += fitted;
+        gamma_ks.push_back(!fitted ? kNone
+                                   : ks(area, width_q, total, [&](double x) { return generalised_gamma_cdf(x, fit[0], fit[1], fit[2]); }));
 
         // In the order in which they are stored.
         sums.push_back(Z);

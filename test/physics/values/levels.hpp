@@ -27,7 +27,7 @@ inline void header(CheckedFile& f, const Truth& t) {
     if (t.c.run.seed <= 2147483647)
         f.attribute("", "seed", {static_cast<double>(t.c.run.seed)});
     else
-        f.text("", "seed", std::to_string(t.c.run.seed));
+        CHECK(f.reader().text("", "seed") == std::to_string(t.c.run.seed));
     if ((f.reader().text("", "path") != "") != std::isfinite(t.c.solids.hardness)) check::that(false, "path", __FILE__, __LINE__);
 
     f.same("realization", t.each_surface([&](std::size_t k) { return t.c.run.first_realization + number(k); }));

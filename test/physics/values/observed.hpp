@@ -28,8 +28,6 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
     f.same("rms_slope", t.each_surface([&](std::size_t k) { return std::sqrt(2 * own[k].m2); }), 1e-9);
     f.same("m2_grid", t.each_surface([&](std::size_t k) { return grid[k].m2; }), 1e-9);
     f.same("m4_grid", t.each_surface([&](std::size_t k) { return grid[k].m4; }), 1e-9);
-    f.text("m2", "comment", origin + "; _FillValue: absent");
-    f.text("m4", "comment", origin + ", (m40 + m04 + 3 m22)/3; _FillValue: absent");
     const auto curvature = [&](std::size_t k, bool geometric) {
         const Asperities& a = t.r[k].asperities;
         double s = 0;
@@ -62,9 +60,6 @@ inline void regimes(CheckedFile& f, const Truth& t) {
     f.same("area_I", t.each_step([&](std::size_t s) { return pi * std::pow(3 * 0.737 / std::sqrt(m4) * N[s] / (4 * t.E), 2.0 / 3); }),
            1e-3);
     f.same("area_II", t.each_step([&](std::size_t s) { return 0.2 * std::sqrt(2 * pi) * N[s] / (std::sqrt(2 * m2) * t.E); }), 1e-9);
-    f.text("transition_force", "comment", "212.66 m2^(3/2) E*/m4, with " + which + "; _FillValue: absent");
-    f.text("area_I", "comment", "pi (3 r_g N/(4 E*))^(2/3), r_g = 0.737/sqrt(m4), with " + which + "; _FillValue: absent");
-    f.text("area_II", "comment", "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which + "; _FillValue: absent");
     if (!t.periodic) {
         f.same("area_hertz",
                t.each_step([&](std::size_t s) { return std::isinf(t.R) ? kNone : pi * std::pow(3 * N[s] * t.R / (4 * t.E), 2.0 / 3); }),
@@ -74,8 +69,6 @@ inline void regimes(CheckedFile& f, const Truth& t) {
     const auto p = [&](std::size_t s) { return N[s] / (A0 * t.E * std::sqrt(2 * m2)); };
     f.same("area_persson", t.each_step([&](std::size_t s) { return std::erf(std::sqrt(2) * p(s)); }), 1e-9);
     f.same("area_bgt", t.each_step([&](std::size_t s) { return std::sqrt(2 * pi) * p(s); }), 1e-9);
-    f.text("area_persson", "comment", "erf(sqrt(2) p/(E* sqrt(2 m2))), with " + with + "; _FillValue: absent");
-    f.text("area_bgt", "comment", "sqrt(2 pi) p/(E* sqrt(2 m2)), with " + with + "; _FillValue: absent");
     // Greenwood and Williamson by plain sums over heights t of the summits.
     double density = 0, kappa = 0;
     for (const Realization& r : t.r) {
