@@ -70,17 +70,6 @@ void well_separated() {
     }
 }
 
-// The default case: the surface of the paper's figures, pressed to the separation of its maps, 1.43 sigma.
-void default_surface() {
-    const Spectrum spectrum{1.0, 0.8, 24.0, 512.0, false, 0.01};
-    const double E[] = {78.0e3, std::numeric_limits<double>::infinity()}, nu[] = {0.42, 0.0};
-    const Asperities a = make_asperities(spectrum, 2048, Normalise::sample, 1, 1, Curvature::geometric);
-    const Indenter indenter{equivalent_modulus(E, nu), 2.5, 0.5, 0.5};
-    int most = 0;
-    for (const double level : {3.0, 2.0, 1.43}) most = std::max(most, solve_alone(a, indenter, 0.01, level * 0.01));
-    std::printf("default surface: at most %d solves a level\n", most);
-}
-
 // K against central differences of R, at forces where some points are within delta of touching, some far inside, some far outside.
 void matrix() {
     const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
@@ -163,7 +152,6 @@ void says_what_it_did() {
 
 TESTS {
     well_separated();
-    default_surface();
     matrix();
     says_what_it_did();
 }

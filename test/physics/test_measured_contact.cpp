@@ -65,20 +65,6 @@ HeightMap thinned(const HeightMap& map, int skip_x, int skip_y) {
     return thin;
 }
 
-// The map with the point (i, j) at place(i, j) of the new one, which is nx x ny.
-template <class Place>
-HeightMap turned(const HeightMap& map, bool swap, Place place) {
-    HeightMap t;
-    t.allocate(swap ? map.ny : map.nx, swap ? map.nx : map.ny, swap ? map.ny : map.nx);
-    t.dx = swap ? map.dy : map.dx, t.dy = swap ? map.dx : map.dy;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            const auto [a, b] = place(i, j);
-            t.row(b)[a] = map(i, j);
-        }
-    return t;
-}
-
 void rectangular_pixels() {
     // 16 points a wave in one direction and 32 in the other, against 16 and 32 in both, between the points: the same surface.
     const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
@@ -98,37 +84,6 @@ void rectangular_pixels() {
     const Curve mixed = press(thinned(fine, 1, 2), "hertz", s.sigma);
     const double coarse_error = std::abs(coarse_hertz.force[2] / fine_hertz.force[2] - 1);
     CHECK(coarse_error < 0.02 && std::abs(mixed.force[2] / fine_hertz.force[2] - 1) < coarse_error + 0.002);
-}
-
-void turned_maps() {
-    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 48, .sigma = 0.005};
-    HeightMap map = synthesize(s, 256, Normalise::sample, 9, 1);
-    map.periodic = false;
-    map.dy *= 1.25;
-    map.ny -= 30;
-    const int nx = map.nx, ny = map.ny;
-    // The tip above the middle of the points, wherever the map is turned.
-    const auto press_middle = [&](const HeightMap& m, const char* law) {
-        HeightMap shifted = turned(m, false, [](int i, int j) { return std::pair{i, j}; });
-        shifted.x0 = -0.5 * (m.nx - 1) * m.dx, shifted.y0 = -0.5 * (m.ny - 1) * m.dy;
-        Case settings;
-        set_key(settings, "asperities%law", std::string("'") + law + "'");
-        set_key(settings, "indentation%centre", "0.0, 0.0");
-        Surface surface;
-        surface.origin.sigma = s.sigma;
-        surface.map = std::move(shifted);
-        const Ground ground = make_ground(surface, settings, 1);
-        AsperityContact contact(ground.asperities, indenter_of(settings, ground.site), solver_of(settings, ground.site));
-        return contact.at_separation(1.5 * s.sigma).force;
-    };
-    for (const char* law : {"hertz", "fourth_order"}) {
-        const double force = press_middle(map, law);
-        constexpr double kSame = 1e-6;  // the solver's tolerance; summits between the points are found to 1e-7 of a step
-        CHECK_RELATIVE(press_middle(turned(map, false, [&](int i, int j) { return std::pair{nx - 1 - i, j}; }), law), force, kSame);
-        CHECK_RELATIVE(press_middle(turned(map, false, [&](int i, int j) { return std::pair{i, ny - 1 - j}; }), law), force, kSame);
-        CHECK_RELATIVE(press_middle(turned(map, true, [&](int i, int j) { return std::pair{j, i}; }), law), force, kSame);
-        CHECK_RELATIVE(press_middle(turned(map, true, [&](int i, int j) { return std::pair{ny - 1 - j, i}; }), law), force, kSame);
-    }
 }
 
 double mean_of(const std::vector<double>& v) {
@@ -249,54 +204,6 @@ void twins_of_an_oblong_map() {
     CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 && twins.indentation.stop == 1);
 }
 
-// Maps by a pattern: realization k is the k-th file.
-void several_maps() {
-    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
-    for (int k = 1; k <= 3; ++k) {
-        const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, k);
-        map_files::Map map{128, 128, 1e-3 / 128, 1e-3 / 128, {}};
-        for (int j = 127; j >= 0; --j)
-            for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
-        std::ofstream(in_folder("many_" + std::to_string(k) + ".gwy"), std::ios::binary)
-            << map_files::gwy_file(map_files::gwy_channel(0, "T", map));
-    }
-    Case settings;
-    set_key(settings, "surface%source", "'heights'");
-    set_key(settings, "surface%file", "'" + in_folder("many_*.gwy") + "'");
-    set_key(settings, "indentation%levels", "0.01, 0.0075");
-    set_key(settings, "indentation%unit", "'length'");
-    set_key(settings, "run%realizations", "3");
-    require_valid(settings);
-    const std::vector<double> all = forces(settings, 3, 1);
-    for (int k = 1; k <= 3; ++k) {
-        Case one = settings;
-        set_key(one, "run%realizations", "1");
-        set_key(one, "surface%file", "'" + in_folder("many_" + std::to_string(k) + ".gwy") + "'");
-        CHECK(forces(one, 1, 1)[0] == all[static_cast<std::size_t>(k - 1)]);
-    }
-    CHECK(all[0] != all[1] && all[1] != all[2]);
-    settings.run.realizations = 4;
-    CHECK_THROWS(prepare(settings), Error);
-    settings.run.realizations = 3;
-    settings.surface.file = in_folder("none_*.gwy");
-    CHECK_THROWS(prepare(settings), Error);
-    settings.surface.file = in_folder("many_1.gwy");
-    CHECK(!check_case(settings).empty());  // one file is one realization
-    // The sphere comes down on the same place of each, wherever its file says that it lies.
-    const HeightMap same = synthesize(s, 128, Normalise::sample, 4, 1);
-    const double x0[] = {0, 0.5, -3}, y0[] = {0, 2, 7.25};
-    for (std::size_t k = 0; k < 3; ++k) {
-        std::ofstream out(in_folder("moved_" + std::to_string(k) + ".txt"));
-        out.precision(17);
-        for (int j = 0; j < 128; ++j)
-            for (int i = 0; i < 128; ++i) out << x0[k] + i / 128.0 << ' ' << y0[k] + j / 128.0 << ' ' << same(i, j) << '\n';
-    }
-    settings.surface.file = in_folder("moved_*.txt");
-    const std::vector<double> moved = forces(settings, 3, 1);
-    CHECK(moved[0] > 0);
-    for (const double force : moved) CHECK_RELATIVE(force, moved[0], 1e-9);
-}
-
 // Filled points make no contact near them.
 void filled_points() {
     const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
@@ -326,8 +233,6 @@ void filled_points() {
 TESTS {
     std::filesystem::create_directories(folder);
     rectangular_pixels();
-    turned_maps();
-    several_maps();
     twins_of_an_oblong_map();
     filled_points();
     twins();

@@ -286,45 +286,10 @@ void example() {
     CHECK(m.fit && std::abs(m.fit->hurst.value - 0.8) < 3 * m.fit->hurst.error && m.fit->hurst.error < 0.1);
 }
 
-// What Gwyddion's converter makes of a file is what we read from it ourselves.
-void against_gwyddion() {
-    if (std::system("command -v gwyddion > /dev/null 2>&1") != 0) {
-        std::printf("skipped: no gwyddion to compare with\n");
-        return;
-    }
-    Map map{50, 40, 2e-6, 3e-6, {}};
-    std::vector<std::int16_t> values;
-    for (int k = 0; k < 2000; ++k) values.push_back(static_cast<std::int16_t>(3000 * std::sin(0.01 * k * k)));
-    values[777] = -32768;
-    std::vector<std::string> words;
-    for (const auto v : values) words.push_back(std::to_string(v));
-    for (const bool binary : {true, false}) {
-        if (!binary) words[777] = "0";  // it does not know BAD in a text
-        const std::string from = write("g.sdf", binary ? sdf_binary(map, 5, 1e-9, values) : sdf_text(map, 1e-9, words, 5));
-        const std::string to = folder / (binary ? "b.gwy" : "t.gwy");
-        const std::string command = "cd " + folder.path.string() + " && HOME=" + folder.path.string() +
-                                    " timeout 60 gwyddion --convert-to-gwy=" + to + " " + from + " > gwyddion.log 2>&1";
-        if (std::system(command.c_str()) != 0) {
-            std::printf("skipped: gwyddion does not run here\n");
-            return;
-        }
-        const HeightMap ours = in_micrometres(from, "", Missing::fill), theirs = in_micrometres(to, "", Missing::fill);
-        CHECK(ours.nx == theirs.nx && ours.ny == theirs.ny);
-        CHECK_RELATIVE(ours.dx, theirs.dx, 1e-12);
-        CHECK_RELATIVE(ours.dy, theirs.dy, 1e-12);
-        long different = 0;
-        for (int j = 0; j < ours.ny; ++j)
-            for (int i = 0; i < ours.nx; ++i)
-                different += std::isnan(ours(i, j)) ? !std::isnan(theirs(i, j)) : !(std::abs(ours(i, j) - theirs(i, j)) <= 1e-12);
-        CHECK(different == 0);
-    }
-}
-
 }  // namespace
 
 TESTS {
     gwy();
     sdf();
     example();
-    against_gwyddion();
 }

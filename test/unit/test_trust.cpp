@@ -9,6 +9,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/spots.hpp"
+#include "error.hpp"
 #include "observe/map.hpp"
 #include "rough/resample.hpp"
 #include "run/job.hpp"

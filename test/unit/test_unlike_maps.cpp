@@ -523,60 +523,6 @@ void bounds() {
     CHECK_THROWS(map.allocate(3, 2, 2), Error);
 }
 
-// Summits of the map as they are after a change of it.
-void summits() {
-    for (const bool periodic : {false, true})
-        for (const Detail detail : {Detail::grid, Detail::subgrid})
-            for (const Curvature curvature : {Curvature::geometric, Curvature::algebraic}) {
-                // Whole waves in the map, many points in each: summits between the points are exact.
-                HeightMap map = blank(46, 33, 0.3, 0.2);
-                map.periodic = periodic;
-                for (int j = 0; j < 33; ++j)
-                    for (int i = 0; i < 46; ++i) {
-                        const double u = 2 * kPi * i / 46, v = 2 * kPi * j / 33;
-                        map.row(j)[i] = std::sin(3 * u + v) + 0.8 * std::cos(2 * u - 3 * v + 0.3) + 0.5 * std::sin(4 * v - u) +
-                                        0.7 * std::cos(4 * u + 0.9);
-                    }
-                const auto found = [&](const HeightMap& m, SummitCount& count) {
-                    return find_asperities(m, curvature, &count, 2, detail, periodic && detail == Detail::subgrid ? 8 : 0);
-                };
-                SummitCount c0, c1, c2, c3;
-                const Asperities a = found(map, c0), t = found(transposed(map), c1), m = found(mirrored(map), c2),
-                                 l = found(rescaled(map, 1000), c3);
-                CHECK(a.size() > 4 && t.size() == a.size() && m.size() == a.size() && l.size() == a.size());
-                for (const SummitCount& c : {c1, c2, c3}) CHECK(c.summits == c0.summits && c.saddles == c0.saddles);
-                CHECK_RELATIVE(c1.mean_kappa_g, c0.mean_kappa_g, 1e-8);
-                CHECK_RELATIVE(c2.mean_kappa_a, c0.mean_kappa_a, 1e-8);
-                CHECK_RELATIVE(c3.mean_kappa_a, c0.mean_kappa_a / 1000, 1e-8);
-                bool turned = false;
-                for (std::size_t k = 0; k < a.size(); ++k) {
-                    const auto compare = [&](const Asperities& b, double x, double y, double angle, double scale) {
-                        std::size_t p = 0;
-                        const auto apart = [&](std::size_t q) { return std::hypot(b.x[q] - x, b.y[q] - y); };
-                        for (std::size_t q = 1; q < b.size(); ++q)
-                            if (apart(q) < apart(p)) p = q;
-                        CHECK_CLOSE(apart(p), 0, 1e-7 * scale);
-                        CHECK_RELATIVE(b.z[p], a.z[k] * scale, 1e-8);
-                        CHECK_RELATIVE(b.radius[p], a.radius[k] * scale, 1e-7);
-                        CHECK_RELATIVE(b.kappa1[p], a.kappa1[k] / scale, 1e-7);
-                        CHECK_RELATIVE(b.kappa2[p], a.kappa2[k] / scale, 1e-7);
-                        CHECK_CLOSE(std::remainder(b.angle[p] - angle, kPi), 0, 1e-6);
-                        CHECK(b.angle[p] > -kPi / 2 && b.angle[p] <= kPi / 2);
-                        if (detail == Detail::subgrid) CHECK_RELATIVE(b.biharmonic[p], a.biharmonic[k] / (scale * scale * scale), 1e-5);
-                    };
-                    compare(t, a.y[k], a.x[k], kPi / 2 - a.angle[k], 1);
-                    // A mirrored point 0 lies at -x0 - (nx - 1) dx: of a period, one step before its end.
-                    const double end = -map.x0 - 45 * map.dx;
-                    double x = -a.x[k];
-                    if (periodic && x < end - 1e-9) x += 46 * map.dx;
-                    compare(m, x, a.y[k], -a.angle[k], 1);
-                    compare(l, 1000 * a.x[k], 1000 * a.y[k], a.angle[k], 1000);
-                    turned = turned || std::abs(std::sin(2 * a.angle[k])) > 0.2;
-                }
-                CHECK(turned);
-            }
-}
-
 // Maps that end: what is found beside their borders is the same however the map is turned. Coarse, so that summits are far from where
 // they are looked for.
 void borders() {
@@ -631,6 +577,5 @@ TESTS {
     filled_points(31, 22);
     filled_points(22, 31);
     bounds();
-    summits();
     borders();
 }
