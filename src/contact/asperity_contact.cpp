@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "contact/candidates.hpp"
+#include "contact/expected_error.hpp"
 #include "contact/interaction/mesh.hpp"
 #include "contact/interaction/products.hpp"
 #include "contact/law/hardness.hpp"
@@ -179,6 +180,7 @@ Level AsperityContact::Impl::report(double Z0) const {
     else
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
+    expect_error(level, asperities, indenter, options);
     judge_range(level, indenter, options);
     return level;
 }

@@ -51,6 +51,7 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.output.file = stem(result) + "_twins.nc";
     twins.output.contacts = Contacts::automatic;
     twins.output.heights = false;
+    twins.solver.model = model_of(job.settings).model;  // as the map was solved, so that the two can be compared
     return kMark + effective_namelist(twins);
 }
 
