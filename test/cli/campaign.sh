@@ -322,32 +322,4 @@ test_limit() {
     same whole/out.nc out.nc
 }
 
-# Memory refused to one thread or the other, at whatever place: the work so far is kept, and goes on where there is more.
-test_memory() {
-    # Sanitizers reserve address space without end.
-    bash -c 'ulimit -v 4000000; exec "$0" --version' "$rsc" > /dev/null 2>&1 || exit 77
-    export OPENBLAS_NUM_THREADS=1
-    campaign 30
-    # Spots that overlap: their uniqueness is proved by LAPACK, whose buffers are refused, too.
-    local dense="-s run%threads=2 -s surface%n=512 -s surface%L_lambda_s=128 -s indentation%stop=0.5"
-    expect 0 in_folder whole "$rsc" -q $dense ../case.nml
-    local least=20000 refused=0
-    until bash -c 'ulimit -v "$1"; exec "$0" --version' "$rsc" $least > /dev/null 2>&1; do least=$((least + 4000)); done
-    for more in 12000 24000 36000 60000 100000 150000; do
-        rm -f out.nc out.nc.checkpoint
-        timeout -k 5 60 bash -c 'ulimit -v "$0"; exec "$@"' $((least + more)) "$rsc" -q $dense case.nml > said 2>&1
-        case $? in
-            0) same whole/out.nc out.nc ;;
-            1)
-                refused=$((refused + 1))
-                says "memory\|[Tt]hread"
-                [ ! -e out.nc ] || fail "there is a file under the final name"
-                expect 0 "$rsc" -q --resume $dense case.nml
-                same whole/out.nc out.nc ;;
-            *) cat said; fail "neither done nor refused with $((least + more)) KiB" ;;
-        esac
-    done
-    [ $refused -ge 3 ] || fail "memory was refused $refused times only: the test proves little"
-}
-
 "test_$test"

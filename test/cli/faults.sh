@@ -211,25 +211,24 @@ test_signal_reading() {
     done
 }
 
-# The surface, some 400 MiB of it, is being made.
-test_signal_surface() {
-    slow "steps = 2" ""
+# While the surface, some 400 MiB of it, is being made; while levels are solved.
+ends_without_trace() { # ends_without_trace WHEN arguments...
+    local when=$1
+    shift
     for signal in TERM INT; do
-        stopped $signal '[ "$(has $process)" -gt 150000 ]' env --default-signal=INT "$rsc" -s surface%n=8192 -s surface%L_lambda_s=3000 case.nml
+        stopped $signal "$when" env --default-signal=INT "$rsc" "$@" case.nml
         [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
         says "SIG$signal"
         left work ""
     done
 }
-
+test_signal_surface() {
+    slow "steps = 2" ""
+    ends_without_trace '[ "$(has $process)" -gt 150000 ]' -s surface%n=8192 -s surface%L_lambda_s=3000
+}
 test_signal_levels() {
     slow "steps = 4000" ""
-    for signal in TERM INT; do
-        stopped $signal 'grep -q "^ *9 .*converged" said' env --default-signal=INT "$rsc" case.nml
-        [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
-        says "SIG$signal"
-        left work ""
-    done
+    ends_without_trace 'grep -q "^ *9 .*converged" said'
 }
 
 # The file that is being written is finished: it is a matter of a moment, and nothing is lost.

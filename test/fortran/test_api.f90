@@ -74,11 +74,10 @@ contains
     type(rsc_asperities) :: asperities
     type(rsc_contact) :: contact
     type(rsc_case) :: options
-    real(dp) :: N, f, Z, w(2), dN, A, W_, F_x, F_y
-    integer :: large, stat
+    real(dp) :: N, f
+    integer :: stat
     real(dp), allocatable :: force(:), radius(:), penetration(:)
     integer, allocatable :: which(:)
-    integer :: level_status, candidates
     call options%set('solver%tolerance', 1.0e-11_dp)
     call asperities%take([0.0_dp], [0.0_dp], [0.0_dp], [0.3_dp])
     call contact%create(asperities, E, 5.0_dp, 0.0_dp, 0.0_dp, options)
@@ -94,28 +93,7 @@ contains
     call check(size(which) == 1 .and. which(1) == 1, 'asperities count from 1')
     call close_to(penetration(1), u, 1e-12_dp, 'penetration')
     call close_to(radius(1)**2, 0.3_dp * u, 1e-12_dp, 'radius')
-    call contact%deflection([0.0_dp, 3.0_dp], [0.0_dp, 4.0_dp], w)
-    call close_to(w(1), u, 1e-12_dp, 'deflection at the summit')
-    call close_to(w(2), f / (pi * E * 5) * (1 + 0.3_dp * u / 250), 1e-11_dp, 'deflection far away')
-    call contact%level(level_status, candidates)
-    call check(level_status == rsc_level_converged .and. candidates == 1, 'level status')
-    call contact%answer(Z, N, dN, A, W_, F_x, F_y, level_status, candidates, large_contacts=large)
-    call check(Z >= -u .and. Z <= -u .and. N >= contact%force() .and. N <= contact%force(), 'answer: Z0, N')
-    call close_to(dN, contact%stiffness(), 1e-15_dp, 'answer: dN/dZ0')
-    call close_to(A, contact%area(), 1e-15_dp, 'answer: A')
-    call close_to(W_, contact%energy(), 1e-15_dp, 'answer: W')
-    call check(abs(F_x) <= 0 .and. abs(F_y) <= 0 .and. level_status == 0 .and. candidates == 1 .and. large == 0, 'answer: the rest')
-    call close_to(contact%value('force'), N, 1e-15_dp, 'value by name')
     call check(abs(contact%value('nothing', stat)) <= 0 .and. stat < 0, 'value of no name')
-    call contact%move_tip(0.1_dp, 0.0_dp)
-    call contact%indent(-0.01_dp, N)
-    call contact%answer(lateral_x=F_x, lateral_y=F_y)
-    call close_to(F_x, N * 0.1_dp / sqrt(25 - 0.01_dp), 1e-12_dp, 'answer: lateral force')
-    call contact%move_tip(0.0_dp, 0.0_dp)
-    call contact%press(f, Z)
-    call close_to(Z, -u, 1e-9_dp, 'separation under a force')
-    call contact%move_tip(0.05_dp, 0.0_dp)
-    call close_to(contact%first_touch(), sqrt(25 - 0.05_dp**2) - 5, 1e-9_dp, 'first touch beside the summit')
   end subroutine
 
   subroutine misuse()

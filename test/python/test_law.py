@@ -86,17 +86,6 @@ def uinter(props, k, displacements):
 
 class Springs(unittest.TestCase):
 
-    def test_scatter(self):
-        data = rsc.read(path("campaign"), xarray=False)
-        rows = np.array([[float(v) for v in line.split()] for line in run(path("campaign"), "--table").splitlines() if not line.startswith("#")])
-        last = data["force"][:, -1]
-        self.assertTrue(np.allclose(rows[-1, 1:3], (last.mean(), last.std(ddof=1)), rtol=1e-9))
-        self.assertTrue(np.allclose(rows[-1, 3:5], (data["contact_area"][:, -1].mean(), data["contact_area"][:, -1].std(ddof=1)), rtol=1e-9))
-        self.assertTrue(np.all(np.diff(rows[:, :2], axis=0) > 0))
-        text = run(path("campaign"), "--calculix")
-        self.assertIn("mean over 5 realizations", text)
-        self.assertIn(f"{100 * last.std(ddof=1) / last.mean():.2g} % of the force", text)
-
     def test_origin_beyond_the_levels(self):
         """A run that begins in contact: by Hertz's power the law begins where the first asperity touches, or a little before (it is not alone)."""
         found = law.Law(path("touching"))
