@@ -216,7 +216,7 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
                 site.domain = {known.x0, known.y0, known.Lx, known.Ly};
                 site.guessed = false;
             }
-            rsc::require_tip_above(site, indenter.R, x0, y0);
+            rsc::require_tip_above(site, indenter.shape, x0, y0);
         }
         contact->contact.move_tip(x0, y0);
         contact->moved = true;
@@ -358,7 +358,8 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
         if (contact->on->points) refuse(1, "contact", "has no asperities: it is made of elements");
-        if (n != static_cast<int64_t>(contact->on->asperities.size())) refuse(2, "n", "must be the number of asperities");
+        if (n != static_cast<int64_t>(contact->contact.asperities()->size()))
+            refuse(2, "n", "must be the number of the contact's asperities (rsc_contact_asperities)");
         const auto spread = [&](double* output, const std::vector<double>& values) {
             if (!output) return;
             std::fill(output, output + n, 0.0);

@@ -15,6 +15,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "archive.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "version.h"
 
 namespace rsc::api {
@@ -95,10 +96,27 @@ void visit_known(Archive& archive, Handle& contact) {
     archive(contact.moved), archive(contact.lateral), archive(contact.moment);
 }
 
+// The indenter by what its shape was made from.
+void visit_indenter(ArchiveWriter& writer, const Indenter& indenter) {
+    const ShapeKeys& keys = indenter.shape->keys();
+    writer(indenter.E_star), writer(indenter.x0), writer(indenter.y0), writer(indenter.period);
+    writer(shape_number(indenter.shape->name()));
+    if (keys.map) throw Error(Failure::bad_input, "a contact with a second rough body cannot be kept");
+    writer(keys.R), writer(keys.radii), writer(keys.angle), writer(keys.slope), writer(keys.radius), writer(keys.rim_radius);
+}
+void visit_indenter(ArchiveReader& reader, Indenter& indenter) {
+    ShapeKeys keys;
+    int shape = 0;
+    reader(indenter.E_star), reader(indenter.x0), reader(indenter.y0), reader(indenter.period);
+    reader(shape);
+    reader(keys.R), reader(keys.radii), reader(keys.angle), reader(keys.slope), reader(keys.radius), reader(keys.rim_radius);
+    indenter.shape = make_shape(shape, keys);
+}
+
 // What makes a contact of the same asperities.
 void put_making(ArchiveWriter& writer, const rsc_contact& contact) {
     writer(digest(contact.on->asperities));
-    writer(contact.contact.indenter());
+    visit_indenter(writer, contact.contact.indenter());
     writer(contact.options);
     writer(contact.resistivity);
 }
@@ -122,7 +140,7 @@ Making get_making(ArchiveReader& reader, const rsc_asperities& asperities) {
     std::uint64_t hash = 0;
     Making making;
     reader(hash);
-    reader(making.indenter);
+    visit_indenter(reader, making.indenter);
     reader(making.options);
     reader(making.resistivity);
     if (hash != digest(asperities.ground->asperities)) refuse(2, "asperities", "must be those the file was saved with");

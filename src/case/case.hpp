@@ -72,6 +72,15 @@ struct Case {
         Curvature curvature = Curvature::geometric;
         LawKind law = LawKind::hertz;
     } asperities;
+    struct IndenterKeys {
+        int shape = 0;                   // row of kShapes (contact/indenter/shapes.hpp); a sphere takes solids%R
+        std::optional<double> radii[2];  // paraboloid; default: the sphere's radius
+        double angle = 0;                // [degree]
+        std::optional<double> slope;     // cone
+        std::optional<double> radius;    // punch
+        double rim_radius = 0;           // punch
+        std::string file, channel;       // map
+    } indenter;
     struct Indentation {
         Boundary boundary = Boundary::free;
         Control control = Control::separation;

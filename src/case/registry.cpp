@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/namelist_value.hpp"
+#include "contact/indenter/shapes.hpp"
 
 namespace rsc {
 namespace {
@@ -47,6 +48,10 @@ Key optional(const char* group, const char* name, int size, Bounds bounds, const
 Key text(const char* group, const char* name, int length, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, string, 1, false, length, "", kAny, {}, "", meaning, slot};
 }
+Key pure_number(Key key) {
+    key.unit = "1";
+    return key;
+}
 // The order of the names is the order of the enumeration.
 Key one_of(const char* group, const char* name, std::vector<const char*> choices, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, choice, 1, false, 32, "", kAny, std::move(choices), "", meaning, slot};
@@ -60,6 +65,12 @@ Key changing(Changes what, Key key) {
 template <std::size_t n>
 std::vector<const char*> names(const std::array<const char*, n>& all) {
     return {all.begin(), all.end()};
+}
+
+std::vector<const char*> shape_names() {
+    std::vector<const char*> all;
+    for (const ShapeRow& row : kShapes) all.push_back(row.name);
+    return all;
 }
 
 std::vector<Key> make_registry() {
@@ -154,6 +165,30 @@ std::vector<Key> make_registry() {
                "paraboloid, or one flattened as the summit is; the latter two count once what elliptic spots share",
                RSC_CHOICE(asperities.law)),
 
+        one_of(
+            "indenter", "shape", shape_names(),
+            "form of body 2: a sphere of solids%R (Infinity: a flat), a paraboloid of two radii (one Infinity: a cylinder), a cone, a flat "
+            "punch, or a second rough body read from a height map",
+            RSC_CHOICE(indenter.shape)),
+        optional("indenter", "radii", 2, kPositiveOrInfinite, "solids%R(2), twice",
+                 "shape = 'paraboloid': its principal radii; Infinity is straight", RSC_FIRST(indenter.radii)),
+        scalar("indenter", "angle", real, "degree", between(-360, 360),
+               "shape = 'paraboloid': from x to the direction in which it has the first of the radii", RSC_SLOT(indenter.angle)),
+        pure_number(optional("indenter", "slope", 1, kPositive, "none: shape = 'cone' needs it",
+                             "shape = 'cone': slope of its face, the tangent of the angle between face and surface",
+                             RSC_SLOT(indenter.slope))),
+        optional("indenter", "radius", 1, kPositive, "none: shape = 'punch' needs it", "shape = 'punch': radius of its flat end",
+                 RSC_SLOT(indenter.radius)),
+        scalar("indenter", "rim_radius", real, "length", kNotNegative,
+               "shape = 'punch': radius by which the rim around the flat end is rounded; 0 is sharp", RSC_SLOT(indenter.rim_radius)),
+        text(
+            "indenter", "file", 4096,
+            "shape = 'map': file with the heights of body 2, upwards positive, as for surface%file; its middle is at indentation%centre, and "
+            "surface%detrend, missing and filter_cutoff hold for it, too",
+            RSC_SLOT(indenter.file)),
+        text("indenter", "channel", 1024, "shape = 'map': channel or variable of that file, as surface%channel",
+             RSC_SLOT(indenter.channel)),
+
         one_of("indentation", "boundary", names(kBoundaryNames),
                "free: the surface ends at its border; periodic: two flats (solids R = Infinity, Infinity), surface and contact repeat",
                RSC_CHOICE(indentation.boundary)),
@@ -227,6 +262,7 @@ constexpr std::pair<const char*, const char*> kGroups[] = {
     {"solids", "the two bodies: body 1 is rough and deforms, body 2 is the sphere"},
     {"surface", "the rough surface"},
     {"asperities", "what becomes of its summits"},
+    {"indenter", "the form of body 2"},
     {"indentation", "the levels of the indentation"},
     {"solver", "how the contact problem is solved"},
     {"elements", "the grid of the surface where no asperities stand for it"},

@@ -1,10 +1,12 @@
 // What a case must be, key by key and as a whole.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "error.hpp"
 #include "rough/magnitude.hpp"
 
@@ -24,6 +26,7 @@ public:
         check_solids();
         check_surface();
         check_elements();
+        check_indenter();
         check_levels();
         check_boundary();
         check_sizes();
@@ -191,6 +194,38 @@ private:
                          count(std::ceil(c_.elements.points_per_wave * shortest)) + " points a side, and 32768 is the most");
     }
 
+    void check_indenter() {
+        const Case::IndenterKeys& i = c_.indenter;
+        const std::string_view shape = kShapes.at(static_cast<std::size_t>(i.shape)).name;
+        const auto belongs = [&](bool given, const char* key, const char* to) {
+            if (given && shape != to)
+                complain({key, "indenter%shape"}, std::string(std::strchr(key, '%') + 1) + ": is for shape = '" + to +
+                                                      "', and shape = " + get_key(c_, "indenter%shape"));
+        };
+        belongs(i.radii[0] || i.radii[1], "indenter%radii", "paraboloid");
+        belongs(i.angle != 0, "indenter%angle", "paraboloid");
+        belongs(i.slope.has_value(), "indenter%slope", "cone");
+        belongs(i.radius.has_value(), "indenter%radius", "punch");
+        belongs(i.rim_radius != 0, "indenter%rim_radius", "punch");
+        belongs(!i.file.empty(), "indenter%file", "map");
+        belongs(!i.channel.empty(), "indenter%channel", "map");
+        const auto needs = [&](bool given, const char* key, const char* of) {
+            if (!given && shape == of)
+                complain({"indenter%shape", key},
+                         "shape = " + get_key(c_, "indenter%shape") + ": needs " + std::string(std::strchr(key, '%') + 1));
+        };
+        needs(i.slope.has_value(), "indenter%slope", "cone");
+        needs(i.radius.has_value(), "indenter%radius", "punch");
+        needs(!i.file.empty(), "indenter%file", "map");
+        if (i.radii[0].has_value() != i.radii[1].has_value()) complain({"indenter%radii"}, "radii: give both");
+        if (shape == "sphere") return;
+        if (std::isfinite(c_.solids.R[0]) && shape != "paraboloid")
+            complain({"solids%R", "indenter%shape"}, "R(1) = " + namelist::from_real(c_.solids.R[0]) +
+                                                         ": a curved body 1 is for shape = 'sphere' and 'paraboloid'; give Infinity");
+        if (c_.indentation.selection == Selection::paper)
+            complain({"indentation%selection", "indenter%shape"}, "selection = 'paper': takes the asperities in a circle under a sphere");
+    }
+
     void check_levels() {
         const Case::Indentation& i = c_.indentation;
         const bool explicit_levels = !i.levels.empty();
@@ -218,7 +253,11 @@ private:
     void check_boundary() {
         const Case::Indentation& i = c_.indentation;
         const bool periodic = i.boundary == Boundary::periodic, relative = i.unit == LevelUnit::relative;
-        if (periodic && !(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])))
+        const std::string_view shape = kShapes.at(static_cast<std::size_t>(c_.indenter.shape)).name;
+        if (periodic && shape != "sphere" && shape != "map")
+            complain({"indentation%boundary", "indenter%shape"},
+                     "boundary = 'periodic': is for two flats, smooth or rough, and shape = " + get_key(c_, "indenter%shape") + " is none");
+        if (periodic && shape == "sphere" && !(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])))
             complain({"indentation%boundary", "solids%R"},
                      "boundary = 'periodic': is for two flats, and R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
         if (periodic && i.selection == Selection::paper)

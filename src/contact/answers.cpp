@@ -11,19 +11,6 @@ double constriction_resistance(double conductance_length, const double (&resisti
     return sum > 0 && conductance_length > 0 ? sum / conductance_length : kNotComputed;
 }
 
-Vec2 tip_moment(const Indenter& indenter, const Level& level) {
-    if (!std::isinf(indenter.R)) {
-        const Vec2 force = lateral_force(indenter, level);
-        return {0 - indenter.R * force.y, indenter.R * force.x};
-    }
-    Vec2 sum;
-    for (std::size_t k = 0; k < level.f.size(); ++k) {
-        sum.x += level.f[k] * (level.y[k] - indenter.y0);
-        sum.y -= level.f[k] * (level.x[k] - indenter.x0);
-    }
-    return sum;
-}
-
 void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]) {
     const Indenter& indenter = contact.indenter();
     level.stiffness = contact.stiffness();

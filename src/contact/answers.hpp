@@ -14,10 +14,6 @@ double conductance_length(double stiffness, double E_star);
 // (rho_1 + rho_2) over that length; NaN without contact and for resistivities that are both 0 [resistivity/length].
 double constriction_resistance(double conductance_length, const double (&resistivity)[2]);
 
-// The moment of the contact's forces on the sphere about its tip [force length]. Every force points to the sphere's centre, R above the
-// tip, so that it is R times the lateral force, turned; for a flat sum f_i (y_i - y0), -sum f_i (x_i - x0).
-Vec2 tip_moment(const Indenter& indenter, const Level& level);
-
 // Puts them into the last level of a contact. One more solution of linear equations, for the stiffness.
 void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]);
 

@@ -25,6 +25,28 @@ using Vector = std::vector<double>;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
+// The summits of the difference between surface and indenter, or nothing where the asperities are to be taken as they are.
+std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                                                const SummitSearch& search) {
+    require_sound(indenter);
+    if (!search || indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0)) return std::nullopt;
+    double highest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < asperities.size(); ++i)
+        highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
+    constexpr double depth = 8;  // rms heights below the highest: from 4 sigma down to where the model ends
+    const double steepest = steepest_above(asperities, indenter, highest - depth * options.sigma);
+    if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) return search(indenter);
+    return moved_summits(asperities, indenter);
+}
+
+// How far a tip may move before the summits of the difference are others.
+double summits_keep(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
+    double curvature = 0;
+    for (std::size_t i = 0; i < asperities.kappa1.size(); ++i) curvature += std::sqrt(asperities.kappa1[i] * asperities.kappa2[i]);
+    const double size = options.rms_slope * static_cast<double>(asperities.kappa1.size()) / curvature;
+    return std::fmax(0.1 * size, 0.02 * options.rms_slope * indenter.shape->hertz_radius());  // NaN where it is no sphere
+}
+
 // `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures. The dense method is never the cheapest.
 Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates) {
     if (kernel.none()) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
@@ -45,9 +67,13 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, const W
 }  // namespace
 
 struct AsperityContact::Impl {
-    const Asperities& asperities;
+    const Asperities& of_surface;
+    SummitSearch search;
+    std::optional<Asperities> of_difference;
+    const Asperities& asperities;  // one of the two
     Indenter indenter;
     SolverOptions options;
+    double found_x, found_y;  // the tip when the summits were found
     std::shared_ptr<const Kernel> kernel;
     std::unique_ptr<Law> law;
     Ranking ranking;
@@ -68,23 +94,23 @@ struct AsperityContact::Impl {
     Products* products = nullptr;            // the one in use
     Newton newton;
 
-    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_)
-        : asperities(asperities_),
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
+        : of_surface(asperities_),
+          search(std::move(search_)),
+          of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
+          asperities(of_difference ? *of_difference : of_surface),
           indenter(indenter_),
           options(options_),
+          found_x(indenter_.x0),
+          found_y(indenter_.y0),
           kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
-          law(make_yielding(make_law(options_.law, asperities_, indenter_.E_star), asperities_, options_.hardness,
+          law(make_yielding(make_law(options_.law, asperities, indenter_.E_star), asperities, options_.hardness,
                             traits(options_.law).sinks)),
           direct(make_direct_products(kernel)),
           newton(*law) {
         use(Method::direct);
-        if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) {
-            throw Error(Failure::bad_input, "E* must be positive and finite");
-        }
-        if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
-        if (indenter.period.finite() && !std::isinf(indenter.R)) {
-            throw Error(Failure::bad_input, "a periodic contact is one of two flats: both radii must be Infinity");
-        }
+        if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
+            throw Error(Failure::bad_input, "indentation%selection = 'paper' takes the asperities in a circle under a sphere");
         ranking.assign(asperities, indenter);
     }
 
@@ -180,8 +206,11 @@ Level AsperityContact::Impl::report(double Z0) const {
     else
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
+    if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
     expect_error(level, asperities, indenter, options);
     judge_range(level, indenter, options);
+    // The surface's own summits touch only where the indenter is flat beside them.
+    if (!of_difference && level.slope_ratio > kMostSlopeRatio) level.status = std::max(level.status, LevelStatus::out_of_validity);
     return level;
 }
 
@@ -195,8 +224,8 @@ Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool
     return level;
 }
 
-AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options)
-    : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
+AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options, std::move(search))) {}
 AsperityContact::~AsperityContact() = default;
 AsperityContact::AsperityContact(AsperityContact&&) noexcept = default;
 
@@ -306,6 +335,11 @@ std::vector<double> AsperityContact::residual_depths() const {
 }
 
 void AsperityContact::forget_levels() {
+    const Impl& my = *impl_;
+    if (my.of_difference && !my.law->path_dependent() && (my.indenter.x0 != my.found_x || my.indenter.y0 != my.found_y)) {
+        impl_ = std::make_unique<Impl>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
+        return;
+    }
     impl_->earlier = {};
     impl_->candidates = {};
     impl_->solution.clear();
@@ -354,14 +388,22 @@ double AsperityContact::energy() const {
 
 void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
-    impl_->earlier.carry(impl_->candidates, impl_->solution.v, impl_->asperities.size());
-    impl_->indenter.x0 = x0;
-    impl_->indenter.y0 = y0;
-    impl_->ranking.move(x0, y0);
+    Impl& my = *impl_;
+    my.earlier.carry(my.candidates, my.solution.v, my.asperities.size());
+    my.indenter.x0 = x0;
+    my.indenter.y0 = y0;
+    if (my.of_difference && !my.law->path_dependent() &&
+        std::hypot(x0 - my.found_x, y0 - my.found_y) > summits_keep(my.of_surface, my.indenter, my.options)) {
+        forget();
+        return;
+    }
+    my.ranking.move(x0, y0);
 }
 
 double AsperityContact::first_touch() const { return impl_->ranking.highest(); }
 
 const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
+
+const Asperities* AsperityContact::asperities() const { return &impl_->asperities; }
 
 }  // namespace rsc

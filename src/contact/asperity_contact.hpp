@@ -1,17 +1,21 @@
-// The asperities of a rough surface pressed by a sphere: the deterministic multi-asperity model (paper, section 4).
+// The asperities of a rough surface pressed by an indenter: the deterministic multi-asperity model (paper, section 4).
 #pragma once
 
 #include <memory>
 
 #include "contact/contact.hpp"
+#include "contact/touching.hpp"
 #include "rough/asperities.hpp"
 
 namespace rsc {
 
 class AsperityContact final : public Contact {
 public:
-    // The asperities must outlive the contact. Throws Error(bad_input) for moduli, radii or options out of range.
-    AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options);
+    // The asperities are the summits of the surface and must outlive the contact. Laws that take summits between the points, given a
+    // search, are applied to the summits of the difference between surface and indenter: found by the search where the indenter is steeper
+    // than kMostSlopeRatio of options.rms_slope above what it may touch, elsewhere moved from those of the surface. Otherwise the
+    // asperities are taken as they are. Throws Error(bad_input) for moduli, shapes or options out of range.
+    AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search = {});
     ~AsperityContact() override;
     AsperityContact(AsperityContact&&) noexcept;
 
@@ -22,10 +26,13 @@ public:
     // and is in error only by the square of the residual.
     double energy() const override;
 
-    // The last level goes on as a start for the next where the solution is proved unique.
+    // The last level goes on as a start for the next where the solution is proved unique. Summits of the difference are found anew once
+    // the tip has moved by a tenth of a summit's size, and by as much as tilts the indenter by a fiftieth of the surface's rms slope; then
+    // the contact goes on as one newly made. Those that remember their path keep their summits.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
+    const Asperities* asperities() const override;
     bool path_dependent() const override;
     std::vector<double> residual_depths() const override;
 

@@ -13,7 +13,7 @@ Candidates select_candidates(Ranking& ranking, const Asperities& asperities, con
     double r0_squared = std::numeric_limits<double>::infinity();
     if (options.selection == Selection::paper) {
         const double depth = std::max(0.0, 4 * options.sigma - Z0);
-        r0_squared = options.selection_factor * options.selection_factor * 2 * depth * indenter.R;
+        r0_squared = options.selection_factor * options.selection_factor * 2 * depth * indenter.shape->hertz_radius();
     }
     Candidates candidates;
     WorkingSet& set = candidates.set;

@@ -1,4 +1,4 @@
-// The contact of a rough surface with a sphere, level by level, whatever it is made of: asperities (asperity_contact.hpp) or elements.
+// The contact of a rough surface with an indenter, level by level, whatever it is made of: asperities (asperity_contact.hpp) or elements.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ public:
     // throws for a level that did not converge: see Level::status. Throws Error(bad_input) if Z0 is not finite.
     Level at_separation(double Z0);
 
-    // The separation at which the sphere carries the force N > 0 [force], and the answer there, to the tolerance or to the
+    // The separation at which the indenter carries the force N > 0 [force], and the answer there, to the tolerance or to the
     // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way leave no trace.
     Level at_force(double N);
 
@@ -31,10 +31,13 @@ public:
     // Moves the tip to (x0, y0). The last level may serve as a start for the next. Throws Error(bad_input) if not finite.
     virtual void move_tip(double x0, double y0) = 0;
 
-    // Z0 at which the sphere touches the surface [length]; -Infinity when nothing lies under it.
+    // Z0 at which the indenter touches the surface [length]; -Infinity when nothing lies under it.
     virtual double first_touch() const = 0;
 
     virtual const Indenter& indenter() const = 0;
+
+    // The asperities it is made of, as they touch now: their places, heights and curvatures. Null for elements.
+    virtual const Asperities* asperities() const { return nullptr; }
 
     // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
     void forget() {

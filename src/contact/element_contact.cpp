@@ -8,7 +8,6 @@
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"
 #include "contact/pressed_out.hpp"
-#include "contact/ranking.hpp"
 #include "contact/solver/elements.hpp"
 #include "contact/validity.hpp"
 #include "error.hpp"
@@ -32,7 +31,7 @@ struct ElementContact::Impl {
     ElementsSolver solver;
     int blocks_x, blocks_y;
     std::vector<double> block_top;  // highest z of each block
-    double top = -kInfinity;        // highest point under the sphere
+    double top = -kInfinity;        // highest point under the indenter
 
     // Pixels with g0 > 0 of the level at hand, row by row, and the answer.
     std::vector<Pixel> pixels;
@@ -70,14 +69,14 @@ struct ElementContact::Impl {
 
     double x(int i) const { return heights.x0 + i * heights.dx; }
     double y(int j) const { return heights.y0 + j * heights.dy; }
-    double height(int i, int j) const { return height_under_sphere(indenter, x(i), y(j), heights(i, j) - pressed(i, j)); }
+    double height(int i, int j) const { return indenter.clearance(x(i), y(j), heights(i, j) - pressed(i, j)); }
 
-    // No point of the block is higher under the sphere: its highest one, before anything was pressed out, at its place nearest to the tip.
+    // No point of the block is higher under the indenter: its highest one, before anything was pressed out, under the lowest part of the
+    // face above the block.
     double bound(int bi, int bj) const {
-        const auto nearest = [](double low, double high, double tip) { return std::clamp(tip, low, high); };
-        const double px = nearest(x(bi * kBlock), x(std::min((bi + 1) * kBlock, heights.nx) - 1), indenter.x0);
-        const double py = nearest(y(bj * kBlock), y(std::min((bj + 1) * kBlock, heights.ny) - 1), indenter.y0);
-        return height_under_sphere(indenter, px, py, block_top[at(bj) * at(blocks_x) + at(bi)]);
+        const Box block{x(bi * kBlock) - indenter.x0, x(std::min((bi + 1) * kBlock, heights.nx) - 1) - indenter.x0,
+                        y(bj * kBlock) - indenter.y0, y(std::min((bj + 1) * kBlock, heights.ny) - 1) - indenter.y0};
+        return block_top[at(bj) * at(blocks_x) + at(bi)] - indenter.shape->lowest(block);
     }
 
     void find_top();
@@ -239,7 +238,8 @@ double ElementContact::force_at_most(double depth) {
     const Impl& my = *impl_;
     const double half = 0.5 * std::max(my.heights.Lx(), my.heights.Ly()), E = my.indenter.E_star;
     const double punch = 2 * E * half * depth;
-    return std::isinf(my.indenter.R) ? punch : std::min(punch, 4.0 / 3 * E * std::sqrt(my.indenter.R * depth) * depth);
+    const auto smooth = my.indenter.shape->smooth(E);
+    return smooth ? std::min(punch, smooth->force(depth)) : punch;
 }
 
 std::optional<double> ElementContact::likely_separation() const {

@@ -1,4 +1,4 @@
-// The points of the surface themselves pressed by a sphere: no asperities, every pixel carries a uniform pressure p >= 0 (Johnson 1985,
+// The points of the surface themselves pressed by an indenter: no asperities, every pixel carries a uniform pressure p >= 0 (Johnson 1985,
 // section 3.4; Polonsky and Keer, Wear 231, 1999). The asperity model approximates this.
 //
 // With a hardness H, p <= H: where p = H the gap w may be negative, and -w is pressed out for good: the heights are lowered by it when
@@ -39,7 +39,7 @@ protected:
     Level solve(double Z0) override;
     void accept(Level& level) override;
     double tolerance() const override;
-    // A smooth sphere's, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
+    // A smooth indenter's where it is known, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
     double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
     std::size_t levels_since_move() const override;

@@ -1,9 +1,10 @@
-// A rough surface of asperities pressed by a sphere: the problem (paper, section 4).
+// A rough surface pressed by an indenter: the problem (paper, section 4).
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "contact/indenter/shape.hpp"
 #include "contact/period.hpp"
 #include "rough/asperities.hpp"
 
@@ -22,13 +23,20 @@ inline constexpr std::array kInteractionNames = {"point", "none"};
 enum class LawKind { hertz, elliptic, fourth_order };  // law/law.hpp
 inline constexpr std::array kLawNames = {"hertz", "elliptic", "fourth_order"};
 
-// The equivalent problem: elastic half-space E_star, smooth rigid sphere of radius R (Infinity: flat) with its tip above (x0, y0).
+// The equivalent problem: elastic half-space E_star, rigid indenter of some shape with its tip above (x0, y0).
 struct Indenter {
     double E_star = 0;  // [force/length^2]
-    double R = 0;       // [length]
+    Shape shape;        // a number is a sphere of that radius, Infinity a flat
     double x0 = 0, y0 = 0;
-    Period period = {};  // finite: a flat, and surface and contact repeat (two flats, boundary='periodic')
+    Period period = {};  // finite: surface and contact repeat (two flats, boundary='periodic')
+
+    // A point of the surface less the indenter's face above it, z - s; the penetration without interaction is g0 = clearance - Z0.
+    // -Infinity where the indenter does not reach.
+    double clearance(double x, double y, double z) const { return z - shape->height(x - x0, y - y0); }
 };
+
+// Throws Error(bad_input) unless E* is positive and finite, there is a shape, and with a finite period one that repeats with it.
+void require_sound(const Indenter& indenter);
 
 // The rectangle of a free surface.
 struct Rectangle {
@@ -56,6 +64,7 @@ struct SolverOptions {
     double delta_cut = 5.0;      // the paper's method divides delta by this each iteration (the paper: 2 to 10)
     double mean_spacing = 0;     // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
     double points_per_wave = 0;  // of the grid that the asperities were found on, in the shortest wave; 0: not known
+    double rms_slope = 0;        // of the surface, sqrt(2 m2), which the indenter's slopes are measured by; 0: not known
     Rectangle surface;           // the free surface, for counting contacts near its border; not known: not counted
 };
 

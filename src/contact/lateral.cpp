@@ -1,22 +1,42 @@
 #include "contact/lateral.hpp"
 
-#include <cmath>
-
 namespace rsc {
+namespace {
+
+// Calls add(dx, dy, f) for every force of a level, with its offset from the tip: pixels where there are any. Between smooth flats that
+// repeat these are the contacts, whose places lie within one period.
+template <class Add>
+void for_each_force(const Indenter& indenter, const Level& level, Add add) {
+    const LevelPixels& pixels = level.pixels;
+    if (!pixels.index.empty() && !(indenter.period.finite() && indenter.shape->flat())) {
+        for (std::size_t k = 0; k < pixels.index.size(); ++k)
+            add(pixels.x(k) - indenter.x0, pixels.y(k) - indenter.y0, pixels.pressure[k] * pixels.dx * pixels.dy);
+        return;
+    }
+    for (std::size_t k = 0; k < level.f.size(); ++k) add(level.x[k] - indenter.x0, level.y[k] - indenter.y0, level.f[k]);
+}
+
+}  // namespace
 
 Vec2 lateral_force(const Indenter& indenter, const Level& level) {
     Vec2 sum;
-    if (std::isinf(indenter.R)) return sum;
-    const auto add = [&](double x, double y, double force) {  // each force along the inclined surface of the sphere
-        const double dx = x - indenter.x0, dy = y - indenter.y0;
-        const double slope = force / std::sqrt(indenter.R * indenter.R - (dx * dx + dy * dy));
-        sum.x -= slope * dx;
-        sum.y -= slope * dy;
-    };
-    const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) add(pixels.x(k), pixels.y(k), pixels.pressure[k] * pixels.dx * pixels.dy);
-    if (!pixels.index.empty()) return sum;
-    for (std::size_t k = 0; k < level.f.size(); ++k) add(level.x[k], level.y[k], level.f[k]);
+    if (indenter.shape->flat()) return sum;
+    for_each_force(indenter, level, [&](double dx, double dy, double f) {
+        const Vec2 slope = indenter.shape->gradient(dx, dy);
+        sum.x -= f * slope.x;
+        sum.y -= f * slope.y;
+    });
+    return sum;
+}
+
+Vec2 tip_moment(const Indenter& indenter, const Level& level) {
+    Vec2 sum;
+    for_each_force(indenter, level, [&](double dx, double dy, double f) {
+        const double s = indenter.shape->height(dx, dy);
+        const Vec2 slope = indenter.shape->gradient(dx, dy);
+        sum.x += f * (dy + s * slope.y);
+        sum.y -= f * (dx + s * slope.x);
+    });
     return sum;
 }
 

@@ -13,7 +13,8 @@
 namespace rsc {
 
 struct PeriodicElementContact::Impl {
-    HeightMap own;  // of a surface that yields: the heights as they are now
+    const HeightMap& surface;
+    HeightMap own;  // of a surface that yields, or under a rough indenter: the heights as they are now, less the indenter's face
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
@@ -24,14 +25,15 @@ struct PeriodicElementContact::Impl {
     bool accepted = false;  // the last level: from then on the contact is elastic until pressed further
 
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
-        : own(std::isfinite(options_.hardness.H0) ? copy(heights_) : HeightMap{}),
+        : surface(heights_),
+          own(std::isfinite(options_.hardness.H0) || !indenter_.shape->flat() ? copy(heights_) : HeightMap{}),
           heights(own.data ? own : heights_),
           indenter(indenter_),
           options(options_),
           pressed(heights_.nx, heights_.ny),
           solver({heights.nx, heights.ny, heights.dx, heights.dy, heights.data.get(), heights.stride}, substrate_of(indenter_),
                  options_.hardness.H0) {
-        find_top();
+        place_indenter();
     }
 
     static HeightMap copy(const HeightMap& from) {
@@ -40,6 +42,14 @@ struct PeriodicElementContact::Impl {
         to.dx = from.dx, to.dy = from.dy, to.x0 = from.x0, to.y0 = from.y0;
         for (int j = 0; j < from.ny; ++j) std::copy_n(from.row(j), from.nx, to.row(j));
         return to;
+    }
+    // The heights less the indenter's face, where it has one.
+    void place_indenter() {
+        for (int j = 0; j < heights.ny && !indenter.shape->flat(); ++j)
+            for (int i = 0; i < heights.nx; ++i)
+                own.row(j)[i] = indenter.clearance(surface.x0 + i * surface.dx, surface.y0 + j * surface.dy, surface(i, j) - pressed(i, j));
+        if (!indenter.shape->flat()) solver.heights_changed();
+        find_top();
     }
     void find_top() {
         top = -std::numeric_limits<double>::infinity();
@@ -130,6 +140,7 @@ void PeriodicElementContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     impl_->indenter.x0 = x0;
     impl_->indenter.y0 = y0;
+    if (!impl_->indenter.shape->flat()) impl_->place_indenter();
 }
 
 double PeriodicElementContact::closed() const { return impl_->solver.closed(); }

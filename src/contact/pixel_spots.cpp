@@ -57,10 +57,7 @@ double median_by_area(const Sums& sums) {
 }  // namespace
 
 const HeightMap& require_elements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
-    if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) throw Error(Failure::bad_input, "E* must be positive and finite");
-    if (!(indenter.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
-    if (indenter.period.finite() && !std::isinf(indenter.R))
-        throw Error(Failure::bad_input, "a periodic contact is one of two flats: both radii must be Infinity");
+    require_sound(indenter);
     if (!(options.tolerance > 0)) throw Error(Failure::bad_input, "the tolerance must be positive");
     if (heights.nx < 1 || heights.ny < 1 || !(heights.dx > 0) || !(heights.dy > 0))
         throw Error(Failure::bad_input, "elements: the map of heights is empty");

@@ -27,13 +27,6 @@ void sort_nearly_sorted(std::vector<Ranking::Entry>::iterator first, std::vector
 
 }  // namespace
 
-double height_under_sphere(const Indenter& indenter, double x, double y, double z) {
-    if (std::isinf(indenter.R)) return z;
-    const double dx = x - indenter.x0, dy = y - indenter.y0, rho2 = dx * dx + dy * dy, R = indenter.R;
-    if (rho2 > R * R) return -kInfinity;
-    return z - rho2 / (R + std::sqrt(R * R - rho2));  // sqrt(R^2 - rho^2) - R without its cancellation
-}
-
 void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     asperities_ = &asperities;
     now_ = indenter;
@@ -45,25 +38,23 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     highest_rest_ = highest_z_ = -kInfinity;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         highest_z_ = std::max(highest_z_, asperities.z[i]);
-        const double h = height_under_sphere(indenter, asperities.x[i], asperities.y[i], asperities.z[i]);
+        const double h = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
         if (h == -kInfinity) continue;
         entries_.push_back({h, static_cast<int>(i)});
         highest_rest_ = std::max(highest_rest_, h);
     }
 }
 
-// No asperity that is not sorted is higher than this now. With c(rho) = sqrt(R^2 - rho^2) - R, which falls ever faster, and d the way
-// from where the rest got its heights: what was at rho then is at rho - d or further now. Within some rho* it gained at most
-// c(rho* - d) - c(rho*) over highest_rest; beyond rho*, and outside the sphere, it is below highest_z + c(rho* - d). Any rho* up to R
-// gives a bound; a good one is where z itself keeps what is beyond below highest_rest: highest_z + c(rho* - d) = highest_rest.
+// No asperity that is not sorted is higher than this now. Where the indenter's face is more than highest_z - highest_rest above the tip
+// now, z itself keeps what is there below highest_rest; elsewhere the face fell by so much at most.
 double Ranking::bound_on_rest() const {
-    const double R = now_.R, d = std::hypot(now_.x0 - x_rest_, now_.y0 - y_rest_);
-    if (!(d > 0) || std::isinf(R)) return highest_rest_;
-    const auto c = [R](double rho) { return rho > 0 ? -rho * rho / (R + std::sqrt(std::max(0.0, R * R - rho * rho))) : 0.0; };
-    const double drop = highest_z_ - highest_rest_;  // = -c(rho* - d)
-    const double reach = drop < R ? std::min(R, std::sqrt(std::max(0.0, drop * (2 * R - drop))) + d) : R;
-    const double rounding = 16 * std::numeric_limits<double>::epsilon() * (R + std::abs(highest_z_));
-    return std::max(highest_rest_ + c(reach - d) - c(reach), highest_z_ + c(reach - d)) + rounding;
+    const double d = std::hypot(now_.x0 - x_rest_, now_.y0 - y_rest_);
+    if (!(d > 0)) return highest_rest_;
+    const double fallen = now_.shape->most_fallen(d, highest_z_ - highest_rest_);
+    const double most = highest_z_ - now_.shape->lowest({-kInfinity, kInfinity, -kInfinity, kInfinity});
+    const double bound = std::isinf(fallen) ? most : std::min(highest_rest_ + fallen, most);
+    if (std::isinf(bound)) return bound;
+    return bound + 16 * std::numeric_limits<double>::epsilon() * (std::abs(bound) + std::abs(highest_z_));
 }
 
 void Ranking::move(double x0, double y0) {
@@ -74,7 +65,7 @@ void Ranking::move(double x0, double y0) {
     const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
     for (auto e = first; e != rest; ++e) {
         const auto i = static_cast<std::size_t>(e->asperity);
-        e->height = height_under_sphere(now_, asperities_->x[i], asperities_->y[i], asperities_->z[i]);
+        e->height = now_.clearance(asperities_->x[i], asperities_->y[i], asperities_->z[i]);
     }
     sort_nearly_sorted(first, rest);
     if (bound_on_rest() >= highest()) assign(*asperities_, now_);

@@ -1,4 +1,4 @@
-// Asperities by falling height under the sphere, so that the candidates of a level are the first ones.
+// Asperities by falling height under the indenter, so that the candidates of a level are the first ones.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,14 @@
 
 namespace rsc {
 
-// Penetration without interaction, g0_i = height_i - Z0, of an asperity under the sphere whose tip is at (x0, y0):
-// height_i = z_i + sqrt(R^2 - rho_i^2) - R; -Infinity outside the sphere (rho > R).
-double height_under_sphere(const Indenter& indenter, double x, double y, double z);
-
 class Ranking {
 public:
     struct Entry {
-        double height;
+        double height;  // Indenter::clearance
         int asperity;
     };
 
-    // Asperities outside the sphere are left out. They must outlive the ranking, or its next assign.
+    // Asperities where the indenter does not reach are left out. They must outlive the ranking, or its next assign.
     void assign(const Asperities& asperities, const Indenter& indenter);
 
     // The same as assign, of the same asperities, after the tip moved to (x0, y0). Only what was sorted is ranked anew as long as a
@@ -43,10 +39,10 @@ private:
     std::vector<Entry> entries_;
     std::size_t sorted_ = 0;
     Indenter now_;
-    // Of what is not sorted: heights are those under a sphere at (x_rest_, y_rest_), where highest_rest_ is the highest.
+    // Of what is not sorted: heights are those with the tip at (x_rest_, y_rest_), where highest_rest_ is the highest.
     double x_rest_ = 0, y_rest_ = 0;
     double highest_rest_ = -std::numeric_limits<double>::infinity();
-    double highest_z_ = -std::numeric_limits<double>::infinity();  // of all asperities, outside the sphere, too
+    double highest_z_ = -std::numeric_limits<double>::infinity();  // of all asperities, whether the indenter reaches them or not
 };
 
 }  // namespace rsc

@@ -36,6 +36,7 @@ void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("source", "rsc " RSC_VERSION ", deterministic multi-asperity model of rough spheres in elastic contact");
     file_.attribute("history", history);
     file_.attribute("references", kPaper);
+    file_.attribute("indenter", r_.indenter.shape->text(r_.length_unit));
     file_.attribute("comment",
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
                     "makes this file again, "
@@ -63,7 +64,7 @@ void ResultTable::axes() {
     if (!r_.force_control) separation.resize(o_.steps);  // the same in every realization
     std::vector<double> scaled = separation;
     for (double& z : scaled) z /= r_.sigma;
-    add("separation", dims, unit(1), "separation of the sphere's tip from the mean plane, Z0", separation);
+    add("separation", dims, unit(1), "separation of the indenter's tip from the mean plane, Z0", separation);
     add_absent("separation_sigma", dims, "1", "separation over rms height, Z0/sigma", scaled, "sigma is sigma_reference");
 }
 
@@ -194,26 +195,45 @@ void ResultTable::theory() {
     scalar("nayak_theory", "1", "Nayak's bandwidth parameter of the continuous spectrum", known ? m.nayak() : kAbsent, "m0 m4/m2^2");
     scalar("density_theory", unit(-2), "density of summits of the continuous spectrum", known ? m.summit_density() : kAbsent,
            "sqrt(3) m4/(18 pi m2)");
-    const double R = r_.indenter.R;
+    const double R = r_.indenter.shape->hertz_radius();
     add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
-               "1/R* = 1/R1 + 1/R2; absent for flat on flat");
-    add("tip_x", {}, unit(1), "x of the sphere's tip", std::vector<double>{r_.indenter.x0});
-    add("tip_y", {}, unit(1), "y of the sphere's tip", std::vector<double>{r_.indenter.y0});
+               "1/R* = 1/R1 + 1/R2; absent for flat on flat and for what is no sphere");
+    add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
+    add("tip_y", {}, unit(1), "y of the indenter's tip", std::vector<double>{r_.indenter.y0});
+    outline();
     add_absent("sigma_reference", {}, unit(1), "rms height that separations are divided by", {r_.sigma});
+}
+
+// Where body 2 meets what reaches 4 rms heights above the mean plane, hardly anything being higher, at the deepest level.
+void ResultTable::outline() {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const double Z0 : of_rows<double>([](const LevelValues& row) { return row.separation; }))
+        if (Z0 < lowest) lowest = Z0;
+    const double height = 4 * r_.sigma - lowest;
+    if (!(height > 0) || std::isinf(height)) return;
+    const std::vector<Vec2> curve = r_.indenter.shape->outline(height);
+    if (curve.empty()) return;
+    std::vector<double> x, y;
+    for (const Vec2& p : curve) x.push_back(r_.indenter.x0 + p.x), y.push_back(r_.indenter.y0 + p.y);
+    file_.dimension("outline_point", curve.size());
+    const auto how = comment("closed curve on which the indenter's face is 4 sigma_reference above the mean plane at the deepest level");
+    add("outline_x", {"outline_point"}, unit(1), "x of the indenter's outline", x, how);
+    add("outline_y", {"outline_point"}, unit(1), "y of the indenter's outline", y, how);
 }
 
 void ResultTable::regimes() {
     const Moments m = regime_moments(r_);
-    const double E = r_.indenter.E_star, R = r_.indenter.R;
+    const double E = r_.indenter.E_star;
+    const auto smooth = r_.indenter.shape->smooth(E);
     const std::string which = r_.theory ? "m2_theory and m4_theory" : "the means of m2 and m4 over realizations";
     const bool known = m.m2 > 0 && m.m4 > 0;
     std::vector<double> first, second, hertz;
     for (double N : o_.force.mean) {
         first.push_back(known ? area_one_asperity(N, m.mean_radius(), E) : kAbsent);
         second.push_back(known ? area_proportional(N, m.m2, E) : kAbsent);
-        hertz.push_back(std::isfinite(R) && std::isfinite(N) ? hertz_contact(N, R, E).area() : kAbsent);
+        hertz.push_back(smooth && std::isfinite(N) ? smooth->area_under(N) : kAbsent);
     }
     add_absent("transition_force", {}, unit(0, 1), "force at which area_I = area_II, N*", {known ? transition_force(m, E) : kAbsent},
                "212.66 m2^(3/2) E*/m4, with " + which);
@@ -222,8 +242,8 @@ void ResultTable::regimes() {
     add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II", second,
                "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which);
     if (r_.indenter.period.finite()) return two_flats(m);
-    add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth sphere at force_mean (Hertz)", hertz,
-               "pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for flat on flat");
+    add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
+               "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for flat on flat and where no closed form is known");
 }
 
 void ResultTable::friction() {

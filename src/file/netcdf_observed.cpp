@@ -63,13 +63,12 @@ void ResultTable::radial() {
     add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
     add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
     std::vector<double> hertz;
+    const double R = r_.indenter.shape->hertz_radius();
     for (double N : o_.force.mean)
         for (double r : o_.radii)
-            hertz.push_back(std::isfinite(r_.indenter.R) && std::isfinite(N)
-                                ? hertz_contact(N, r_.indenter.R, r_.indenter.E_star).pressure(r)
-                                : kAbsent);
+            hertz.push_back(std::isfinite(R) && std::isfinite(N) ? hertz_contact(N, R, r_.indenter.E_star).pressure(r) : kAbsent);
     add_absent("hertz_pressure", dims, unit(-2, 1), "pressure of the smooth sphere at force_mean (Hertz)", hertz,
-               "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); absent for flat on flat");
+               "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); absent for flat on flat and for what is no sphere");
 }
 
 void ResultTable::bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width) {

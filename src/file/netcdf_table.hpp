@@ -65,6 +65,7 @@ private:
     void means();
     void surfaces();
     void theory();
+    void outline();
     void regimes();
     // netcdf_measured.cpp
     void measured();

@@ -94,7 +94,7 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
 }  // namespace
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
-                           double points_per_wave) {
+                           double points_per_wave, const BodyAbove* above) {
     const bool refined = detail == Detail::subgrid;
     const Stencil stencil = refined && points_per_wave != 0 ? Stencil::band_limited(points_per_wave) : Stencil::polynomial(kMeasuredReach);
     const int edge = map.periodic ? 0 : 1;
@@ -104,7 +104,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
     share_rows(rows, threads, [&](int t, int first, int last) {
         RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
         Part& part = parts[static_cast<std::size_t>(t)];
-        SummitClimber climber(stencil, place, map.ny, map.y0, curvature);
+        SummitClimber climber(stencil, place, map.ny, map.y0, curvature, above);
         for (int j = first + edge; j < last + edge; ++j) {
             const auto row = [&](int d) -> const double* {
                 if (map.periodic) return map.row(((j + d) % map.ny + map.ny) % map.ny);
@@ -118,11 +118,12 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
             part.saddles += append_summits(place, row(-1), row(0), row(1), curvature, part.found);
         }
     });
-    return refined ? join_refined(parts, map.nx, map.ny, map.periodic, count) : join(parts, count);
+    return refined ? join_refined(parts, map.nx, map.ny, map.periodic && (!above || above->periodic()), count) : join(parts, count);
 }
 
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
-                           Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences) {
+                           Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences,
+                           const BodyAbove* above) {
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     int fine = n;
@@ -138,7 +139,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     if (refined) {
         const Stencil stencil = Stencil::band_limited(fine / shortest_wave(spectrum));
         share_rows(fine, threads, [&](int t, int first, int last) {
-            SummitClimber climber(stencil, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature);
+            SummitClimber climber(stencil, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature, above);
             // Twice the rows kept from one filling of the window to the next: moving them costs little then.
             const int held = 4 * climber.margin() + RowSource::kBlock;
             visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
@@ -146,7 +147,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
                     j, [&](int d) { return z + d * stride; }, parts[static_cast<std::size_t>(t)].refined);
             });
         });
-        return join_refined(parts, fine, fine, true, count);
+        return join_refined(parts, fine, fine, !above || above->periodic(), count);
     }
     share_rows(n, threads, [&](int t, int first, int last) {
         RowPlace place{n, 0.0, step, step, 0.0, true};

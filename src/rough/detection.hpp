@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "rough/asperities.hpp"
+#include "rough/body_above.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -35,8 +36,12 @@ struct SummitCount {
 // kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
 // 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
 // on top. A map that is not periodic gives interior points only by as much as the stencil reaches.
+//
+// With a body above (Detail::subgrid only) the summits are those of the difference, map less its face: x, y is their place, z the height of
+// the surface there, curvatures and biharmonic are the difference's. Under one that does not repeat, on a periodic map, those within
+// the map.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, double points_per_wave = 0);
+                           Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr);
 inline constexpr int kMeasuredReach = 6;
 
 // The asperities of a synthetic surface, found while it is being made: the same as find_asperities(synthesize(...)), bit
@@ -46,6 +51,6 @@ inline constexpr int kMeasuredReach = 6;
 // those of grid_moments(synthesize(...)).
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count = nullptr, Moments* sampled = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, Moments* differences = nullptr);
+                           Detail detail = Detail::grid, Moments* differences = nullptr, const BodyAbove* above = nullptr);
 
 }  // namespace rsc

@@ -8,6 +8,7 @@
 #include "format.hpp"
 #include "rough/filter.hpp"
 #include "rough/missing.hpp"
+#include "rough/rounding.hpp"
 
 namespace rsc {
 namespace {
@@ -81,6 +82,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.missing_share = static_cast<double>(m.missing) / points;
     if (m.missing > 0 && static_cast<double>(m.missing) == points) throw Error(Failure::bad_input, "all points of the map are missing");
     if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
+    if (!(options.filter_cutoff > 0)) m.height_step = height_step(map);
     m.as_read = roughness(map);
     m.form = detrend(map, options.detrend);
     m.filled = fill_missing(map);
@@ -121,6 +123,10 @@ std::vector<std::string> told(const Measured& m, const std::string& length_unit)
         lines.push_back(format("filter (Gaussian, %.4g %s): ", m.filter_cutoff, l) + told_change(m.without_form, m.filtered, l));
     lines.push_back(format("heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f", m.parameters.sq, l,
                            m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
+    if (m.height_step > 0)
+        lines.push_back(
+            format("heights are rounded to multiples of %.4g %s: asperities are the summits of a smooth surface within half of it",
+                   m.height_step, l));
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;

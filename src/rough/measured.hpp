@@ -44,6 +44,7 @@ struct Measured {
     HeightParameters parameters;
     double isotropy = 1;
     Texture texture;
+    double height_step = 0;          // heights were rounded to multiples of it (rough/rounding.hpp); 0: not, or filtered since [length]
     std::vector<double> height_pdf;  // density of the heights about their mean, in an even number of bins around it [1/length]
     double height_bin = 0;           // their width [length]
     MeasuredSpectrum spectrum;

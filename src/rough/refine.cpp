@@ -65,12 +65,12 @@ Step first_step(const Patch& patch) {
 
 }  // namespace
 
-std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel) {
+std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel, const PatchAbove& less) {
     constexpr int kMostSteps = 40;  // three or four are usual; more where the way goes along a ridge
     // The last step is applied to the position and the height alone; the derivatives stay where they were taken.
     constexpr double kNear = 1e-4;     // a step so short that the next evaluation is the last: it ends within kNear^2
     constexpr double kArrived = 1e-7;  // after the last evaluation a step must be no longer than this
-    const Step start = first_step(patch);
+    const Step start = less.above ? Step{} : first_step(patch);
     double x = start.peak ? start.x : 0, y = start.peak ? start.y : 0;
     bool last = false;
     for (int k = 0; k < kMostSteps; ++k) {
@@ -84,6 +84,13 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         double d[kOrders][kOrders];
         const int corner = Patch::kMargin - stencil.reach();
         contract(&patch.z[corner + static_cast<int>(ry)][corner + static_cast<int>(rx)], 2 * stencil.reach() + 1, orders, wx, wy, d);
+        if (less.above) {
+            const BodyAbove::Form f = less.above->at(less.x + x * less.dx, less.y + y * less.dy);
+            if (!std::isfinite(f.height)) return {};
+            d[0][0] -= f.height;
+            d[1][0] -= f.x * less.dx, d[0][1] -= f.y * less.dy;
+            d[2][0] -= f.xx * less.dx * less.dx, d[1][1] -= f.xy * less.dx * less.dy, d[0][2] -= f.yy * less.dy * less.dy;
+        }
         const Step s = step_to_summit({d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]});
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {

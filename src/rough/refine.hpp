@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "rough/body_above.hpp"
 #include "rough/stencil.hpp"
 
 namespace rsc {
@@ -25,8 +26,15 @@ struct RefinedSummit {
     double zxxxx = 0, zxxyy = 0, zyyyy = 0;
 };
 
+// A body above as a patch sees it: its middle is at (x, y), its steps are dx and dy.
+struct PatchAbove {
+    const BodyAbove* above = nullptr;
+    double x = 0, y = 0, dx = 1, dy = 1;
+};
+
 // Climbs from the middle of the patch to the summit by Newton's method on grad z = 0, steps not longer than a grid step, uphill
 // where the surface is no peak. Nothing if there is no summit within `travel` grid steps: the maximum is one of the grid alone.
-std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel = Patch::kTravel);
+// With a body above it is the summit of the patch less its face; the fourth derivatives are then those of the patch alone.
+std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel = Patch::kTravel, const PatchAbove& less = {});
 
 }  // namespace rsc

@@ -129,7 +129,10 @@ Stencil Stencil::band_limited(double points_per_wave) {
     constexpr double kWanted = 1e-8;
     for (int reach = 4;; ++reach) {
         Stencil stencil(reach);
-        if (stencil.fit(2 * std::numbers::pi / points_per_wave) < kWanted || reach == kMostReach) return stencil;
+        if (stencil.fit(2 * std::numbers::pi / points_per_wave) < kWanted || reach == kMostReach) {
+            stencil.band_known_ = true;
+            return stencil;
+        }
     }
 }
 

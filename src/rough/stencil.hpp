@@ -22,6 +22,7 @@ public:
     static Stencil polynomial(int reach);
 
     int reach() const { return reach_; }
+    bool band_known() const { return band_known_; }  // made by band_limited(): what lies between points of such lines is certain
 
     // weight[o][reach + i] of point i for derivative kOrder[o] at t, |t| <= 1/2, o < orders; zero after i = reach.
     void weights(double t, int orders, double (*weight)[kTaps]) const;
@@ -33,6 +34,7 @@ private:
     static constexpr int kDerivatives = 19;  // (pi/4)^15/15! = 2e-14 is left out of the fourth
     int reach_;
     int derivatives_ = kDerivatives;
+    bool band_known_ = false;
     double centre_[kDerivatives][kHalf] = {};  // W_q(i), i >= 0; even q are symmetric, odd q antisymmetric
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rough/neighbours.hpp"
 
@@ -44,11 +45,32 @@ void RefinedSummits::append(const RefinedSummits& other) {
     saddles += other.saddles;
 }
 
-SummitClimber::SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature)
-    : stencil_(stencil), place_(place), ny_(ny), y0_(y0), curvature_(curvature) {}
+SummitClimber::SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature, const BodyAbove* above)
+    : above_(above),
+      goes_on_(above && place.periodic && !above->periodic()),
+      stencil_(stencil),
+      place_(place),
+      ny_(ny),
+      y0_(y0),
+      curvature_(curvature) {}
+
+// Row j of the surface, z, less the face of the body above. Null where there is no row.
+const double* SummitClimber::difference_row(int j, const double* z) {
+    if (!z) return nullptr;
+    DifferenceRow& row = differences_[wrapped(j, kRows)];
+    const int beside = goes_on_ ? kBeside : 0, n = place_.nx + 2 * beside;
+    if (!row.known || row.j != j) {
+        row.j = j, row.known = true;
+        row.z.resize(static_cast<std::size_t>(n));
+        above_->row(n, place_.x0 - beside * place_.dx, place_.dx, y0_ + j * place_.dy, row.z.data());
+        for (int i = 0; i < n; ++i)
+            row.z[static_cast<std::size_t>(i)] = z[wrapped(i - beside, place_.nx)] - row.z[static_cast<std::size_t>(i)];
+    }
+    return row.z.data() + beside;
+}
 
 // The patch around (i, j); false where the stencil does not fit into a map that is not periodic.
-bool SummitClimber::cut_out(int i, int j, const std::function<const double*(int)>& row) {
+bool SummitClimber::cut_out(int i, int j, const Rows& row) {
     const int reach = stencil_.reach(), span = margin(), nx = place_.nx;
     if (!place_.periodic) {
         if (i < reach || j < reach || i + reach >= nx || j + reach >= ny_) return false;
@@ -72,14 +94,14 @@ bool SummitClimber::cut_out(int i, int j, const std::function<const double*(int)
 }
 
 // Whether a maximum of the grid beside (i, j) sees the same top: nothing else is to be found from (i, j) then.
-bool SummitClimber::seen_from_maximum(int i, int j, const std::function<const double*(int)>& row) const {
+bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const {
     constexpr double kSameTop = 0.75;  // grid steps; second differences place a top to some tenths
-    const int nx = place_.nx;
-    if (!place_.periodic && (i < 2 || j < 2 || i + 2 >= nx || j + 2 >= ny_)) return false;
+    const int nx = place.nx;
+    if (!place.periodic && !goes_on_ && (i < 2 || j < 2 || i + 2 >= nx || j + 2 >= ny_)) return false;
     double z[5][5];  // around (i, j)
     for (int dj = -2; dj <= 2; ++dj) {
         const double* const from = row(dj);
-        for (int di = -2; di <= 2; ++di) z[dj + 2][di + 2] = from[place_.periodic ? wrapped(i + di, nx) : i + di];
+        for (int di = -2; di <= 2; ++di) z[dj + 2][di + 2] = from[place.periodic ? wrapped(i + di, nx) : i + di];
     }
     struct Top {
         double x, y;
@@ -98,26 +120,111 @@ bool SummitClimber::seen_from_maximum(int i, int j, const std::function<const do
     return false;
 }
 
-void SummitClimber::climb(int j, const std::function<const double*(int)>& row, RefinedSummits& to) {
-    find_starts(place_, row(-1), row(0), row(1), starts_);
+// Height of the point (i + di, j + dj) of the patch about (i, j), less the face of the body above.
+double SummitClimber::difference(int i, int j, int di, int dj) const {
+    const double z = patch_.z[Patch::kMargin + dj][Patch::kMargin + di];
+    return above_ ? z - above_->at(place_.x0 + (i + di) * place_.dx, y0_ + (j + dj) * place_.dy).height : z;
+}
+
+// How far the surface bends within a grid step around (i, j): the medians of its second differences along x and along y, added. Pits,
+// grooves and steps have a minority of the points and do not count.
+double SummitClimber::usual_bend() const {
+    constexpr int reach = 3, points = (2 * reach + 1) * (2 * reach + 1), m = Patch::kMargin;
+    double along_x[points], along_y[points];
+    int n = 0;
+    for (int dj = -reach; dj <= reach; ++dj)
+        for (int di = -reach; di <= reach; ++di, ++n) {
+            const auto z = [&](int i, int j) { return patch_.z[m + j][m + i]; };
+            along_x[n] = std::abs(z(di - 1, dj) - 2 * z(di, dj) + z(di + 1, dj));
+            along_y[n] = std::abs(z(di, dj - 1) - 2 * z(di, dj) + z(di, dj + 1));
+        }
+    std::nth_element(along_x, along_x + points / 2, along_x + points);
+    std::nth_element(along_y, along_y + points / 2, along_y + points);
+    return along_x[points / 2] + along_y[points / 2];
+}
+
+// Whether a summit rises above the highest point around it by no more than a surface that bends like this can. A polynomial through a pit,
+// a step or a seam overshoots by some tenths of its depth.
+bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, double bend) const {
+    // A summit half a step from its point both ways rises by bend/8, and its own curvature is up to some times the median.
+    constexpr double most = 0.75;
+    const int ci = static_cast<int>(std::lround(summit.x)), cj = static_cast<int>(std::lround(summit.y));
+    double highest = -std::numeric_limits<double>::infinity();
+    for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) highest = std::max(highest, difference(i, j, ci + di, cj + dj));
+    return summit.z <= highest + most * bend;
+}
+
+// The point (i, j), a maximum of the grid, as a summit by second differences. Where one of them is that of a pit or a step, the smallest of
+// those at the point and beside it holds.
+RefinedSummit SummitClimber::of_grid(int i, int j, double bend, bool& broken) const {
+    constexpr double usual = 8;
+    const auto z = [&](int di, int dj) { return difference(i, j, di, dj); };
+    bool bends_usually = true;
+    const auto second = [&](int ex, int ey) {
+        const auto bent = [&](int k) { return z((k - 1) * ex, (k - 1) * ey) - 2 * z(k * ex, k * ey) + z((k + 1) * ex, (k + 1) * ey); };
+        const double here = bent(0);
+        if (here >= -usual * bend) return here;
+        bends_usually = false, broken = true;
+        double least = here;
+        for (const int k : {-1, 1})
+            if (const double beside = bent(k); beside < 0) least = std::max(least, beside);
+        return least;
+    };
+    RefinedSummit s;
+    s.z = z(0, 0);
+    s.zxx = second(1, 0);
+    s.zyy = second(0, 1);
+    if (bends_usually) s.zxy = 0.25 * (z(1, 1) - z(-1, 1) - z(1, -1) + z(-1, -1));
+    return s;
+}
+
+void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
+    const Rows seen = above_ ? Rows([&](int d) { return difference_row(j + d, row(d)); }) : row;
+    RowPlace place = place_;
+    if (goes_on_) {  // one more point on either side has neighbours, and the row has no seam
+        place.periodic = false;
+        place.nx += 2;
+        find_starts(place, seen(-1) - 1, seen(0) - 1, seen(1) - 1, starts_);
+        for (Start& start : starts_) --start.column;
+        place.nx -= 2;
+    } else {
+        find_starts(place, seen(-1), seen(0), seen(1), starts_);
+    }
     const double dx2 = place_.dx * place_.dx, dy2 = place_.dy * place_.dy;
     for (const auto [i, maximum] : starts_) {
-        if (!maximum && seen_from_maximum(i, j, row)) continue;
+        if (!maximum && seen_from_maximum(place, i, j, seen)) continue;
         if (!cut_out(i, j, row)) continue;
-        const auto s = refine(stencil_, patch_, maximum ? Patch::kTravel : kShortTravel);
-        double u = 0, v = 0;
+        const PatchAbove less{above_, place_.x0 + i * place_.dx, y0_ + j * place_.dy, place_.dx, place_.dy};
+        auto s = refine(stencil_, patch_, maximum ? Patch::kTravel : kShortTravel, less);
+        if (!stencil_.band_known()) {
+            const double bend = usual_bend();
+            if (!s || !smooth_around(i, j, *s, bend)) {
+                if (!maximum) continue;
+                bool broken = s.has_value();  // a maximum that leads nowhere beside a pit or a step is a summit all the same
+                const RefinedSummit point = of_grid(i, j, bend, broken);
+                if (broken) s = point;
+            }
+        }
+        double u = 0, v = 0, lowered = 0;
         bool kept = s.has_value();
         if (kept) {
             u = i + s->x, v = j + s->y;
-            if (place_.periodic) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
+            if (goes_on_ && !(u >= 0 && u < place_.nx && v >= 0 && v < ny_))
+                continue;  // it is another of the surface's summits within the map
+            if (place_.periodic && !goes_on_) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
             const SecondOrder second{0.5 * s->zxx / dx2, 0.5 * s->zyy / dy2, 0.5 * s->zxy / (place_.dx * place_.dy)};
-            kept = append_summit(place_.x0 + u * place_.dx, y0_ + v * place_.dy, s->z, second, curvature_, to.found);
+            BodyAbove::Form under;
+            const double x = place_.x0 + u * place_.dx, y = y0_ + v * place_.dy;
+            if (above_) under = above_->at(x, y);
+            lowered = under.biharmonic;
+            kept = append_summit(x, y, s->z + under.height, second, curvature_, to.found);
         }
         if (!kept) {
             to.saddles += maximum;
             continue;
         }
-        to.found.biharmonic.push_back(s->zxxxx / (dx2 * dx2) + 2 * s->zxxyy / (dx2 * dy2) + s->zyyyy / (dy2 * dy2));
+        to.found.biharmonic.push_back(s->zxxxx / (dx2 * dx2) + 2 * s->zxxyy / (dx2 * dy2) + s->zyyyy / (dy2 * dy2) - lowered);
         to.row.push_back(j);
         to.column.push_back(i);
         to.maximum.push_back(maximum);

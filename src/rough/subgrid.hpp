@@ -25,18 +25,36 @@ struct RefinedSummits {
 class SummitClimber {
 public:
     // The map's rows as in `place` (its y is not used), ny of them; y0 is the y of row 0.
-    SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature);
+    // With a body above: to the summits of the difference.
+    SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature, const BodyAbove* above = nullptr);
 
     // Rows on either side of a row that row() must be able to give; a map that is not periodic has none beyond its edges.
     int margin() const { return stencil_.reach() + Patch::kTravel; }
 
+    using Rows = std::function<const double*(int)>;
     // Appends the summits reached from row j; row(d) is the row j + d, null where there is none.
-    void climb(int j, const std::function<const double*(int)>& row, RefinedSummits& to);
+    void climb(int j, const Rows& row, RefinedSummits& to);
 
 private:
-    bool cut_out(int i, int j, const std::function<const double*(int)>& row);
-    bool seen_from_maximum(int i, int j, const std::function<const double*(int)>& row) const;
+    bool cut_out(int i, int j, const Rows& row);
+    bool seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const;
+    const double* difference_row(int j, const double* z);
+    double difference(int i, int j, int di, int dj) const;
+    bool smooth_around(int i, int j, const RefinedSummit& summit, double bend) const;
+    double usual_bend() const;
+    RefinedSummit of_grid(int i, int j, double bend, bool& broken) const;
 
+    // Rows of the difference, five of them. A periodic surface under a body that does not repeat goes on by kBeside points on either side.
+    static constexpr int kBeside = 2, kRows = 5;
+    struct DifferenceRow {
+        int j = -1;
+        bool known = false;
+        std::vector<double> z;
+    };
+
+    const BodyAbove* above_;
+    bool goes_on_ = false;  // a periodic surface under a body that does not repeat
+    DifferenceRow differences_[kRows];
     const Stencil& stencil_;
     RowPlace place_;
     int ny_;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "contact/interaction/mesh.hpp"
-#include "contact/ranking.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -24,12 +23,30 @@ double mean_excess(double Z0, double sigma, double power) {
     return sum * std::max(width, 0.0) / (sigma * std::sqrt(2 * 3.14159265358979));
 }
 
-// Greenwood and Tripp's sum without interaction: force of a sphere at Z0 on Gaussian summits. More than the sphere carries.
+// The integral of mean_excess(Z0 + s) over the domain, s being the height of the indenter's face: from the areas that the face has in
+// steps of height, sampled on a grid.
+double under_indenter(const Job& job, double Z0, double power) {
+    constexpr int side = 96, steps = 32;
+    const double step = std::max(1.0, 6 - Z0 / job.sigma) * job.sigma / steps;
+    double area[steps] = {};
+    const Domain& d = job.site.domain;
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            const double x = d.x0 + (i + 0.5) * d.Lx / side - job.indenter.x0, y = d.y0 + (j + 0.5) * d.Ly / side - job.indenter.y0;
+            const double s = std::max(0.0, job.indenter.shape->height(x, y)) / step;
+            if (s < steps) area[static_cast<int>(s)] += d.Lx * d.Ly / (side * side);
+        }
+    double sum = 0;
+    for (int k = 0; k < steps; ++k)
+        if (area[k] > 0) sum += area[k] * mean_excess(Z0 + (job.indenter.shape->flat() ? 0 : (k + 0.5) * step), job.sigma, power);
+    return sum;
+}
+
+// Greenwood and Tripp's sum without interaction: force of an indenter at Z0 on Gaussian summits. More than it carries.
 double greenwood_force(const Job& job, double Z0) {
     const double r = job.theory ? job.theory->mean_radius() : 1.0;
     const double density = 1 / (job.site.mean_spacing * job.site.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
-    if (std::isinf(job.indenter.R)) return density * job.site.domain.Lx * job.site.domain.Ly * k * mean_excess(Z0, job.sigma, 1.5);
-    return density * k * 2 * 3.14159265358979 * job.indenter.R * 0.4 * mean_excess(Z0, job.sigma, 2.5);
+    return density * k * under_indenter(job, Z0, 1.5);
 }
 
 // A separation that carries some such force.
@@ -55,12 +72,8 @@ double level_seconds(const Job& job, double candidates) {
     return 1e-4 + 3e-6 * candidates + solve;
 }
 
-// The part of the domain where a Gaussian surface is higher than the sphere at Z0.
-double area_under(const Job& job, double Z0) {
-    const double everywhere = job.site.domain.Lx * job.site.domain.Ly * mean_excess(Z0, job.sigma, 0);
-    if (std::isinf(job.indenter.R)) return everywhere;
-    return std::min(everywhere, 2 * 3.14159265358979 * job.indenter.R * mean_excess(Z0, job.sigma, 1));
-}
+// The part of the domain where a Gaussian surface is higher than the indenter at Z0.
+double area_under(const Job& job, double Z0) { return under_indenter(job, Z0, 0); }
 
 // Points of the surface that elements stand on.
 double points_of_elements(const Job& job, double points_per_wave) {
@@ -100,7 +113,7 @@ double expected_candidates(const Job& job, double Z0) {
     if (job.given) {
         const Asperities& a = job.given->asperities;
         double count = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) count += height_under_sphere(job.indenter, a.x[i], a.y[i], a.z[i]) > Z0 ? 1 : 0;
+        for (std::size_t i = 0; i < a.size(); ++i) count += job.indenter.clearance(a.x[i], a.y[i], a.z[i]) > Z0 ? 1 : 0;
         return count;
     }
     return area_under(job, Z0) / (job.site.mean_spacing * job.site.mean_spacing);

@@ -52,6 +52,14 @@ void move_to(const Domain& place, Ground& ground, std::int64_t number) {
                                             std::to_string(place.Ly) + "; maps of one size are expected");
     for (double& x : ground.asperities.x) x += place.x0 - d.x0;
     for (double& y : ground.asperities.y) y += place.y0 - d.y0;
+    if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; ground.search && (dx != 0 || dy != 0))
+        ground.search = [dx, dy, search = std::move(ground.search)](Indenter indenter) {
+            indenter.x0 -= dx, indenter.y0 -= dy;
+            Asperities found = search(indenter);
+            for (double& x : found.x) x += dx;
+            for (double& y : found.y) y += dy;
+            return found;
+        };
     ground.site.domain = place;
 }
 
@@ -157,6 +165,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
     std::optional<ResolutionCheck> resolution;  // of elements, of a single run
+    SummitSearch search;
+    SolverOptions solver = job.solver;
     if (by_elements(settings)) {
         if (job.given) {
             r.statistics = job.given->statistics;
@@ -181,11 +191,13 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (settings.surface.source == Source::heights) move_to(job.site.domain, ground, number);
         r.asperities = std::move(ground.asperities);
         r.statistics = ground.statistics;
-        contact = std::make_unique<AsperityContact>(r.asperities, job.indenter, job.solver);
+        search = ground.search;
+        solver.rms_slope = ground.site.rms_slope;
+        contact = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
     }
     std::optional<FrictionRows> friction;
     if (settings.solids.friction > 0) {
-        const auto another = [&] { return std::make_unique<AsperityContact>(r.asperities, job.indenter, job.solver); };
+        const auto another = [&] { return std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search); };
         friction.emplace(Friction{settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, another(), another());
     }
     r.levels.reserve(job.levels.size());
@@ -206,6 +218,11 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     }
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
+    if (const Asperities* touched = contact->asperities(); touched && touched != &r.asperities) {
+        Asperities used = *touched;
+        contact.reset(), friction.reset();
+        r.asperities = std::move(used);
+    }
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
     return r;

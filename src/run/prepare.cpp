@@ -11,6 +11,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "contact/law/law.hpp"
 #include "error.hpp"
 #include "read/file_list.hpp"
@@ -19,6 +20,7 @@
 #include "rough/detection.hpp"
 #include "rough/magnitude.hpp"
 #include "rough/missing.hpp"
+#include "rough/rounding.hpp"
 #include "rough/synthesis.hpp"
 
 namespace rsc {
@@ -63,10 +65,10 @@ std::string map_file(const std::string& name, std::int64_t number) {
     return files[static_cast<std::size_t>(number - 1)];
 }
 
-Surface read_map(const Case& settings, const std::string& path) {
+Surface read_map(const Case& settings, const std::string& path, std::optional<double> L, const std::string& channel) {
     const auto& keys = settings.surface;
     Surface surface;
-    surface.map = read_heights(path, keys.L, settings.run.length_unit, keys.channel, keys.missing);
+    surface.map = read_heights(path, L, settings.run.length_unit, channel, keys.missing);
     surface.origin.name = path;
     try {
         surface.origin.measured = std::make_shared<const Measured>(measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff}));
@@ -75,6 +77,14 @@ Surface read_map(const Case& settings, const std::string& path) {
     }
     surface.origin.sigma = surface.origin.measured->parameters.sq;
     return surface;
+}
+
+HeightMap copy_of(const HeightMap& map) {
+    HeightMap copy;
+    copy.allocate(map.nx, map.ny, map.nx);
+    copy.dx = map.dx, copy.dy = map.dy, copy.x0 = map.x0, copy.y0 = map.y0, copy.periodic = map.periodic;
+    for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, copy.row(j));
+    return copy;
 }
 
 Ground read_list(const Case& settings) {
@@ -131,7 +141,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
 Surface make_surface(const Case& settings, std::int64_t number, int threads) {
     if (has_spectrum(settings)) return make_surface(settings, spectrum_of(settings), number, threads);
     if (settings.surface.source == Source::heights) {
-        Surface surface = read_map(settings, map_file(settings.surface.file, number));
+        Surface surface = read_map(settings, map_file(settings.surface.file, number), settings.surface.L, settings.surface.channel);
         surface.map.periodic = settings.indentation.boundary == Boundary::periodic;
         return surface;
     }
@@ -192,7 +202,10 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
 }
 
 Site synthetic_site(const Spectrum& spectrum) {
-    return {{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theoretical_moments(spectrum).mean_spacing()};
+    const Moments theory = theoretical_moments(spectrum);
+    Site site{{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
+    site.rms_slope = theory.rms_slope();
+    return site;
 }
 
 Site list_site(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
@@ -220,19 +233,30 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     Ground ground;
     if (by_elements(settings)) {
         ground = make_bare_ground(surface);
-        auto copy = std::make_shared<HeightMap>();
-        copy->allocate(map.nx, map.ny, map.nx);
-        copy->dx = map.dx, copy->dy = map.dy, copy->x0 = map.x0, copy->y0 = map.y0, copy->periodic = map.periodic;
-        for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, copy->row(j));
-        ground.points = std::move(copy);
+        ground.points = std::make_shared<HeightMap>(copy_of(map));
         return ground;
     }
     SummitCount count;
-    ground.asperities =
-        find_asperities(map, settings.asperities.curvature, &count, threads, detail_of(settings), surface.origin.points_per_wave);
-    if (const auto& measured = surface.origin.measured) {
+    const auto& measured = surface.origin.measured;
+    // Rounded heights have plateaus, which are summits of a smoother surface.
+    auto seen = std::make_shared<HeightMap>();
+    const double step = surface.origin.theory ? 0 : measured ? measured->height_step : height_step(map);
+    if (step > 0 || detail_of(settings) == Detail::subgrid) *seen = copy_of(map);
+    if (step > 0) smooth_within_step(*seen, step);
+    ground.asperities = find_asperities(step > 0 ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
+                                        surface.origin.points_per_wave);
+    if (measured) {
         drop_near_filled(ground.asperities, count, map, measured->filled, measured->shortest_wave());
     }
+    if (detail_of(settings) == Detail::subgrid)
+        ground.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
+                         waves = surface.origin.points_per_wave, measured](const Indenter& indenter) {
+            const Face face(indenter);
+            SummitCount unused;
+            Asperities found = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face);
+            if (measured) drop_near_filled(found, unused, *kept, measured->filled, measured->shortest_wave());
+            return found;
+        };
     require_summits(ground, surface.origin.name,
                     map.periodic                          ? ""
                     : detail_of(settings) == Detail::grid ? " inside the map"
@@ -268,6 +292,7 @@ Ground make_bare_ground(const Surface& surface) {
         s.tensor = surface.origin.sampled->tensor;
         made_heights(*surface.origin.sampled, s);
     }
+    ground.site.rms_slope = std::sqrt(2 * s.m2);
     return ground;
 }
 
@@ -290,6 +315,14 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
     s.m2_grid = differences.m2;
     s.m4_grid = differences.m4;
     count_summits(count, s);
+    ground.site.rms_slope = std::sqrt(2 * s.m2);
+    if (detail_of(settings) == Detail::subgrid)
+        ground.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
+                         threads](const Indenter& indenter) {
+            const Face face(indenter);
+            return make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads, Detail::subgrid,
+                                   nullptr, &face);
+        };
     return ground;
 }
 
@@ -309,9 +342,9 @@ Ground make_ground(const Case& settings, std::int64_t number, int threads) {
     throw Error(Failure::internal, "an unknown source of asperities");
 }
 
-void require_tip_above(const Site& site, double R, double x, double y) {
+void require_tip_above(const Site& site, const Shape& shape, double x, double y) {
     const Domain& d = site.domain;
-    const double beyond = site.guessed ? R : 0;
+    const double beyond = site.guessed ? shape->reach() : 0;
     const auto text = [](double v) {
         char buffer[40];
         std::snprintf(buffer, sizeof buffer, "%.9g", v);
@@ -328,14 +361,31 @@ void require_tip_above(const Site& site, double R, double x, double y) {
                                         (site.guessed ? " (the asperities' own extent; surface%L would say)" : ""));
 }
 
+Shape shape_of(const Case& settings) {
+    const Case::IndenterKeys& keys = settings.indenter;
+    ShapeKeys made;
+    made.R = equivalent_radius(settings.solids.R);
+    for (int k = 0; k < 2; ++k) made.radii[k] = equivalent_radius({settings.solids.R[0], keys.radii[k].value_or(settings.solids.R[1])});
+    made.angle = keys.angle * std::numbers::pi / 180;
+    made.slope = keys.slope.value_or(0);
+    made.radius = keys.radius.value_or(0);
+    made.rim_radius = keys.rim_radius;
+    if (!keys.file.empty()) {
+        auto map = std::make_shared<HeightMap>(read_map(settings, keys.file, std::nullopt, keys.channel).map);
+        map->periodic = settings.indentation.boundary == Boundary::periodic;
+        made.map = std::move(map);
+    }
+    return make_shape(keys.shape, made);
+}
+
 Indenter indenter_of(const Case& settings, const Site& site) {
     const auto& centre = settings.indentation.centre;
     const Domain& d = site.domain;
-    const Indenter indenter{equivalent_modulus(settings.solids.E, settings.solids.nu), equivalent_radius(settings.solids.R),
+    const Indenter indenter{equivalent_modulus(settings.solids.E, settings.solids.nu), shape_of(settings),
                             centre[0].value_or(d.x0 + 0.5 * d.Lx - site.half_step_x),
                             centre[1].value_or(d.y0 + 0.5 * d.Ly - site.half_step_y), period_of(settings, site)};
     try {
-        require_tip_above(site, indenter.R, indenter.x0, indenter.y0);
+        require_tip_above(site, indenter.shape, indenter.x0, indenter.y0);
     } catch (const Error& error) {
         throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
     }
@@ -348,7 +398,7 @@ Period period_of(const Case& settings, const Site& site) {
 
 std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options) {
     if (ground.points) return make_element_contact(*ground.points, indenter, options);
-    return std::make_unique<AsperityContact>(ground.asperities, indenter, options);
+    return std::make_unique<AsperityContact>(ground.asperities, indenter, options, ground.search);
 }
 
 double sigma_of(const Case& settings, const Site& site) { return settings.surface.sigma.value_or(site.sigma); }
@@ -367,6 +417,7 @@ SolverOptions solver_of(const Case& settings, const Site& site) {
     options.delta0 = settings.solver.delta0;
     options.mean_spacing = site.mean_spacing;
     options.points_per_wave = site.points_per_wave;
+    options.rms_slope = site.rms_slope;
     const bool free = settings.indentation.boundary == Boundary::free;
     if (!site.guessed && free) options.surface = {site.domain.x0, site.domain.y0, site.domain.Lx, site.domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {

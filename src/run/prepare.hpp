@@ -10,6 +10,7 @@
 #include "case/case.hpp"
 #include "contact/contact.hpp"
 #include "contact/indentation.hpp"
+#include "contact/touching.hpp"
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
@@ -68,11 +69,13 @@ struct Site {
     double points_per_wave = 0;  // of the grid its summits are found on, in the shortest wave; 0: not known
     // Of a map read, whose points are cells from [0, dx] on: half a step, by which their middle is below that of the rectangle.
     double half_step_x = 0, half_step_y = 0;
+    double rms_slope = 0;  // of the surface; 0: not known (a list)
 };
 
 // Asperities, or the points of the surface themselves, and what is known of where they come from.
 struct Ground {
-    Asperities asperities;
+    Asperities asperities;                    // the summits of the surface
+    SummitSearch search;                      // of those that an indenter touches, for laws that take summits between the points
     std::shared_ptr<const HeightMap> points;  // solver%model = 'elements'; there are no asperities then
     Site site;
     SurfaceStatistics statistics;
@@ -99,13 +102,16 @@ Ground make_ground(const Case& settings, std::int64_t number, int threads);
 Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
 
 // Throws Error(bad_input) unless the tip at (x, y) is above the surface: on its rectangle, or where that is guessed no farther from it
-// than the sphere's radius R. For every place where a tip is put.
-void require_tip_above(const Site& site, double R, double x, double y);
+// than the indenter reaches. For every place where a tip is put.
+void require_tip_above(const Site& site, const Shape& shape, double x, double y);
 
 // The same without asperities, for elements: summits are not looked for.
 Ground make_bare_ground(const Surface& surface);
 
-// E* and R from &solids, the tip above indentation%centre, by default the middle of the surface, or of the points of a map.
+// The form of body 2, from &indenter and &solids. Throws Error(bad_input) for what cannot be read or made.
+Shape shape_of(const Case& settings);
+
+// E* from &solids and that shape, the tip above indentation%centre, by default the middle of the surface, or of the points of a map.
 Indenter indenter_of(const Case& settings, const Site& site);
 
 // The sides of the surface with indentation%boundary = 'periodic'.
@@ -114,7 +120,7 @@ Period period_of(const Case& settings, const Site& site);
 // The length that unit='sigma' and delta0 mean.
 double sigma_of(const Case& settings, const Site& site);
 
-// The contact of a sphere with that ground, which must outlive it.
+// The contact of an indenter with that ground, which must outlive it.
 std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options);
 
 // The keys of &solver, and of &asperities and &indentation that the solver looks at. Throws Error(bad_input) where it needs an rms

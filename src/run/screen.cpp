@@ -53,8 +53,8 @@ void print_case(std::ostream& out, const Job& job) {
         out << format("two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = %g %s\n", period.x, period.y, l,
                       job.indenter.E_star, f, l, job.sigma, l);
     else
-        out << format("sphere R = %g %s on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.R, l, job.indenter.E_star, f,
-                      l, job.sigma, l);
+        out << job.indenter.shape->text(l)
+            << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.E_star, f, l, job.sigma, l);
     if (job.settings.solver.model == Model::automatic) {
         const ModelChoice choice = model_of(job.settings);
         out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[static_cast<std::size_t>(choice.model)], choice.why);

@@ -93,7 +93,7 @@ void overlap_selection_loses_nothing() {
     std::vector<double> F(a.size(), 0.0);
     for (std::size_t k = 0; k < level.asperity.size(); ++k) F[static_cast<std::size_t>(level.asperity[k])] = level.f[k];
     for (std::size_t i = 0; i < a.size(); ++i) {
-        double g = height_under_sphere({kE, 2.5, 0.5, 0.5}, a.x[i], a.y[i], a.z[i]) - Z0;
+        double g = Indenter{kE, 2.5, 0.5, 0.5}.clearance(a.x[i], a.y[i], a.z[i]) - Z0;
         for (std::size_t j = 0; j < a.size(); ++j) {
             if (i != j) g -= F[j] / (std::numbers::pi * kE * std::hypot(a.x[i] - a.x[j], a.y[i] - a.y[j]));
         }
@@ -118,7 +118,7 @@ void without_interaction() {
     o.interaction = Interaction::none;
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const double g = height_under_sphere({kE, 2.5, 0.5, 0.5}, a.x[i], a.y[i], a.z[i]) - 0.002;
+        const double g = Indenter{kE, 2.5, 0.5, 0.5}.clearance(a.x[i], a.y[i], a.z[i]) - 0.002;
         if (g > 0) sum += 4.0 / 3.0 * kE * std::sqrt(a.radius[i]) * std::pow(g, 1.5);
     }
     CHECK_RELATIVE(press(a, 0.002, o).force, sum, 1e-12);

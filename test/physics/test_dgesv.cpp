@@ -21,7 +21,7 @@ constexpr double kResidual = 1e-8;  // of the unregularised equation
 WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) {
     WorkingSet set;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const double g0 = height_under_sphere(indenter, a.x[i], a.y[i], a.z[i]) - Z0;
+        const double g0 = indenter.clearance(a.x[i], a.y[i], a.z[i]) - Z0;
         if (!(g0 > 0)) continue;
         set.asperity.push_back(static_cast<int>(i));
         set.x.push_back(a.x[i]);

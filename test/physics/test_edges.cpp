@@ -57,9 +57,11 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
     for (std::size_t k = 0; k < level.f.size(); ++k) F[at(level.asperity[k])] = level.f[k];
     long double error2 = 0, force2 = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0, rho2 = dx * dx + dy * dy, R = indenter.R;
-        if (!std::isinf(indenter.R) && rho2 > R * R) continue;
-        long double g = a.z[i] - static_cast<long double>(Z0) - (std::isinf(indenter.R) ? 0 : rho2 / (R + std::sqrt(R * R - rho2)));
+        const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0, rho2 = dx * dx + dy * dy,
+                          R = indenter.shape->hertz_radius();
+        if (!std::isinf(indenter.shape->hertz_radius()) && rho2 > R * R) continue;
+        long double g =
+            a.z[i] - static_cast<long double>(Z0) - (std::isinf(indenter.shape->hertz_radius()) ? 0 : rho2 / (R + std::sqrt(R * R - rho2)));
         for (std::size_t j = 0; j < a.size(); ++j) {
             if (j != i)
                 g -= F[j] / (std::numbers::pi_v<long double> * indenter.E_star *

@@ -96,7 +96,7 @@ void selection() {
             top = -1;
             for (int j = 0; j < map.ny; ++j)
                 for (int i = 0; i < map.nx; ++i) {
-                    const double z = height_under_sphere(tip, i * map.dx, j * map.dy, map(i, j));
+                    const double z = tip.clearance(i * map.dx, j * map.dy, map(i, j));
                     if (z > top) top = z;
                     places += z > Z0;
                 }

@@ -98,9 +98,11 @@ struct Truth {
     }
 
     double height(std::size_t k) const {
-        if (std::isinf(tip.R)) return z[k];
+        if (std::isinf(tip.shape->hertz_radius())) return z[k];
         const double rho2 = std::pow(x(k) - tip.x0, 2) + std::pow(y(k) - tip.y0, 2);
-        return rho2 <= tip.R * tip.R ? z[k] + std::sqrt(tip.R * tip.R - rho2) - tip.R : -kFlat;
+        return rho2 <= tip.shape->hertz_radius() * tip.shape->hertz_radius()
+                   ? z[k] + std::sqrt(tip.shape->hertz_radius() * tip.shape->hertz_radius() - rho2) - tip.shape->hertz_radius()
+                   : -kFlat;
     }
 
     // p and w at a separation; false: the conditions of contact were not met.
@@ -275,16 +277,16 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
     double fx = 0, fy = 0, mx = 0, my = 0, radius = 0;
     for (const std::size_t k : touching) {
         const double dx = t.x(k) - t.tip.x0, dy = t.y(k) - t.tip.y0, f = t.p[k] * pixel;
-        if (std::isinf(t.tip.R)) {
+        if (std::isinf(t.tip.shape->hertz_radius())) {
             mx += f * dy, my -= f * dx;
         } else {
-            const double slope = f / std::sqrt(t.tip.R * t.tip.R - dx * dx - dy * dy);
+            const double slope = f / std::sqrt(t.tip.shape->hertz_radius() * t.tip.shape->hertz_radius() - dx * dx - dy * dy);
             fx -= slope * dx, fy -= slope * dy;
         }
         radius = std::max(radius, std::hypot(std::abs(dx) + t.map.dx / 2, std::abs(dy) + t.map.dy / 2));
     }
     SAME(lateral_x, fx, force), SAME(lateral_y, fy, force);
-    if (!std::isinf(t.tip.R)) mx = -t.tip.R * fy, my = t.tip.R * fx;
+    if (!std::isinf(t.tip.shape->hertz_radius())) mx = -t.tip.shape->hertz_radius() * fy, my = t.tip.shape->hertz_radius() * fx;
     if (!t.repeats()) SAME(moment_x, mx, force), SAME(moment_y, my, force);
     if (t.repeats()) {
         const double whole = t.tip.period.x * t.tip.period.y;

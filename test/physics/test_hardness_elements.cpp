@@ -175,7 +175,7 @@ void test_path() {
           static_cast<std::size_t>(std::lround(profile.x[k] / map.dx))] -= profile.depth[k];
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i)
-            touch = std::max(touch, height_under_sphere(kTip, i * map.dx, j * map.dy, z[static_cast<std::size_t>(j * map.nx + i)]));
+            touch = std::max(touch, kTip.clearance(i * map.dx, j * map.dy, z[static_cast<std::size_t>(j * map.nx + i)]));
     CHECK_CLOSE(contact.first_touch(), touch, 1e-15);
     CHECK(contact.at_separation(touch).force == 0);
     CHECK(contact.at_separation(touch - 1e-3 * kSigma).force > 0);

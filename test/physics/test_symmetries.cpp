@@ -94,7 +94,7 @@ Problem given_otherwise(const Problem& p, const Map& m) {
         q.heights = to;
     }
     const Vec2 tip = m.place(p.tip.x0, p.tip.y0);
-    q.tip = {m.modulus * p.tip.E_star, s * p.tip.R, tip.x, tip.y, p.tip.period};
+    q.tip = {m.modulus * p.tip.E_star, s * p.tip.shape->hertz_radius(), tip.x, tip.y, p.tip.period};
     if (p.tip.period.finite())
         q.tip.period = {s * (m.turn ? p.tip.period.y : p.tip.period.x), s * (m.turn ? p.tip.period.x : p.tip.period.y)};
     q.options.hardness = {m.modulus * p.options.hardness.H0, s * p.options.hardness.length};
@@ -323,7 +323,7 @@ std::vector<Problem> problems() {
             all.push_back(std::move(p));
         };
         add(", sphere", [](Problem& p) { p.options.method = Method::direct; });
-        add(", flat, mesh", [](Problem& p) { p.tip.R = kFlat, p.options.method = Method::mesh; });
+        add(", flat, mesh", [](Problem& p) { p.tip.shape = kFlat, p.options.method = Method::mesh; });
         add(", paper", [](Problem& p) {
             p.options.method = Method::dgesv, p.options.selection = Selection::paper, p.options.selection_factor = 0.55;
         });
@@ -331,10 +331,10 @@ std::vector<Problem> problems() {
         add(", yielding", [](Problem& p) { p.options.hardness = {0.25, 2e-3}; });
         constexpr std::size_t few = 80;
         add(", repeating", [](Problem& p) {
-            p.tip.R = kFlat, p.tip.period = {kWide, kHigh}, p.options.method = Method::mesh, keep(p.asperities, few);
+            p.tip.shape = kFlat, p.tip.period = {kWide, kHigh}, p.options.method = Method::mesh, keep(p.asperities, few);
         });
         add(", repeating and yielding", [](Problem& p) {
-            p.tip.R = kFlat, p.tip.period = {kWide, kHigh}, p.options.hardness = {0.25, 2e-3}, p.options.method = Method::direct,
+            p.tip.shape = kFlat, p.tip.period = {kWide, kHigh}, p.options.hardness = {0.25, 2e-3}, p.options.method = Method::direct,
             keep(p.asperities, few);
         });
     }

@@ -77,7 +77,7 @@ inline double height(int i, int j) { return kSigma * (std::sin(0.3 * i) + 0.5 * 
 inline Result result(int realizations) {
     const Case c = make_case(realizations);
     Indenter indenter;
-    indenter.E_star = kEStar, indenter.R = kSphere, indenter.x0 = 0.5, indenter.y0 = 0.45;
+    indenter.E_star = kEStar, indenter.shape = kSphere, indenter.x0 = 0.5, indenter.y0 = 0.45;
     const Moments theory{kSigma * kSigma, 0.02, 0.543169 / (kRadius * kRadius)};
     const ObserveOptions options = observe_options(c, {0, 0, 1, 1}, indenter, kSigma, std::sqrt(theory.m4));
     Accumulators sums(options, kSteps);

@@ -88,7 +88,7 @@ void levels() {
     const Job job = are({0.5, 3, 7}, 9);
     const double E = equivalent_modulus(c.solids.E, c.solids.nu), full = E * std::sqrt(2 * theoretical_moments(*job.spectrum).m2);
     CHECK_RELATIVE(1 / E, (1 - 0.35 * 0.35) / 78e3 + (1 - 0.21 * 0.21) / 31e3, kRounding);
-    CHECK(job.indenter.R == HUGE_VAL && job.indenter.period.finite() && job.observe.radial_bins == 0);
+    CHECK(job.indenter.shape->hertz_radius() == HUGE_VAL && job.indenter.period.finite() && job.observe.radial_bins == 0);
     keys.unit = LevelUnit::relative, keys.levels = {0.01, 0.9999};
     are({0.01, 0.9999}, 9 * full);
     keys.levels = {0.01, 1};
@@ -105,7 +105,7 @@ void places() {
     Job job = prepare(c);
     CHECK(job.site.domain.x0 == 0 && job.site.domain.y0 == 0 && job.site.domain.Lx == 3 && job.site.domain.Ly == 3 && !job.site.guessed);
     CHECK(job.site.sigma == 0.02 && job.indenter.x0 == 1.5 && job.indenter.y0 == 1.5 && !job.indenter.period.finite());
-    CHECK_RELATIVE(job.indenter.R, 4 * 2.5 / 6.5, kRounding);
+    CHECK_RELATIVE(job.indenter.shape->hertz_radius(), 4 * 2.5 / 6.5, kRounding);
     CHECK_RELATIVE(job.site.mean_spacing, theoretical_moments(*job.spectrum).mean_spacing(), kRounding);
     CHECK(job.observe.tip_x == 1.5 && job.observe.tip_y == 1.5 && job.observe.radial_bins == 50);
     c.indentation.centre[1] = 0.75, c.output.radial_bins = 13, c.output.pdf_levels = {2.5, 1}, c.output.pdf_bins = 17,

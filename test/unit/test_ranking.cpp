@@ -55,8 +55,8 @@ TESTS {
     // The sphere ends at its rim, which belongs to it.
     for (const auto& [x, y] : {std::pair{1.0, -2.0}, {0.5, -1.5}, {0.0, -2.0}, {0.5, -2.5}}) {
         const Indenter small{1.0, 0.5, 0.5, -2.0};
-        CHECK(height_under_sphere(small, x, y, 2.0) == 1.5);
-        CHECK(height_under_sphere(small, 0.5 + (x - 0.5) * (1 + 1e-15), -2 + (y + 2) * (1 + 1e-15), 2.0) == -flat);
+        CHECK(small.clearance(x, y, 2.0) == 1.5);
+        CHECK(small.clearance(0.5 + (x - 0.5) * (1 + 1e-15), -2 + (y + 2) * (1 + 1e-15), 2.0) == -flat);
     }
     // A high one far out: it comes up while the sphere is on its way.
     Asperities peak = rough;

@@ -119,7 +119,8 @@ void test_fields() {
 void test_moment() {
     Level level;
     level.add_contact(0, 0.6, 0.2, 3.0, 0.01, 1e-3);
-    const Indenter flat{7e4, std::numeric_limits<double>::infinity(), 0.5, 0.5}, beside{7e4, flat.R, 0.6, 0.5}, large{7e4, 1e7, 0.5, 0.5};
+    const Indenter flat{7e4, std::numeric_limits<double>::infinity(), 0.5, 0.5}, beside{7e4, flat.shape->hertz_radius(), 0.6, 0.5},
+        large{7e4, 1e7, 0.5, 0.5};
     const Vec2 both = tip_moment(flat, level), one = tip_moment(beside, level), sphere = tip_moment(large, level);
     CHECK_RELATIVE(both.x, 3.0 * (0.2 - 0.5), 1e-14);
     CHECK_RELATIVE(both.y, -3.0 * (0.6 - 0.5), 1e-14);

@@ -1,0 +1,77 @@
+#include "contact/touching.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rough/summits.hpp"
+
+namespace rsc {
+
+void Face::row(int n, double x0, double dx, double y, double* height) const {
+    constexpr int block = 256;
+    double x[block];
+    for (int first = 0; first < n; first += block) {
+        const int count = std::min(block, n - first);
+        for (int k = 0; k < count; ++k) x[k] = x0 + (first + k) * dx - indenter_.x0;
+        indenter_.shape->heights(count, x, y - indenter_.y0, height + first);
+    }
+}
+
+BodyAbove::Form Face::at(double x, double y) const {
+    const double dx = x - indenter_.x0, dy = y - indenter_.y0;
+    Form form;
+    form.height = indenter_.shape->height(dx, dy);
+    if (!std::isfinite(form.height)) return form;
+    const Vec2 slope = indenter_.shape->gradient(dx, dy);
+    const Tensor curvature = indenter_.shape->curvature(dx, dy);
+    form.x = slope.x, form.y = slope.y;
+    form.xx = curvature.xx, form.xy = curvature.xy, form.yy = curvature.yy;
+    form.biharmonic = indenter_.shape->biharmonic(dx, dy);
+    return form;
+}
+
+Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter) {
+    const Face face(indenter);
+    const Asperities& a = of_surface;
+    Asperities moved;
+    const bool geometric = a.size() == 0 || std::abs(a.radius[0] * std::sqrt(a.kappa1[0] * a.kappa2[0]) - 1) <
+                                                std::abs(a.radius[0] * 0.5 * (a.kappa1[0] + a.kappa2[0]) - 1);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double c = std::cos(a.angle[i]), s = std::sin(a.angle[i]), k1 = a.kappa1[i], k2 = a.kappa2[i];
+        const double hxx = k1 * s * s + k2 * c * c, hyy = k1 * c * c + k2 * s * s, hxy = (k2 - k1) * s * c;
+        BodyAbove::Form f = face.at(a.x[i], a.y[i]);
+        if (!std::isfinite(f.height)) f = {};
+        double xx = hxx + f.xx, yy = hyy + f.yy, xy = hxy + f.xy, determinant = xx * yy - xy * xy;
+        if (!(determinant > 0 && xx > 0)) f = {}, xx = hxx, yy = hyy, xy = hxy, determinant = k1 * k2;  // under a face that curves away
+        double dx = -(yy * f.x - xy * f.y) / determinant, dy = -(xx * f.y - xy * f.x) / determinant;
+        // No further than to where the summit's own profile ends (law.hpp: q^2 = biharmonic/(kappa1 + kappa2)).
+        const double q = a.biharmonic.empty() ? 0 : std::sqrt(std::max(0.0, a.biharmonic[i] / (k1 + k2))), way = q * std::hypot(dx, dy);
+        if (way > 1) dx /= way, dy /= way;
+        const double z = a.z[i] - 0.5 * (hxx * dx * dx + 2 * hxy * dx * dy + hyy * dy * dy);
+        append_summit(a.x[i] + dx, a.y[i] + dy, z, {-0.5 * xx, -0.5 * yy, -0.5 * xy},
+                      geometric ? Curvature::geometric : Curvature::algebraic, moved);
+        if (!a.biharmonic.empty()) moved.biharmonic.push_back(a.biharmonic[i] - f.biharmonic);
+    }
+    return moved;
+}
+
+double steepest_above(const Asperities& asperities, const Indenter& indenter, double least) {
+    double steepest = 0;
+    for (std::size_t i = 0; i < asperities.size(); ++i) {
+        if (!(indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > least)) continue;
+        const Vec2 slope = indenter.shape->gradient(asperities.x[i] - indenter.x0, asperities.y[i] - indenter.y0);
+        steepest = std::max(steepest, std::hypot(slope.x, slope.y));
+    }
+    return steepest;
+}
+
+double steepest_contact(const Level& level, const Indenter& indenter) {
+    double steepest = 0;
+    for (std::size_t k = 0; k < level.x.size(); ++k) {
+        const Vec2 slope = indenter.shape->gradient(level.x[k] - indenter.x0, level.y[k] - indenter.y0);
+        steepest = std::max(steepest, std::hypot(slope.x, slope.y));
+    }
+    return steepest;
+}
+
+}  // namespace rsc

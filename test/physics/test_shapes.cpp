@@ -1,0 +1,141 @@
+// Indenters of every shape: smooth ones by elements against closed forms, each with its order in the pixel; lateral forces against the energy.
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "check.hpp"
+#include "contact/answers.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/indenter/shapes.hpp"
+#include "physics/random_asperities.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kE = 100, kInfinity = std::numeric_limits<double>::infinity();
+
+HeightMap flat_map(int nx, int ny, double h) {
+    HeightMap map;
+    map.allocate(nx, ny, nx);
+    map.dx = map.dy = h;
+    map.x0 = -0.5 * h * (nx - 1), map.y0 = -0.5 * h * (ny - 1);  // the origin between points, or on one
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) map.row(j)[i] = 0;
+    return map;
+}
+
+SolverOptions elements(double tolerance = 1e-8) {
+    SolverOptions options;
+    options.tolerance = tolerance;
+    options.max_iterations = 500;
+    return options;
+}
+
+Shape shape(const char* name, const ShapeKeys& keys) { return make_shape(shape_number(name), keys); }
+
+// Force and area at a depth on n x n points over `side`, against the closed form. The error falls at least as h^order.
+void closed_form(const char* name, const ShapeKeys& keys, double depth, double side, int n, double force_error, double area_error,
+                 double order) {
+    const Shape s = shape(name, keys);
+    const auto truth = s->smooth(kE);
+    CHECK(truth.has_value());
+    double errors[2];
+    for (int k = 0; k < 2; ++k) {
+        const HeightMap map = flat_map(n << k, n << k, side / (n << k));
+        ElementContact contact(map, {kE, s, 0, 0}, elements());
+        const Level level = contact.at_separation(-depth);
+        errors[k] = std::abs(level.force / truth->force(depth) - 1);
+        if (k == 1) {
+            CHECK_RELATIVE(level.force, truth->force(depth), force_error);
+            CHECK_RELATIVE(level.area, truth->area_under(truth->force(depth)), area_error);
+        }
+    }
+    if (order > 0) CHECK(errors[1] <= errors[0] * std::pow(0.5, order));
+    std::printf("%s: N off by %.2g, then %.2g\n", name, errors[0], errors[1]);
+}
+
+// F = -dW/d(x0, y0) by central differences.
+template <class Make>
+void lateral(const char* name, const ShapeKeys& keys, double depth, double step, double tolerance, Make make) {
+    Indenter tip{kE, shape(name, keys), 0.013, -0.021};
+    const auto at = [&](double dx, double dy, Level& level) {
+        Indenter there = tip;
+        there.x0 += dx, there.y0 += dy;
+        const std::unique_ptr<Contact> contact = make(there);
+        level = contact->at_separation(-depth);
+        return contact->energy();
+    };
+    Level level, other;
+    at(0, 0, level);
+    const Vec2 force = lateral_force(tip, level);
+    const double fx = -(at(step, 0, other) - at(-step, 0, other)) / (2 * step),
+                 fy = -(at(0, step, other) - at(0, -step, other)) / (2 * step);
+    CHECK(level.contacts > 0);
+    const double size = std::hypot(force.x, force.y);
+    std::printf("%s: lateral force %.6g %.6g, off by %.2g\n", name, force.x, force.y, std::hypot(force.x - fx, force.y - fy) / size);
+    CHECK(std::hypot(force.x - fx, force.y - fy) <= tolerance * size);
+}
+
+}  // namespace
+
+TESTS {
+    ShapeKeys keys;
+    keys.R = 1;
+    keys.slope = 0.1;
+    keys.radius = 0.05;
+    // Hertz's ellipse (Johnson 1985, section 4.2). Turned along the diagonal it is the same contact.
+    for (const double ratio : {1.0, 3.0, 10.0}) {
+        keys.radii[0] = 1, keys.radii[1] = ratio;
+        closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 48, 6e-3, 1e-2, 0.8);
+    }
+    keys.angle = 0.25 * std::numbers::pi;
+    keys.radii[1] = 3;
+    closed_form("paraboloid", keys, 1e-3, 0.16, 48, 6e-3, 1e-2, 0);
+    closed_form("sphere", keys, 1e-3, 0.1, 48, 6e-3, 1e-2, 0.8);
+    closed_form("cone", keys, 5e-3, 0.1, 48, 1e-2, 1.5e-2, 0.8);
+    closed_form("punch", keys, 1e-3, 0.12, 48, 1.5e-2, 2e-2, 0.5);
+
+    // A cylinder along y, ending at the border: away from the ends the peak pressure and the half-width b of line contact, p0 = E* b/(2 R).
+    keys.angle = 0;
+    keys.radii[0] = 1, keys.radii[1] = kInfinity;
+    const int nx = 65, ny = 129;
+    const HeightMap strip = flat_map(nx, ny, 0.1 / 64);
+    ElementContact roller(strip, {kE, shape("paraboloid", keys), 0, 0}, elements());
+    const Level line = roller.at_separation(-2e-3);
+    double sum = 0, peak = 0;
+    for (std::size_t k = 0; k < line.pixels.index.size(); ++k)
+        if (line.pixels.index[k] / nx == ny / 2) sum += line.pixels.pressure[k] * strip.dx, peak = std::max(peak, line.pixels.pressure[k]);
+    // N' = pi E* b^2/(4 R) and N' = pi p0 b/2.
+    const double b = 2 * sum / (std::numbers::pi * peak);
+    CHECK_RELATIVE(peak, kE * b / 2, 1e-2);
+    std::printf("cylinder: p0 over E* b/(2 R) - 1 = %.2g\n", peak / (kE * b / 2) - 1);
+
+    // Lateral forces of every shape, on asperities and on the points of a surface.
+    keys.rim_radius = 0.5;
+    keys.angle = 0.4;
+    keys.radii[0] = 0.5, keys.radii[1] = 2;
+    HeightMap rough = flat_map(48, 48, 1.0 / 48);
+    auto second = std::make_shared<HeightMap>();
+    second->allocate(96, 96, 96);
+    second->dx = second->dy = 1.0 / 48;
+    const double q = 2 * std::numbers::pi / 48;
+    for (int j = 0; j < 96; ++j)
+        for (int i = 0; i < 96; ++i) second->row(j)[i] = 4e-3 * std::sin(2 * q * i + 1) * std::cos(3 * q * j);
+    for (int j = 0; j < 48; ++j)
+        for (int i = 0; i < 48; ++i) rough.row(j)[i] = 3e-3 * std::cos(4 * q * i) * std::cos(3 * q * j + 0.3 * i * q);
+    keys.map = second;
+    Asperities asperities = random_asperities(300, 0.005, 0.01, 1e-3, 0.02, 5);
+    for (double& x : asperities.x) x -= 0.5;
+    for (double& y : asperities.y) y -= 0.5;
+    for (const ShapeRow& row : kShapes) {
+        SolverOptions precise;
+        precise.tolerance = 1e-12;
+        lateral(row.name, keys, -0.002, 1e-6, 1e-6,
+                [&](const Indenter& tip) { return std::make_unique<AsperityContact>(asperities, tip, precise); });
+        lateral(row.name, keys, 5e-4, 1e-6, 1e-6,
+                [&](const Indenter& tip) { return std::make_unique<ElementContact>(rough, tip, elements(1e-11)); });
+    }
+}
