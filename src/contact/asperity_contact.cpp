@@ -210,7 +210,7 @@ Level AsperityContact::Impl::report(double Z0) const {
     expect_error(level, asperities, indenter, options);
     judge_range(level, indenter, options);
     // The surface's own summits touch only where the indenter is flat beside them.
-    if (!of_difference && level.slope_ratio > kMostSlopeRatio) level.status = std::max(level.status, LevelStatus::out_of_validity);
+    if (!of_difference && level.slope_ratio > kMostSlopeRatio) level.status = graver(level.status, LevelStatus::out_of_validity);
     return level;
 }
 

@@ -132,7 +132,7 @@ Job prepare(const Case& settings) {
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
                 job.points_touch =
-                    std::max(job.points_touch, height_under_sphere(job.indenter, map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
+                    std::max(job.points_touch, job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
     }
 
     const auto& indentation = settings.indentation;

@@ -8,6 +8,7 @@
 
 #include "case/units.hpp"
 #include "contact/expected_error.hpp"
+#include "contact/touching.hpp"
 #include "contact/validity.hpp"
 #include "format.hpp"
 #include "observe/quantities.hpp"
@@ -152,6 +153,15 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     if (!elements) {
         tell(count([points_touch](const LevelValues& l) { return l.force == 0 && l.separation < points_touch; }),
              "points of the map touch where no summit does: N is not 0; see solver%model = 'elements'.");
+        const bool list = job.settings.surface.source == Source::asperities;
+        double steepest = 0;
+        for (const LevelValues& l : levels) steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);
+        if (list || job.settings.asperities.law == LawKind::hertz)
+            tell(count([](const LevelValues& l) { return l.slope_ratio > kMostSlopeRatio; }),
+                 format("at contacts the indenter is up to %.2g times as steep as the surface (slope_ratio): other points touch than the "
+                        "surface's summits; ",
+                        steepest) +
+                     (list ? "a list of asperities knows of no others." : "asperities%law = 'elliptic' or 'fourth_order' takes them."));
         tell(
             count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
             "separation below -3 sigma - the sphere's tip lies under all but a thousandth of the surface: the asperity model is out of its range.");

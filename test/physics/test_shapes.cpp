@@ -44,7 +44,8 @@ void closed_form(const char* name, const ShapeKeys& keys, double depth, double s
     CHECK(truth.has_value());
     double errors[2];
     for (int k = 0; k < 2; ++k) {
-        const HeightMap map = flat_map(n << k, n << k, side / (n << k));
+        const int points = k == 0 ? n : 4 * n;
+        const HeightMap map = flat_map(points, points, side / points);
         ElementContact contact(map, {kE, s, 0, 0}, elements());
         const Level level = contact.at_separation(-depth);
         errors[k] = std::abs(level.force / truth->force(depth) - 1);
@@ -53,7 +54,7 @@ void closed_form(const char* name, const ShapeKeys& keys, double depth, double s
             CHECK_RELATIVE(level.area, truth->area_under(truth->force(depth)), area_error);
         }
     }
-    if (order > 0) CHECK(errors[1] <= errors[0] * std::pow(0.5, order));
+    if (order > 0) CHECK(errors[1] <= std::max(errors[0] * std::pow(0.25, order), 0.2 * force_error));
     std::printf("%s: N off by %.2g, then %.2g\n", name, errors[0], errors[1]);
 }
 
@@ -89,14 +90,14 @@ TESTS {
     // Hertz's ellipse (Johnson 1985, section 4.2). Turned along the diagonal it is the same contact.
     for (const double ratio : {1.0, 3.0, 10.0}) {
         keys.radii[0] = 1, keys.radii[1] = ratio;
-        closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 48, 6e-3, 1e-2, 0.8);
+        closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 24, 1e-3, 1.5e-2, 0.5);
     }
     keys.angle = 0.25 * std::numbers::pi;
     keys.radii[1] = 3;
-    closed_form("paraboloid", keys, 1e-3, 0.16, 48, 6e-3, 1e-2, 0);
-    closed_form("sphere", keys, 1e-3, 0.1, 48, 6e-3, 1e-2, 0.8);
-    closed_form("cone", keys, 5e-3, 0.1, 48, 1e-2, 1.5e-2, 0.8);
-    closed_form("punch", keys, 1e-3, 0.12, 48, 1.5e-2, 2e-2, 0.5);
+    closed_form("paraboloid", keys, 1e-3, 0.16, 24, 1e-3, 1.5e-2, 0.5);
+    closed_form("sphere", keys, 1e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
+    closed_form("cone", keys, 5e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
+    closed_form("punch", keys, 1e-3, 0.12, 24, 1e-2, 2e-2, 0.5);
 
     // A cylinder along y, ending at the border: away from the ends the peak pressure and the half-width b of line contact, p0 = E* b/(2 R).
     keys.angle = 0;
