@@ -3,7 +3,7 @@
 import numpy as np
 
 from plot_results import _in_order, differing_keys, key_label, value_text
-from plot_style import Page, STYLES, colour_bar, label
+from plot_style import Page, STYLES, colour_bar, label, short
 
 QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_sigma": r"separation $Z_0/\sigma$", "separation": "separation $Z_0$", "contact_area": "true contact area $A$",
               "contacts": "number of contacts"}
@@ -65,7 +65,7 @@ def study(results, options):
         middle = np.nanmean([np.nanmin(table), np.nanmax(table)])
         for (i, j), value in np.ndenumerate(table):
             if np.isfinite(value) and table.size <= 36:
-                axis.text(j, i, f"{value / bar.size:.3g}", ha="center", va="center", color="k" if value > middle else "w", fontsize=7)
+                axis.text(j, i, short(value / bar.size), ha="center", va="center", color="k" if value > middle else "w", fontsize=7)
         for key, shown, place, set_label in ((keys[0], ends[0], axis.set_yticks, axis.set_ylabel), (keys[1], ends[1], axis.set_xticks, axis.set_xlabel)):
             symbol, unit = key_label(key, results[0])
             place(range(len(shown)), [value_text(t) for t in shown])

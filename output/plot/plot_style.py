@@ -74,7 +74,12 @@ def fitting(dimension, values):
 def amount(value, dimension, digits=3):
     """'4.53 N': a number with the unit that fits."""
     size, text = fitting(dimension, np.array([value]))
-    return f"{value / size:.{digits}g} {text}".strip()
+    return f"{short(value / size, digits)} {text}".strip()
+
+
+def short(value, digits=3):
+    """A number of so many digits, without a power of ten up to a million: 49600, not 4.96e+04."""
+    return f"{float(f'{value:.{digits}g}'):.6g}"
 
 
 class _LogTicks(LogFormatterSciNotation):
@@ -93,11 +98,13 @@ class _LogTicks(LogFormatterSciNotation):
         return f"$10^{{{power}}}$" if abs(lead - 1) < 1e-6 else f"${lead:.3g}\\times10^{{{power}}}$"
 
 
-def label(axis, which, text, dimension="", values=None):
-    """Writes the label of an axis ('x' or 'y') and its numbers in the unit that fits what the axis shows, or the values given."""
+def label(axis, which, text, dimension=""):
+    """Writes the label of an axis ('x' or 'y') and its numbers in the unit that fits what the axis shows."""
     side = getattr(axis, which + "axis")
     lo, hi = sorted(getattr(axis, f"get_{which}lim")())
-    size, unit = fitting(dimension, np.array([lo, hi]) if values is None else np.ravel(values))
+    drawn = getattr(axis.dataLim, "interval" + which)  # the axis goes a little beyond it
+    within = np.array([max(lo, drawn.min()), min(hi, drawn.max())]) if np.isfinite(drawn).all() else np.array([lo, hi])
+    size, unit = fitting(dimension, within)
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
         for setter in (side.set_major_formatter, side.set_minor_formatter):
@@ -174,6 +181,7 @@ class Page:
         for axis in self.axes:
             for handle, text in zip(*axis.get_legend_handles_labels()):
                 self.entries.setdefault(text, handle)
+        self.entries = dict(sorted(self.entries.items(), key=lambda entry: entry[0].startswith("level ")))
         columns = max(1, min(len(self.entries), int(self.width // (9 + 1.35 * max(map(len, self.entries), default=0)))))
         strip = 4.0 * -(-len(self.entries) // columns) + 2 if self.entries else 0.1
         chars = int(self.width / 1.65)
