@@ -17,6 +17,9 @@ rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* lengt
 rsc_key_count(int64_t* count)
 rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length)
 rsc_case_run(const rsc_case* a_case, int64_t* failed_levels)
+rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels)
+rsc_lock()
+rsc_unlock()
 rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization)
 rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0, int32_t periodic, const double* heights)
 rsc_surface_copy(rsc_surface** surface, const rsc_surface* original)
@@ -39,6 +42,8 @@ rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperi
 rsc_contact_copy(rsc_contact** contact, const rsc_contact* original)
 rsc_contact_destroy(rsc_contact** contact)
 rsc_contact_move_tip(rsc_contact* contact, double x0, double y0)
+rsc_contact_commit(rsc_contact* contact)
+rsc_contact_rollback(rsc_contact* contact)
 rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0)
 rsc_contact_first_touch(const rsc_contact* contact, double* separation)
 rsc_contact_indent(rsc_contact* contact, double separation, double* force)
@@ -54,14 +59,17 @@ rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, d
 rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection)
 rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status, int32_t threads)
 rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status, int32_t threads)
+rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const double* y0, int32_t by_force, const double* value, double* separation, double* force, double* stiffness, double* lateral_x, double* lateral_y, double* moment_x, double* moment_y, int32_t* level_status, int32_t* status, int32_t threads)
 rsc_contact_save(rsc_contact* contact, const char* path)
 rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path)
+rsc_stiffness_ratio(const double* E, const double* nu, double* ratio)
 rsc_tangential_ratio(const double* E, const double* nu, double* ratio)
 rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio)
 rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case)
 rsc_friction_copy(rsc_friction** friction, const rsc_friction* original)
 rsc_friction_destroy(rsc_friction** friction)
 rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x, double* force_y, double* lost)
+rsc_friction_move_tip(rsc_friction* friction, double x0, double y0)
 rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy)
 rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x, double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation)
 rsc_friction_commit(rsc_friction* friction)
@@ -80,6 +88,7 @@ NO_MEMORY = 2
 FILE = 3
 NO_RESULT = 4
 INTERNAL = 5
+STOPPED = 6
 LEVEL_CONVERGED = 0
 LEVEL_OUT_OF_VALIDITY = 1
 LEVEL_OVERLAPPING = 2
@@ -105,6 +114,9 @@ BRIEF = {
     "rsc_key_count": 'How many keys there are.',
     "rsc_key_name": 'The name of a key, "group%key", for going through all of them.',
     "rsc_case_run": 'Runs the case as the program does, and writes its result file (output%file, relative to the working directory).',
+    "rsc_case_run_watched": 'rsc_case_run with someone who watches, and who may stop it.',
+    "rsc_lock": 'Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for a program that calls these libraries from another thread than the one that is in rsc at the time.',
+    "rsc_unlock": 'Gives the lock back.',
     "rsc_surface_synthesize": 'The surface that &surface names, as the program has it.',
     "rsc_surface_take": 'A surface of given heights, copied.',
     "rsc_surface_copy": 'A copy that is independent of the original.',
@@ -124,9 +136,11 @@ BRIEF = {
     "rsc_asperities_curvatures": 'Reads the curvatures back.',
     "rsc_contact_create": 'A rigid smooth sphere over an elastic half-space that carries the asperities: the equivalent problem of two bodies, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, 1/R = 1/R1 + 1/R2.',
     "rsc_contact_create_from_case": 'The same with E* and R from the keys of &solids, and the tip at indentation%centre, by default above the middle of the surface (for asperities that were given: of the smallest rectangle that holds them, or of [0, surface%L]^2 if that holds them).',
-    "rsc_contact_copy": 'Another contact with the same asperities, sphere, tip and options, without a result: one for another thread.',
+    "rsc_contact_copy": 'A copy that is independent of the original, with its last level, what stays of its path (solids%hardness) and its committed state.',
     "rsc_contact_destroy": 'Releases a contact and nulls the handle.',
     "rsc_contact_move_tip": 'Moves the tip sideways.',
+    "rsc_contact_commit": 'Keeps the state as the one that rsc_contact_rollback goes back to: the tip, the last level, and what the path has left where asperities or elements yield (solids%hardness).',
+    "rsc_contact_rollback": 'Goes back to the state of the last commit.',
     "rsc_contact_tip": 'Where the tip is.',
     "rsc_contact_first_touch": 'The separation at which the sphere, coming down, touches its first asperity.',
     "rsc_contact_indent": 'Computes the contact at a separation.',
@@ -142,14 +156,17 @@ BRIEF = {
     "rsc_contact_deflection": 'The lowering of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq.',
     "rsc_contacts_press": 'rsc_contact_press for many contacts, shared out among threads.',
     "rsc_contacts_indent": 'rsc_contact_indent for many contacts.',
-    "rsc_contact_save": 'Keeps a contact in a file: tip, options and the last level; not the asperities.',
+    "rsc_contacts_step": 'A step of many contacts: moves their tips, brings each to a separation or under a force, and gives the answers that codes need which move bodies.',
+    "rsc_contact_save": 'Saves a contact in a file: tip, options, the last level, what the path has left (solids%hardness) and the committed state; not the asperities, or the surface of elements.',
     "rsc_contact_restore": 'The contact of such a file.',
-    "rsc_tangential_ratio": 'm = 4 G star / E star, 1/G star = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the tangential over the normal stiffness of any contact of two bodies; 2 (1 - nu)/(2 - nu) for like ones.',
+    "rsc_stiffness_ratio": 'm = 4 G star / E star, 1/G star = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the tangential over the normal stiffness of any contact of two bodies; 2 (1 - nu)/(2 - nu) for like ones.',
+    "rsc_tangential_ratio": 'The former name of rsc_stiffness_ratio.',
     "rsc_friction_create": 'Friction for the asperities, sphere, tip and options of a contact.',
     "rsc_friction_create_from_case": 'The same with mu = solids%friction and the ratio from solids%E and solids%nu.',
     "rsc_friction_copy": 'A copy that is independent of the original, with its path.',
     "rsc_friction_destroy": 'Releases friction and nulls the handle.',
     "rsc_friction_update": 'Leads the contact on a straight path to (separation, x, y) and tells the forces there: one level at the new separation, one more where something slips.',
+    "rsc_friction_move_tip": 'Moves the tip, for a sphere that rolls onto other asperities, at the separation of the last update.',
     "rsc_friction_stiffness": 'dQ/d(x, y) of a further slide at this separation in the direction of what slips now (S m in all directions where nothing slips, and for a slide back, S being -dN/dZ0).',
     "rsc_friction_state": 'Where the path has led.',
     "rsc_friction_commit": 'Keeps the state as the one that rsc_friction_rollback goes back to.',

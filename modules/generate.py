@@ -29,7 +29,8 @@ NAMES_77 = {
     "rsccon": "contact_create", "rsccnc": "contact_create_from_case", "rsctip": "contact_move_tip", "rsctch": "contact_first_touch",
     "rscind": "contact_indent", "rscprs": "contact_press", "rscres": "contact_result", "rsclev": "contact_level",
     "rscstf": "contact_stiffness", "rscnrg": "contact_energy", "rscdfl": "contact_deflection",
-    "rscfri": "friction_create_from_case", "rscupd": "friction_update", "rsccmt": "friction_commit", "rscrbk": "friction_rollback",
+    "rsccom": "contact_commit", "rscrol": "contact_rollback", "rscsav": "contact_save", "rscrst": "contact_restore",
+    "rscfsv": "friction_save", "rscfrs": "friction_restore", "rscftp": "friction_move_tip", "rscfri": "friction_create_from_case", "rscupd": "friction_update", "rsccmt": "friction_commit", "rscrbk": "friction_rollback",
 }
 # Whole arrays of objects are assigned by procedures of these names, which are not quite regular.
 PLURALS = {"case": "cases", "surface": "surfaces", "asperities": "asperities", "contact": "contacts", "friction": "frictions"}
@@ -82,6 +83,8 @@ class Function:
             named |= {"kappa1", "kappa2", "angle"}  # all three or none
         if self.short in ("contacts_press", "contacts_indent"):
             named |= {"separation" if self.short == "contacts_press" else "force", "status"}
+        if self.short == "contacts_step":
+            named |= outputs | {"x0", "y0"}
         has_n = any(re.fullmatch(r"\s*int64_t n", w) for w in words)
         self.arguments = [Argument(name, w, named, has_n, w is words[0]) for w in words]
         first = self.arguments[0] if self.arguments else None
@@ -155,7 +158,11 @@ def interface(functions, constants):
     for name, value in constants:
         lines.append(f"  integer, parameter, public :: {name.lower()} = {value}" if "KIND" not in name else f"  integer(c_int32_t), parameter :: {name.lower()} = {value}")
     lines += ["", "  ! Outputs are intent(inout): they keep their value when the function fails.", "  interface"]
+    with open(os.path.join(HERE, "rsc.f90"), encoding="utf-8") as file:
+        own = set(re.findall(r"^ *function (rsc_\w+)\(", file.read(), flags=re.M))  # procedures of rsc.f90 with the name of a C function
     for f in functions:
+        if f.name in own:
+            continue
         body = declarations([interface_type(a) for a in f.arguments])
         lines += [wrapped(f"function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c) result(code)", 4),
                   "      import :: " + ", ".join(k for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr") if k == "c_int32_t" or re.search(rf"\b{k}\b", "\n".join(body))),

@@ -9,11 +9,11 @@
 !>     print *, N, contact%area(), contact%stiffness()
 !>
 !> Objects release what they hold when they go out of scope; creating one again releases what it held before, and assignment copies
-!> (a copied contact has the same asperities, sphere and options, and no result yet: one for another thread). Different
+!> (a copied contact has its result and its path, too: one for another thread). Different
 !> objects may be used by different threads at the same time.
 !>
 !> In types of your own, and in parallel regions. An object knows its place; what a compiler copied bit by bit shows the original as long
-!> as that exists, gets its own (a copied contact without result) when it is changed, releases nothing that is not its own, and says so
+!> as that exists, gets its own when it is changed, releases nothing that is not its own, and says so
 !> in errmsg when the original is gone. So these work: q = p and q = particle(1, x, contact) for types that hold objects, allocate with
 !> source=, functions that return such types, lists that grow element by element (longer(i) = list(i), then move_alloc), firstprivate
 !> and private. gfortran 12 leaves no way for whole arrays of such types: after list = [list, p] the elements may hold nothing (told in
@@ -27,12 +27,12 @@
 !> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
 !> stat = rsc_not_converged. Asperities count from 1.
 module rsc
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_null_ptr, c_associated, c_char, c_null_char, c_double, c_float, &
-    c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_null_ptr, c_associated, c_char, c_null_char, c_double, &
+    c_float, c_int32_t, c_int64_t
   implicit none
   private
   public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version
-  public :: rsc_stiffness_ratio, rsc_press_all, rsc_indent_all
+  public :: rsc_stiffness_ratio, rsc_press_all, rsc_indent_all, rsc_step_all, rsc_watch, rsc_lock, rsc_unlock, rsc_keys
 
   include 'generated/interface.inc'
 
@@ -49,6 +49,7 @@ module rsc
     procedure :: read_file => case_read_file
     procedure :: text => case_text
     procedure :: run => case_run
+    procedure :: run_watched => case_run_watched
     generic :: assignment(=) => copy
     procedure, private :: set_text => case_set_text
     procedure, private :: set_real => case_set_real
@@ -105,6 +106,8 @@ module rsc
     procedure :: create => contact_create
     procedure :: create_from_case => contact_create_from_case
     procedure :: move_tip => contact_move_tip
+    procedure :: commit => contact_commit
+    procedure :: rollback => contact_rollback
     procedure :: tip => contact_tip
     procedure :: first_touch => contact_first_touch
     procedure :: indent => contact_indent
@@ -136,6 +139,7 @@ module rsc
     procedure :: create => friction_create
     procedure :: create_from_case => friction_create_from_case
     procedure :: update => friction_update
+    procedure :: move_tip => friction_move_tip
     procedure :: stiffness => friction_stiffness
     procedure :: state => friction_state
     procedure :: commit => friction_commit
@@ -150,6 +154,16 @@ module rsc
     procedure, private :: copy => friction_copy
     final :: friction_final
   end type
+
+  abstract interface
+    !> Asked by run_watched whether to go on (0) or to stop: levels or realizations done of how many; data: what run_watched was given.
+    function rsc_watch(done, total, data) bind(c) result(stop)
+      import :: c_double, c_int32_t, c_ptr
+      real(c_double), value :: done, total
+      type(c_ptr), value :: data
+      integer(c_int32_t) :: stop
+    end function
+  end interface
 
   !> Whole arrays of objects; a single one is assigned by its type.
   interface assignment(=)
@@ -252,6 +266,20 @@ contains
     if (rsc_version(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) text = joined(buffer, length)
   end function
 
+  !> The names of all keys, 'group%key', with blanks at their ends; what get, set and ./rsc --describe know.
+  function rsc_keys() result(names)
+    character(:), allocatable :: names(:)
+    character(kind=c_char) :: buffer(64)
+    integer(c_int64_t) :: n, k, length
+    n = 0
+    if (rsc_key_count(n) /= rsc_success) n = 0
+    allocate (character(64) :: names(n))
+    do k = 1, n
+      names(k) = ''
+      if (rsc_key_name(k - 1, buffer, size(buffer, kind=c_int64_t), length) == rsc_success) names(k) = joined(buffer, length)
+    end do
+  end function
+
   function joined(buffer, length) result(text)
     character(kind=c_char), intent(in) :: buffer(:)
     integer(c_int64_t), intent(in) :: length
@@ -312,6 +340,24 @@ contains
     call case_ready(self, handle, status)
     if (status == rsc_success) status = rsc_case_set(handle, terminated(trim(name)), terminated(value))
     call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Runs the case and asks `watch` about ten times a second whether to go on; stat is rsc_stopped where it said no. data: for watch.
+  subroutine case_run_watched(self, watch, data, failed_levels, stat, errmsg)
+    class(rsc_case), intent(in) :: self
+    procedure(rsc_watch) :: watch
+    type(c_ptr), intent(in), optional :: data
+    integer(c_int64_t), intent(inout), optional :: failed_levels
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+    type(c_ptr) :: handle, defaults, given
+    given = c_null_ptr
+    if (present(data)) given = data
+    call case_as_is(self, handle, defaults, status)
+    if (status == rsc_success) status = rsc_case_run_watched(handle, c_funloc(watch), given, failed_levels)
+    call finish(status, stat, errmsg)
+    status = rsc_case_destroy(defaults)
   end subroutine
 
   !> A number in namelist syntax, every bit of it.
@@ -728,6 +774,43 @@ contains
     handles = handles_of(contacts)
     call finish(rsc_contacts_indent(size(contacts, kind=c_int64_t), handles, separation, force, each, team_of(threads)), stat, &
                 errmsg)
+  end subroutine
+
+  !> A step of many contacts: tips moved to (x0, y0), then each brought under a force (by_force) or to a separation; what is wanted of the answer.
+  subroutine rsc_step_all(contacts, by_force, value, x0, y0, separation, force, stiffness, lateral_x, lateral_y, moment_x, &
+                          moment_y, level_status, threads, each, stat, errmsg)
+    type(rsc_contact), intent(inout) :: contacts(:)
+    logical, intent(in) :: by_force
+    real(c_double), intent(in) :: value(:)
+    real(c_double), intent(in), contiguous, optional :: x0(:), y0(:)
+    real(c_double), intent(inout), contiguous, optional :: separation(:), force(:), stiffness(:), lateral_x(:), lateral_y(:)
+    real(c_double), intent(inout), contiguous, optional :: moment_x(:), moment_y(:)
+    integer(c_int32_t), intent(inout), contiguous, optional :: level_status(:), each(:)
+    integer, intent(in), optional :: threads
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handles(size(contacts))
+    logical :: same
+    same = size(value) == size(contacts)
+    if (present(x0)) same = same .and. size(x0) == size(contacts)
+    if (present(y0)) same = same .and. size(y0) == size(contacts)
+    if (present(separation)) same = same .and. size(separation) == size(contacts)
+    if (present(force)) same = same .and. size(force) == size(contacts)
+    if (present(stiffness)) same = same .and. size(stiffness) == size(contacts)
+    if (present(lateral_x)) same = same .and. size(lateral_x) == size(contacts)
+    if (present(lateral_y)) same = same .and. size(lateral_y) == size(contacts)
+    if (present(moment_x)) same = same .and. size(moment_x) == size(contacts)
+    if (present(moment_y)) same = same .and. size(moment_y) == size(contacts)
+    if (present(level_status)) same = same .and. size(level_status) == size(contacts)
+    if (present(each)) same = same .and. size(each) == size(contacts)
+    if (.not. same) then
+      call refuse('rsc_step_all: the arrays are not of one size', stat, errmsg)
+      return
+    end if
+    handles = handles_of(contacts)
+    call finish(rsc_contacts_step(size(contacts, kind=c_int64_t), handles, x0, y0, merge(1_c_int32_t, 0_c_int32_t, by_force), &
+                                  value, separation, force, stiffness, lateral_x, lateral_y, moment_x, moment_y, level_status, &
+                                  each, team_of(threads)), stat, errmsg)
   end subroutine
 
   logical function of_one_size(name, contacts, given, answer, each, stat, errmsg)

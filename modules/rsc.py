@@ -33,15 +33,16 @@ import operator
 import os
 import re
 import threading
+import zlib
 
 import numpy as np
 
 import _rsc_h
 from _rsc_h import (FILE, INTERNAL, LEVEL_CONVERGED, LEVEL_NOT_CONVERGED, LEVEL_NOT_UNIQUE, LEVEL_OUT_OF_VALIDITY, LEVEL_OVERLAPPING, LEVELS, NO_MEMORY, NO_RESULT,  # noqa: F401
-                    NOT_CONVERGED, SUCCESS)
+                    NOT_CONVERGED, STOPPED, SUCCESS)
 
 __all__ = ["Case", "Surface", "Asperities", "Contact", "Friction", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
-           "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "press_all", "indent_all", "version", "keys"]
+           "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "press_all", "indent_all", "step_all", "lock", "version", "keys"]
 
 # ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
 # What each function of rsc.h takes, as it declares it (all return int32_t). From it follow the ctypes, the checks of the arguments by
@@ -126,6 +127,7 @@ def _load():
 
 
 _library, _library_path = _load()
+_Watch = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_double, ctypes.c_void_p)
 
 
 # ---- one call ------------------------------------------------------------------------------------------------------------------
@@ -235,6 +237,8 @@ def _array(name, value, shape=None, dtype=np.float64):
 def _convert(argument, value):
     """A Python value as ctypes takes it, and what has to live until the call is over."""
     name, kind = argument.name, argument.type
+    if argument.stars == 0 and kind.startswith("rsc_"):  # a function that is called back
+        return ctypes.cast(value, ctypes.c_void_p), value
     if argument.stars == 0:
         if kind == "double":
             if isinstance(value, (str, bytes)):
@@ -261,6 +265,8 @@ def _convert(argument, value):
         text = ctypes.create_string_buffer(value.encode("utf-8", "surrogateescape"))
         return ctypes.addressof(text), text
     if isinstance(value, np.ndarray):
+        if np.ma.is_masked(value):
+            _refuse(name, "some of its values are masked: fill them, or leave them out")
         wanted = np.float64 if kind == "double" else _INTEGERS[kind][1]
         if value.dtype != wanted:
             _refuse(name, f"an array of {np.dtype(wanted).name} is expected, not of {value.dtype}")
@@ -472,21 +478,44 @@ class Case(_Object):
 
     __hash__ = None
 
-    def run(self, file=None):
+    def run(self, file=None, progress=None):
         """Runs the case as the program does, writes its result file and returns the path of it; read(path) reads it. Prints nothing.
-        file: path of the result file; by default that of the key output%file. Paths are relative to the working directory.
+        file: path of the result file; by default that of the key output%file. Paths are relative to the working directory. progress: called
+        as progress(done, total) by this thread some twenty times a second: levels, or realizations where there are several. What it raises
+        stops the run and is raised here, as Ctrl-C does; then no result is written.
         Raises ArgumentError for a case that is refused, NotConverged if some levels did not converge (the file is written; the number is
         error.failed_levels), Error for a file that cannot be written or memory that is refused."""
         case = self
         if file is not None:
             case = self.copy()
             case["output%file"] = os.fspath(file)
-        failed = ctypes.c_int64()
+        # Python answers to Ctrl-C in its main thread only, and not while that is in the library: another one runs the case.
+        failed, stop, seen, raised = ctypes.c_int64(), threading.Event(), [], []
+
+        def watch(done, total, _):
+            seen[:] = [done, total]
+            return stop.is_set()
+
+        def work():
+            try:
+                _call("rsc_case_run_watched", case, _Watch(watch), None, failed)
+            except BaseException as error:
+                raised.append(error)
+
+        thread = threading.Thread(target=work)
+        thread.start()
         try:
-            _call("rsc_case_run", case, failed)
-        except NotConverged as error:
-            error.failed_levels = failed.value
-            raise
+            while thread.is_alive():
+                thread.join(0.05)
+                if progress is not None and seen:
+                    progress(*seen)
+        finally:
+            stop.set()
+            thread.join()
+        for error in raised:
+            if isinstance(error, NotConverged):
+                error.failed_levels = failed.value
+            raise error
         return case["output%file"]
 
 
@@ -618,8 +647,8 @@ class Contact(_Object):
         return self
 
     def copy(self):
-        """Another contact with the same asperities, sphere, tip and options, without a result: one for another thread. Raises Error (no memory),
-        ValueError (closed)."""
+        """A contact that is independent of this one, with its last level, its path and its committed state. Raises Error (no memory), ValueError
+        (closed)."""
         other = super().copy()
         other._asperities = self._asperities
         return other
@@ -714,6 +743,14 @@ class Contact(_Object):
         place = _array("tip", place, (2,))
         _call("rsc_contact_move_tip", self, float(place[0]), float(place[1]))
 
+    def commit(self):
+        """Keeps tip, last level and what the path has left (solids%hardness) for rollback(). Raises Error (no memory)."""
+        _call("rsc_contact_commit", self)
+
+    def rollback(self):
+        """Goes back to the state of the last commit(), or to that of a new contact. Raises Error."""
+        _call("rsc_contact_rollback", self)
+
     def first_touch(self):
         """The separation at which the sphere, coming down, touches its first asperity [length]. Raises ArgumentError if none lies under it."""
         return _number("rsc_contact_first_touch", self)
@@ -733,8 +770,8 @@ class Contact(_Object):
         return spots
 
     def save(self, path):
-        """Keeps tip, options and last level in a file, from which restore() goes on bit for bit as this contact does. path: of the file. Raises
-        Error (file)."""
+        """Saves tip, options, last level, path and committed state in a file, from which restore() goes on as this contact does. path: of the
+        file; one that is there is replaced only if it is a save. Raises Error (file)."""
         _call("rsc_contact_save", self, os.fspath(path))
 
     @classmethod
@@ -786,6 +823,11 @@ class Friction(_Object):
     def state(self):
         """Where the path has led, FrictionState. Raises Error (no result) before the first update."""
         return _numbers("rsc_friction_state", self, FrictionState)
+
+    def move_tip(self, x0, y0):
+        """Moves the tip, for a sphere that rolls onto other asperities, at the separation of the last update: those that carry at both places keep
+        their share of the tangential force, the rest is lost (rsc.h). x0, y0: the new place [length]. Raises ArgumentError, NotConverged, Error."""
+        _call("rsc_friction_move_tip", self, x0, y0)
 
     def stiffness(self):
         """dQ/d(x, y) of a further slide the way that slips now, an array of shape (2, 2) [force/length]. Raises NotConverged, Error."""
@@ -841,7 +883,7 @@ class Friction(_Object):
 def stiffness_ratio(E, nu):
     """m = 4 G*/E* of two bodies, the tangential over the normal stiffness of any of their contacts. E: two Young's moduli, inf: rigid
     [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError naming what is wrong."""
-    return _number("rsc_tangential_ratio", _array("E", E, (2,)), _array("nu", nu, (2,)))
+    return _number("rsc_stiffness_ratio", _array("E", E, (2,)), _array("nu", nu, (2,)))
 
 
 def _given(name, value):
@@ -859,8 +901,9 @@ def read(path, xarray=None):
     path = os.fspath(path)
     import netCDF4
 
+    _check_sound(path)
     try:
-        with netCDF4.Dataset(path) as file:
+        with lock(), netCDF4.Dataset(path) as file:
             variables = {name: _filled(variable[...]) for name, variable in file.variables.items()}
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
             if xarray is not False:
@@ -883,11 +926,45 @@ def read(path, xarray=None):
     return variables
 
 
+def _check_sound(path):
+    """The last line of a result is a checksum of all before it: looked at before HDF5 gets the file, which crashes on some damaged ones."""
+    start = b"\nrsc: CRC-32 of all before this line: "
+    try:
+        with open(path, "rb") as file:
+            left = file.seek(0, os.SEEK_END) - len(start) - 9
+            line = b""
+            if left > 0:
+                file.seek(left)
+                line = file.read()
+            if not line.startswith(start):
+                return
+            file.seek(0)
+            crc = 0
+            while left > 0:
+                part = file.read(min(left, 1 << 20))
+                crc, left = zlib.crc32(part, crc), left - len(part)
+    except OSError:
+        return  # told where it is read
+    if line != start + b"%08x\n" % crc:
+        raise Error(f"{path}: is damaged, or was changed since rsc wrote it: its checksum does not hold", FILE)
+
+
 def _filled(values):
     """Absent reals as NaN; absent whole numbers keep the file's fill value."""
     if np.ma.isMaskedArray(values) and values.dtype.kind == "f":
         return np.ma.filled(values, np.nan)
     return np.ma.getdata(values)
+
+
+@contextlib.contextmanager
+def lock():
+    """with rsc.lock(): keeps rsc out of NetCDF and HDF5, and out of FFTW's planner, while this thread uses them (netCDF4, h5py): they are not made
+    for several threads. read() takes it itself."""
+    _call("rsc_lock")
+    try:
+        yield
+    finally:
+        _call("rsc_unlock")
 
 
 def press_all(contacts, forces, threads=0):
@@ -902,6 +979,31 @@ def indent_all(contacts, separations, threads=0):
     """Contact.indent for many contacts, as press_all. contacts: different Contacts; separations: Z0 of each, shape (n,) [length];
     threads: how many, 0 for all. Returns (forces, statuses): N of each [force]. Raises ArgumentError as press_all does."""
     return _all("rsc_contacts_indent", contacts, "separations", separations, threads)
+
+
+def step_all(contacts, forces=None, separations=None, tips=None, stiffness=False, threads=0):
+    """A step of many contacts: each tip moved to tips, then pressed with forces or indented to separations, one of the two. contacts: different
+    Contacts; forces, separations: shape (n,); tips: shape (n, 2), None to leave them [length]; stiffness: whether it is wanted; threads: how many,
+    0 for all. Returns a dictionary of arrays of shape (n,): separation, force, stiffness if wanted, lateral_x, lateral_y, moment_x, moment_y,
+    NaN where there is no answer, level_status, and status, as press_all's. Raises ArgumentError."""
+    contacts = list(contacts)
+    if (forces is None) == (separations is None):
+        _refuse("forces, separations", "one of the two is expected")
+    if len({id(contact) for contact in contacts}) < len(contacts):
+        _refuse("contacts", "different contacts are expected: one is given twice")
+    n = len(contacts)
+    values = _array("separations" if forces is None else "forces", separations if forces is None else forces, (n,))
+    x, y = (None, None) if tips is None else np.ascontiguousarray(_array("tips", tips, (n, 2)).T)
+    names = ["separation", "force"] + ["stiffness"] * stiffness + ["lateral_x", "lateral_y", "moment_x", "moment_y"]
+    answers = {name: np.full(n, np.nan) for name in names}
+    answers.update(level_status=np.zeros(n, np.int32), status=np.zeros(n, np.int32))
+    order = ["separation", "force", "stiffness", "lateral_x", "lateral_y", "moment_x", "moment_y", "level_status", "status"]
+    try:
+        _call("rsc_contacts_step", n, contacts, x, y, int(forces is not None), values, *[answers.get(name) for name in order], threads)
+    except Error:
+        if not answers["status"].any():  # not of one contact
+            raise
+    return answers
 
 
 def _all(function, contacts, name, values, threads):

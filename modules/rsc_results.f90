@@ -11,6 +11,12 @@
 !>       print *, r%asperity_x(r%contact_asperity(first:last)), r%contact_force(first:last)
 !>     end associate
 !>
+!> Every other variable of the file by its name, as a list of numbers, the first index of the Fortran array running fastest:
+!>
+!>     call r%names(list)                                 ! character(:), allocatable :: list(:)
+!>     call r%get('friction_force', values, shape)        ! real(real64), allocatable :: values(:); integer, allocatable :: shape(:)
+!>     field = reshape(values, [shape(1), shape(2), shape(3)])
+!>
 !> What a file does not hold (contacts of a campaign, heights not asked for) is an array of size zero here. A value that is absent
 !> (the deviation over a single realization) is rsc_absent; ask rsc_is_absent(value).
 module rsc_results
@@ -25,6 +31,7 @@ module rsc_results
 
   !> One result file; names, units and meanings are those of its variables. R realizations, S levels.
   type :: rsc_result
+    character(:), allocatable :: file  !< its name
     character(:), allocatable :: title, source, history, references, case
     integer(int64) :: seed = 0
 
@@ -65,6 +72,8 @@ module rsc_results
   contains
     procedure :: realizations => number_of_realizations
     procedure :: steps => number_of_steps
+    procedure :: names => names_of_variables
+    procedure :: get => get_by_name
   end type rsc_result
 
   !> Reads one variable whole, whatever its shape; of size zero if the file does not have it.
@@ -89,10 +98,10 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(reader) :: r
-    character(:), allocatable :: message
 
     r%what = ''
-    r%status = nf90_open(file, nf90_nowrite, r%id)
+    call check_sound(r, trim(file))
+    if (r%status == nf90_noerr) r%status = nf90_open(file, nf90_nowrite, r%id)
     if (r%status == nf90_noerr) then
       call check_kind(r)
       call get_attributes(r, result)
@@ -103,6 +112,17 @@ contains
       call close_file(r)
     end if
 
+    result%file = trim(file)
+    call tell(r, file, stat, errmsg)
+  end subroutine rsc_read_result
+
+  !> What went wrong, if anything did.
+  subroutine tell(r, file, stat, errmsg)
+    type(reader), intent(in) :: r
+    character(*), intent(in) :: file
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: message
     if (present(stat)) stat = r%status
     if (r%status == nf90_noerr) return
     message = "cannot read the result file '" // trim(file) // "'"
@@ -113,7 +133,76 @@ contains
       write (error_unit, '(a)') message
       error stop 1
     end if
-  end subroutine rsc_read_result
+  end subroutine tell
+
+  !> The names of all variables of the file, with blanks at their ends.
+  subroutine names_of_variables(self, list, stat, errmsg)
+    class(rsc_result), intent(in) :: self
+    character(:), allocatable, intent(out) :: list(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(reader) :: r
+    character(nf90_max_name) :: name
+    integer :: n, k
+    call open_again(r, self)
+    n = 0
+    if (r%status == nf90_noerr) r%status = nf90_inquire(r%id, nvariables=n)
+    allocate (character(nf90_max_name) :: list(n))
+    do k = 1, n
+      if (r%status == nf90_noerr) r%status = nf90_inquire_variable(r%id, k, name=name)
+      list(k) = name
+    end do
+    if (r%id >= 0) call close_file(r)
+    call tell(r, self%file, stat, errmsg)
+  end subroutine names_of_variables
+
+  !> The numbers of any variable, in the order of Fortran's arrays of that shape; a scalar has the shape [1]. Of texts the bytes.
+  subroutine get_by_name(self, name, values, shape, stat, errmsg)
+    class(rsc_result), intent(in) :: self
+    character(*), intent(in) :: name
+    real(real64), allocatable, intent(out) :: values(:)
+    integer, allocatable, intent(out), optional :: shape(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(reader) :: r
+    character, allocatable :: text(:)
+    integer :: varid, kind, ndims, dims(nf90_max_var_dims), d
+    integer, allocatable :: lengths(:)
+    call open_again(r, self)
+    ndims = 0
+    if (r%status == nf90_noerr) r%status = nf90_inq_varid(r%id, name, varid)
+    if (r%status == nf90_noerr) r%status = nf90_inquire_variable(r%id, varid, xtype=kind, ndims=ndims, dimids=dims)
+    allocate (lengths(max(ndims, 1)), source=1)
+    do d = 1, ndims
+      if (r%status == nf90_noerr) r%status = nf90_inquire_dimension(r%id, dims(d), len=lengths(d))
+    end do
+    if (r%status /= nf90_noerr) lengths = 0
+    allocate (values(product(lengths)), text(0))
+    if (r%status == nf90_noerr) then
+      if (kind == nf90_char) then
+        deallocate (text)
+        allocate (text(size(values)))
+        r%status = nf90_get_var(r%id, varid, text, count=lengths)
+        values = real(ichar(text), real64)
+      else if (ndims == 0) then
+        r%status = nf90_get_var(r%id, varid, values(1))
+      else
+        r%status = nf90_get_var(r%id, varid, values, count=lengths)
+      end if
+    end if
+    call note(r, name)
+    if (r%id >= 0) call close_file(r)
+    if (present(shape)) shape = lengths
+    call tell(r, self%file, stat, errmsg)
+  end subroutine get_by_name
+
+  subroutine open_again(r, result)
+    type(reader), intent(out) :: r
+    class(rsc_result), intent(in) :: result
+    r%what = ''
+    r%status = nf90_enotnc
+    if (allocated(result%file)) r%status = nf90_open(result%file, nf90_nowrite, r%id)
+  end subroutine open_again
 
   !> Is it the fill value? No result comes near it.
   elemental logical function rsc_is_absent(value)
@@ -132,6 +221,55 @@ contains
     n = 0
     if (allocated(self%force)) n = size(self%force, 1)
   end function number_of_steps
+
+  !> The last line of a result is a checksum (CRC-32) of all bytes before it. Looked at before HDF5 gets the file, which crashes on some
+  !> damaged ones.
+  subroutine check_sound(r, file)
+    type(reader), intent(inout) :: r
+    character(*), intent(in) :: file
+    character(*), parameter :: start = new_line('a') // 'rsc: CRC-32 of all before this line: '
+    integer, parameter :: chunk = 65536
+    character(len(start) + 9) :: line
+    character(chunk) :: bytes
+    integer(int64) :: left
+    integer(int32) :: table(0:255), crc
+    character(8) :: digits
+    integer :: unit, k, j, n, problem
+    open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=problem)
+    if (problem /= 0) return  ! told where NetCDF opens it
+    inquire (unit=unit, size=left)
+    left = left - len(line)
+    if (left > 0) read (unit, pos=left + 1, iostat=problem) line
+    if (left <= 0 .or. problem /= 0 .or. line(:len(start)) /= start) then
+      close (unit)
+      return
+    end if
+    do k = 0, 255
+      crc = k
+      do j = 1, 8
+        crc = merge(ieor(ishft(crc, -1), int(z'EDB88320', int32)), ishft(crc, -1), btest(crc, 0))
+      end do
+      table(k) = crc
+    end do
+    crc = not(0_int32)
+    read (unit, pos=1, iostat=problem)
+    do while (left > 0 .and. problem == 0)
+      n = int(min(left, int(chunk, int64)))
+      read (unit, iostat=problem) bytes(:n)
+      do k = 1, n
+        crc = ieor(ishft(crc, -8), table(iand(ieor(crc, ichar(bytes(k:k))), 255)))
+      end do
+      left = left - n
+    end do
+    close (unit)
+    write (digits, '(z8.8)') not(crc)
+    do k = 1, 8
+      if (digits(k:k) >= 'A') digits(k:k) = achar(iachar(digits(k:k)) + 32)
+    end do
+    if (problem == 0 .and. digits == line(len(start) + 1:len(start) + 8)) return
+    r%status = nf90_enotnc
+    r%what = 'which is damaged, or was changed since rsc wrote it: its checksum does not hold'
+  end subroutine check_sound
 
   !> Another NetCDF file is refused by name rather than read as an empty result.
   subroutine check_kind(r)

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace rsc {
 
@@ -12,6 +13,18 @@ std::string format(const char* text, Args... args) {
     char buffer[600];
     std::snprintf(buffer, sizeof buffer, text, args...);
     return buffer;
+}
+
+// For messages: text of others, cut, with control characters replaced, those of terminals in UTF-8 included.
+inline std::string printable(std::string_view text, std::size_t most = 60) {
+    std::string shown(text.substr(0, most));
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        const auto c = static_cast<unsigned char>(shown[k]);
+        const bool second = k > 0 && static_cast<unsigned char>(text[k - 1]) == 0xc2 && c >= 0x80 && c < 0xa0;
+        if (c < 32 || c == 127 || second) shown[k] = '?';
+        if (second) shown[k - 1] = '?';
+    }
+    return shown;
 }
 
 }  // namespace rsc

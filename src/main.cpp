@@ -1,10 +1,13 @@
 // The program: `rsc < case.nml`. It turns text into a case and runs it; everything else is in run/. Built with RSC_MPI it is
 // rsc_mpi.
+#include <cerrno>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
+#include <system_error>
 
 #include "case/manual.hpp"
 #include "case/options.hpp"
@@ -12,6 +15,8 @@
 #include "case/registry.hpp"
 #include "error.hpp"
 #include "file/output_path.hpp"
+#include "format.hpp"
+#include "rough/omp_team.hpp"
 #include "run/campaign_manifest.hpp"
 #include "run/campaign_merge.hpp"
 #include "run/campaign_study.hpp"
@@ -54,7 +59,7 @@ std::size_t threads_of(const rsc::Case& settings) {
 #ifdef RSC_MPI
     return rsc::threads_of_rank(settings.run.threads);
 #else
-    return rsc::thread_count(settings.run.threads);
+    return rsc::most_threads(settings.run.threads);
 #endif
 }
 
@@ -155,12 +160,17 @@ int run_program(int argc, char** argv, Job& job) {
 // Every failure becomes a message and an exit status here.
 int guarded(const std::function<int()>& program) {
     try {
-        return program();
+        const int status = program();
+        if (std::cout.flush()) return status;
+        std::cerr << "rsc: standard output could not be written: " << std::generic_category().message(errno) << '\n';
+        return 1;
     } catch (const rsc::Interrupted& stop) {
         std::cerr << "rsc: " << stop.what() << '\n';
         return 128 + stop.signal();
     } catch (const rsc::Error& error) {
-        std::cerr << error.what() << '\n';
+        // What comes from files may hold control characters of terminals.
+        std::istringstream lines(error.what());
+        for (std::string line; std::getline(lines, line);) std::cerr << rsc::printable(line, line.size()) << '\n';
         return error.kind() == rsc::Failure::bad_input ? 2 : 1;
     } catch (const std::bad_alloc&) {
         std::cerr << "rsc: the machine refused memory; a smaller surface%n, fewer levels or solver%method='direct' need less\n";

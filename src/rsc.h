@@ -24,7 +24,9 @@
  *     from, and share nothing you could change: a surface or a case may be destroyed while the things made from it are in use.
  * Threads
  *     Different handles may be used by different threads at the same time. One handle may be read by several threads at once: all
- *     functions that take it as pointer to const. Nothing is global, except that the writing of result files takes turns.
+ *     functions that take it as pointer to const. Global is one lock: NetCDF, HDF5 and the planner of FFTW are not made for several threads,
+ *     and rsc lets one of its threads at a time into them. Programs that use these libraries themselves take the same lock, rsc_lock.
+ *     After a fork the child may go on with copies of its handles; it computes with one thread. modules/README has more: "rsc inside your program".
  * Numbers
  *     of arrays, and what describes a grid, a sphere or a material, must be finite and at most 1e50, positive ones at least 1e-50:
  *     beyond that, squares and powers of them would overflow. "Not finite" and "not positive" below include that.
@@ -61,10 +63,11 @@ extern "C" {
     X(RSC_NO_MEMORY, 2, "the machine refused memory")                                                            \
     X(RSC_FILE, 3, "a file could not be read or written")                                                        \
     X(RSC_NO_RESULT, 4, "the contact holds no result: indent or press first")                                    \
-    X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")
+    X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")                                             \
+    X(RSC_STOPPED, 6, "the caller stopped it")
 
 #define RSC_STATUS_ENUMERATOR(name, value, meaning) name = value,
-enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_INTERNAL };
+enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
 #undef RSC_STATUS_ENUMERATOR
 
 /* What is to be said about a level that was computed (rsc_contact_level), the more serious the larger. The values are those of
@@ -87,6 +90,11 @@ typedef struct rsc_contact rsc_contact;       /* a rigid sphere on asperities, a
 typedef struct rsc_friction rsc_friction;     /* a contact with friction, and the path it was led along */
 
 /* ---- version and messages ------------------------------------------------------------------------------------------------- */
+
+/* The version of this header. That of the library at run time is rsc_version's. */
+#define RSC_VERSION_MAJOR 0
+#define RSC_VERSION_MINOR 2
+#define RSC_VERSION_PATCH 0
 
 /* The version of the library, "major.minor.patch".
  * buffer, size, length: text output. Errors: -1 buffer null with size > 0; -2 size < 0. */
@@ -154,6 +162,25 @@ RSC_API int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* l
  * the file being written all the same; RSC_FILE; RSC_NO_MEMORY. No other failure leaves a
  * result file behind; of several realizations, what is done stays beside it for the program's --resume. */
 RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
+
+/* Asked while a case runs: levels done of how many, or realizations where there are several; data: what was given along. Returns 0 to go on,
+ * anything else to stop. Called by the thread that called rsc_case_run_watched, about ten times a second; seconds may pass while a
+ * large surface is made or a map read. It must not throw an exception or jump out. */
+typedef int32_t (*rsc_watch)(double done, double total, void* data);
+
+/* rsc_case_run with someone who watches, and who may stop it.
+ * a_case: the case; watch: is asked, null for nobody; data: given to it; failed_levels (out, may be null): number of levels that did not
+ * converge. Errors: as rsc_case_run; RSC_STOPPED if watch stopped it: no result is written then, and of several realizations what is done
+ * stays for the program's --resume. */
+RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels);
+
+/* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for a program that calls these libraries from another thread than
+ * the one that is in rsc at the time. Waits until rsc is out of them. A thread that holds the lock may call rsc, and take it again; it
+ * has to be given back as often as it was taken. Keep it for as short as can be: other threads in rsc wait meanwhile. */
+RSC_API int32_t rsc_lock(void);
+
+/* Gives the lock back. Errors: RSC_NO_RESULT if this thread does not hold it. */
+RSC_API int32_t rsc_unlock(void);
 
 /* ---- surfaces ----------------------------------------------------------------------------------- */
 
@@ -269,8 +296,9 @@ RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* 
  * a_case: the case, null for the defaults. Errors: -1, -2 null; -3 keys that are refused; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case);
 
-/* Another contact with the same asperities, sphere, tip and options, without a result: one for another thread.
- * contact (out): the handle; original: the contact. Errors: -1, -2 null; RSC_NO_MEMORY. */
+/* A copy that is independent of the original, with its last level, what stays of its path (solids%hardness) and its committed state.
+ * contact (out): the handle; original: the contact, which other threads may use only by functions that take it as pointer to const.
+ * Errors: -1, -2 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original);
 
 /* Releases a contact and nulls the handle. Errors: -1 null address. */
@@ -281,6 +309,15 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * them than the sphere's radius. Errors: -1 null; -2, -3 not finite; -2 a place outside, where the tip
  * then is not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
+
+/* Keeps the state as the one that rsc_contact_rollback goes back to: the tip, the last level, and what the path has left where asperities or
+ * elements yield (solids%hardness). A new contact is committed as it was made. For codes that try a step and may have to repeat it.
+ * contact: the contact. Errors: -1 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_commit(rsc_contact* contact);
+
+/* Goes back to the state of the last commit. Levels that follow are the ones that would have followed then, to the tolerance.
+ * contact: the contact. Errors: -1 null; RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_rollback(rsc_contact* contact);
 
 /* Where the tip is. contact: the contact; x0, y0 (out, may be null) [length]. Errors: -1 null. */
 RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0);
@@ -366,7 +403,7 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
-/* ---- many contacts, and contacts kept in files -------------------------------------------------- */
+/* ---- many contacts, and contacts saved in files -------------------------------------------------- */
 
 /* rsc_contact_press for many contacts, shared out among threads. The answers do not depend on the threads.
  * n: number of contacts, >= 0; contacts: different handles, which no other thread uses meanwhile; force: N >= 0 of each [force];
@@ -381,15 +418,31 @@ RSC_API int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const doub
 RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status,
                                     int32_t threads);
 
-/* Keeps a contact in a file: tip, options and the last level; not the asperities. The contact that was saved and the one restored go on
- * alike bit for bit: for that, earlier levels stop to be starts for the next ones (answers after a save may differ from those without it
- * by the tolerance). The file is of this machine's kind and of this version of the library. An existing file is replaced at once or not
- * at all. contact: the contact, elastic; path: the file. Errors: -1 null, or not elastic; -2 null or empty; RSC_FILE; RSC_NO_MEMORY;
- * RSC_INTERNAL. */
+/* A step of many contacts: moves their tips, brings each to a separation or under a force, and gives the answers that codes need which move
+ * bodies. Shared out among threads, on which the answers do not depend.
+ * n: number of contacts, >= 0; contacts: different handles, which no other thread uses meanwhile; x0, y0: tips, both null to leave them
+ * [length]; by_force: 1 where value is a force, 0 where it is a separation; value: of each [force] or [length]. Outputs, each may be null, of a
+ * contact that failed unchanged unless it is RSC_NOT_CONVERGED: separation, force; stiffness: dN/dZ0 (takes one more solution of linear
+ * equations, unless null); lateral_x, lateral_y, moment_x, moment_y as of rsc_contact_value; level_status: of RSC_LEVEL_LIST; status: what
+ * moving, indenting or pressing returned for each, negative ones as argument numbers of those functions. threads: 1 or more, 0 for all the
+ * machine has.
+ * Errors: -1, -5, -16 out of range; -2 null, a null handle, or one given twice; -3, -4 one null and the other not; -6 null with n > 0. Otherwise
+ * RSC_SUCCESS if all were, or the status of the first that was not, negative ones as -2. */
+RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const double* y0, int32_t by_force,
+                                  const double* value, double* separation, double* force, double* stiffness, double* lateral_x,
+                                  double* lateral_y, double* moment_x, double* moment_y, int32_t* level_status, int32_t* status,
+                                  int32_t threads);
+
+/* Saves a contact in a file: tip, options, the last level, what the path has left (solids%hardness) and the committed state; not the
+ * asperities, or the surface of elements. The contact that was saved and the one restored go on alike, an elastic one bit for bit: for that,
+ * earlier levels stop to be starts for the next ones (answers after a save may differ from those without it by the tolerance). The file is
+ * of this machine's kind; later versions of the library read it. It is whole or not there. An existing file is replaced only if it is a save
+ * of rsc: links, devices, read-only and other files are left as they are.
+ * contact: the contact; path: the file. Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY; RSC_INTERNAL. */
 RSC_API int32_t rsc_contact_save(rsc_contact* contact, const char* path);
 
 /* The contact of such a file. contact (out): the handle; asperities: those it was saved with, or ones equal to them bit for bit; path: the
- * file. Errors: -1, -2 null; -2 other asperities; -3 null, empty, or no such file of this version; RSC_FILE; RSC_NO_MEMORY. */
+ * file. Errors: -1, -2 null; -2 other asperities; -3 null, empty, no such file, a damaged one or one of a later version; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path);
 
 /* ---- friction ----------------------------------------------------------------------------------- */
@@ -397,11 +450,14 @@ RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities*
 /* m = 4 G star / E star, 1/G star = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the tangential over the normal stiffness of any
  * contact of two bodies; 2 (1 - nu)/(2 - nu) for like ones. E, nu: two values each; ratio (out). Errors: -1 null, a modulus not positive
  * (Infinity: rigid), or two rigid bodies; -2 null, or outside [-1, 0.5]; -3 null. */
+RSC_API int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio);
+
+/* The former name of rsc_stiffness_ratio. */
 RSC_API int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio);
 
 /* Friction for the asperities, sphere, tip and options of a contact. No path yet.
  * friction (out): the handle; contact: copied, may be destroyed at once; mu: coefficient of friction >= 0, finite; ratio: m > 0, finite
- * (rsc_tangential_ratio). Errors: -1, -2 null; -2 not elastic; -3, -4 out of range; RSC_NO_MEMORY. */
+ * (rsc_stiffness_ratio). Errors: -1, -2 null; -2 not elastic; -3, -4 out of range; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio);
 
 /* The same with mu = solids%friction and the ratio from solids%E and solids%nu.
@@ -425,6 +481,14 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
  * being those of the last iterates; RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged. */
 RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x,
                                     double* force_y, double* lost);
+
+/* Moves the tip, for a sphere that rolls onto other asperities, at the separation of the last update. Asperities that carry at both places keep
+ * their share of Q: memory is taken over at the same share of the depth below first touch, and its slips times the share of the force that is
+ * carried at both places. What that leaves of the energy of the slide beyond what fits is lost to friction; none is won. Without a path, or to
+ * where the tip is already, nothing but the tip changes. Costs a level for each reversal in memory.
+ * friction: the friction; x0, y0: the new place [length], as of rsc_contact_move_tip. Errors: -1 null; -2, -3 not finite; -2 outside;
+ * RSC_NOT_CONVERGED; RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged. */
+RSC_API int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0);
 
 /* dQ/d(x, y) of a further slide at this separation in the direction of what slips now (S m in all directions where nothing slips, and for a
  * slide back, S being -dN/dZ0). Costs up to one level. All outputs may be null. friction: the friction; xx, xy, yx, yy: dQ_x/dx, dQ_x/dy,

@@ -113,7 +113,9 @@ class Law:
             relative = self.load_std[-1] / self.load[-1] if self.prescribed == "separation" else self.separation_std[-1] / self.approach[-1]
             lines.append(f"scatter over realizations at the last point: {100 * relative:.2g} % of the {load if self.prescribed == 'separation' else approach} (standard deviation); "
                          "all of it with --table")
-        return lines + [f"from {os.path.basename(self.path)}, {self.source}"]
+        lines.append(f"from {os.path.basename(self.path)}, {self.source}")
+        # Texts of the file must not end a comment, nor reach a terminal as commands.
+        return [re.sub(r"[\x00-\x1f\x7f-\x9f]", "?", line) for line in lines]
 
 
 def _finite(variables, name):
@@ -140,7 +142,8 @@ def _deck(law, name, comment):
 
 
 def calculix(law, name):
-    return _deck(law, name, law.comment())
+    faces = ["the slave surface must be of element faces (*SURFACE, TYPE=ELEMENT): with one of nodes CalculiX gave 44 % more force"]
+    return _deck(law, name, law.comment() + (faces if law.flats else []))
 
 
 def abaqus(law, name):

@@ -6,12 +6,14 @@
 #include "api/handles.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
+#include "rough/omp_team.hpp"
 #include "run/campaign_team.hpp"
 #include "run/run.hpp"
 
 namespace rsc::api {
 
 const Case& settings_of(const rsc_case* a_case) {
+    if (a_case && !a_case->tag.sound()) throw Error(Failure::bad_input, "the case was released already, or is a handle of another kind");
     static const Case defaults;
     return a_case ? a_case->settings : defaults;
 }
@@ -27,7 +29,7 @@ void require_sound(const Case& settings, std::initializer_list<std::string_view>
     if (!text.empty()) throw Error(Failure::bad_input, text);
 }
 
-int threads_of(const Case& settings) { return static_cast<int>(thread_count(settings.run.threads)); }
+int threads_of(const Case& settings) { return static_cast<int>(most_threads(settings.run.threads)); }
 
 }  // namespace rsc::api
 
@@ -122,11 +124,16 @@ int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
 }
 
 int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
+    return rsc_case_run_watched(a_case, nullptr, nullptr, failed_levels);
+}
+
+int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels) {
     return guarded(1, [&] {
         require(a_case, 1, "a_case");
         rsc::require_valid(a_case->settings);
         rsc::RunOptions how;
         how.command = "rsc_case_run";
+        if (watch) how.report = [=](double done, double total) { return watch(done, total, data) != 0; };
         const long failed = rsc::run_case(a_case->settings, how);
         put(failed_levels, failed);
         if (failed > 0) throw Outcome{RSC_NOT_CONVERGED, "some levels did not converge; their values are in the file with status = 4"};

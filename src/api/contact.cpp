@@ -41,11 +41,6 @@ static_assert(static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
               static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
               static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
-// For asperities given one by one the case says how large the surface is (surface%L).
-Site site_of(const Case& settings, const Ground& on) {
-    return on.list && settings.surface.L ? list_site(on.asperities, settings.surface.L, "the asperities") : on.site;
-}
-
 void require_contact_keys(const Case& settings) {
     require_sound(settings, {"solver", "solids%resistivity", "asperities%law", "indentation%selection", "indentation%selection_factor",
                              "surface%sigma", "surface%L"});
@@ -62,19 +57,22 @@ void require_model(const Ground& on, const Case& settings, int argument) {
 
 const Level& level_of(const rsc_contact* contact) {
     require(contact, 1, "contact");
-    if (!contact->level) throw Outcome{RSC_NO_RESULT, "the contact holds no result: indent or press first"};
-    return *contact->level;
+    if (!contact->known.level) throw Outcome{RSC_NO_RESULT, "the contact holds no result: indent or press first"};
+    return *contact->known.level;
 }
 
 // Computes a level. After an exception the contact holds no result; a level that did not converge is kept, and the status says so.
 template <class Compute>
 void compute(rsc_contact& contact, Compute&& level) {
-    contact.level.reset();
-    contact.level = level();
-    contact.moved = false;
-    contact.energy = contact.contact.energy();
-    contact.lateral = lateral_force(contact.contact.indenter(), *contact.level);
-    contact.moment = tip_moment(contact.contact.indenter(), *contact.level);
+    contact.known.level.reset();
+    contact.known.level = level();
+    const Indenter& indenter = contact.contact.indenter();
+    auto& known = contact.known;
+    known.x0 = indenter.x0, known.y0 = indenter.y0;
+    known.energy = contact.contact.energy();
+    known.lateral = lateral_force(indenter, *known.level);
+    known.moment = tip_moment(indenter, *known.level);
+    contact.recalled = true;
 }
 
 void put_finite(double* to, double value) {
@@ -83,29 +81,26 @@ void put_finite(double* to, double value) {
 }
 
 void tell_convergence(const rsc_contact& contact) {
-    if (contact.level->status == LevelStatus::not_converged) {
+    if (contact.known.level->status == LevelStatus::not_converged) {
         throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
 }
 
 double stiffness_of(rsc_contact& contact) {
-    double& known = contact.level->stiffness;
+    double& known = contact.known.level->stiffness;
+    if (!contact.recalled) contact.recall();
     if (std::isnan(known)) known = contact.contact.stiffness();
     return known;
-}
-
-rsc_contact* with_resistivity(rsc_contact* made, const double (&resistivity)[2]) {
-    std::copy_n(resistivity, 2, made->resistivity);
-    return made;
 }
 
 double conductance_length_of(rsc_contact& contact) { return conductance_length(stiffness_of(contact), contact.contact.indenter().E_star); }
 
 double resistance_of(rsc_contact& contact) {
-    if (!(contact.resistivity[0] + contact.resistivity[1] > 0))
+    const auto& resistivity = contact.keys->solids.resistivity;
+    if (!(resistivity[0] + resistivity[1] > 0))
         throw Outcome{RSC_NO_RESULT, "solids%resistivity is 0 in the case the contact was made from: there is no resistance"};
-    if (!(contact.level->force > 0)) throw Outcome{RSC_NO_RESULT, "nothing touches: the resistance is infinite"};
-    return constriction_resistance(conductance_length_of(contact), contact.resistivity);
+    if (!(contact.known.level->force > 0)) throw Outcome{RSC_NO_RESULT, "nothing touches: the resistance is infinite"};
+    return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
 // Quantities that are no plain members of a level, by the names of the result file (vectors by component).
@@ -114,15 +109,15 @@ struct Derived {
     double (*of)(rsc_contact&);
 };
 constexpr Derived kDerived[] = {
-    {"separation", [](rsc_contact& c) { return c.level->separation; }},
+    {"separation", [](rsc_contact& c) { return c.known.level->separation; }},
     {"stiffness", stiffness_of},
-    {"energy", [](rsc_contact& c) { return c.energy; }},
+    {"energy", [](rsc_contact& c) { return c.known.energy; }},
     {"conductance_length", conductance_length_of},
     {"resistance", resistance_of},
-    {"lateral_force_x", [](rsc_contact& c) { return c.lateral.x; }},
-    {"lateral_force_y", [](rsc_contact& c) { return c.lateral.y; }},
-    {"moment_x", [](rsc_contact& c) { return c.moment.x; }},
-    {"moment_y", [](rsc_contact& c) { return c.moment.y; }},
+    {"lateral_force_x", [](rsc_contact& c) { return c.known.lateral.x; }},
+    {"lateral_force_y", [](rsc_contact& c) { return c.known.lateral.y; }},
+    {"moment_x", [](rsc_contact& c) { return c.known.moment.x; }},
+    {"moment_y", [](rsc_contact& c) { return c.known.moment.y; }},
 };
 
 // Quantities of the result file that cannot be asked for by name: those of maps, which the library does not make, and vectors (their
@@ -167,10 +162,11 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             require_contact_keys(settings);
             const auto& on = asperities->ground;
             require_model(*on, settings, 7);
-            const rsc::Site site = site_of(settings, *on);
-            return with_resistivity(
-                new rsc_contact(on, {E_star, R, x0, y0, rsc::period_of(settings, site)}, rsc::solver_of(settings, site)),
-                settings.solids.resistivity);
+            const rsc::Period period = rsc::period_of(settings, site_of(settings, *on));
+            auto made =
+                std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings), rsc::Indenter{E_star, R, x0, y0, period});
+            made->given = {E_star, R};
+            return made.release();
         });
     });
 }
@@ -184,18 +180,8 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
             require_sound(settings, {"solids"});
             const auto& on = asperities->ground;
             require_model(*on, settings, 3);
-            const rsc::Site site = site_of(settings, *on);
-            return with_resistivity(new rsc_contact(on, rsc::indenter_of(settings, site), rsc::solver_of(settings, site)),
-                                    settings.solids.resistivity);
-        });
-    });
-}
-
-int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
-    return guarded(0, [&] {
-        construct(contact, "contact", [&] {
-            require(original, 2, "original");
-            return with_resistivity(new rsc_contact(original->on, original->contact.indenter(), original->options), original->resistivity);
+            const rsc::Indenter indenter = rsc::indenter_of(settings, site_of(settings, *on));
+            return new rsc_contact(on, std::make_shared<const rsc::Case>(settings), indenter);
         });
     });
 }
@@ -209,17 +195,8 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         require(contact, 1, "contact");
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
-        const rsc::Indenter& indenter = contact->contact.indenter();
-        if (!indenter.period.finite()) {
-            rsc::Site site = contact->on->site;
-            if (const rsc::Rectangle& known = contact->options.surface; known.known()) {
-                site.domain = {known.x0, known.y0, known.Lx, known.Ly};
-                site.guessed = false;
-            }
-            rsc::require_tip_above(site, indenter.shape, x0, y0);
-        }
+        require_place(*contact, x0, y0);
         contact->contact.move_tip(x0, y0);
-        contact->moved = true;
     });
 }
 
@@ -246,9 +223,11 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         require(contact, 1, "contact");
         require_finite(separation, 2, "separation");
         // Asked again for the level it holds, it does not compute it again.
-        const bool same = contact->level && !contact->moved && contact->level->separation == separation;
+        const rsc::Indenter& tip = contact->contact.indenter();
+        const auto& known = contact->known;
+        const bool same = known.level && known.level->separation == separation && known.x0 == tip.x0 && known.y0 == tip.y0;
         if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
-        put(force, contact->level->force);
+        put(force, contact->known.level->force);
         tell_convergence(*contact);
     });
 }
@@ -260,7 +239,7 @@ int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation
         const double touch = contact->contact.first_touch();
         if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere: no force can be carried");
         compute(*contact, [&] { return force > 0 ? contact->contact.at_force(force) : contact->contact.at_separation(touch); });
-        put(separation, contact->level->separation);
+        put(separation, contact->known.level->separation);
         tell_convergence(*contact);
     });
 }
@@ -299,7 +278,7 @@ int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
     return guarded(0, [&] {
         (void)level_of(contact);
         require(energy, 2, "energy");
-        put_finite(energy, contact->energy);
+        put_finite(energy, contact->known.energy);
     });
 }
 
@@ -310,14 +289,14 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
         const rsc::Level& level = level_of(contact);
         double dN_dZ0 = 0, W = 0;  // nothing is written before all is known to be a number
         if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
-        if (energy) put_finite(&W, contact->energy);
+        if (energy) put_finite(&W, contact->known.energy);
         put(separation, level.separation);
         put(force, level.force);
         put(stiffness, dN_dZ0);
         put(area, level.area);
         put(energy, W);
-        put(lateral_x, contact->lateral.x);
-        put(lateral_y, contact->lateral.y);
+        put(lateral_x, contact->known.lateral.x);
+        put(lateral_y, contact->known.lateral.y);
         put(level_status, level.status);
         put(contacts, level.contacts);
         put(overlapping_pairs, level.overlapping_pairs);

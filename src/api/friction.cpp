@@ -1,4 +1,5 @@
 // Friction: a contact along a path of separations and slides.
+#include <algorithm>
 #include <memory>
 
 #include "api/guard.hpp"
@@ -31,6 +32,26 @@ void require_elastic(const rsc_contact& contact) {
     if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction needs one load for one separation");
 }
 
+// Moves the tip of both contacts behind the path.
+void put_tip(rsc_friction& friction, const Vec2& tip) {
+    const Indenter& now = friction.outer.contact.indenter();
+    if (now.x0 == tip.x && now.y0 == tip.y) return;
+    friction.outer.contact.move_tip(tip.x, tip.y);
+    friction.inner.contact.move_tip(tip.x, tip.y);
+    friction.curve.forget();
+}
+
+// The share of the first level's force that its contacts carry in the second one, too.
+double shared_force(const Level& first, const Level& second) {
+    double shared = 0;
+    std::size_t k = 0;
+    for (std::size_t j = 0; j < first.asperity.size(); ++j) {
+        while (k < second.asperity.size() && second.asperity[k] < first.asperity[j]) ++k;
+        if (k < second.asperity.size() && second.asperity[k] == first.asperity[j]) shared += std::min(first.f[j], second.f[k]);
+    }
+    return std::min(1.0, shared / first.force);
+}
+
 // Runs what asks for levels, then tells whether all of them converged.
 template <class Ask>
 void with_levels(rsc_friction& friction, Ask&& ask) {
@@ -48,7 +69,9 @@ using namespace rsc::api;
 
 extern "C" {
 
-int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) {
+int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) { return rsc_stiffness_ratio(E, nu, ratio); }
+
+int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
     return guarded(1, [&] {
         require(E, 1, "E");
         require(nu, 2, "nu");
@@ -90,6 +113,7 @@ int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original)
             require(original, 2, "original");
             auto made = std::make_unique<rsc_friction>(original->outer, original->history.friction());
             made->history = original->history;
+            made->committed_tip = original->committed_tip;
             return made.release();
         });
     });
@@ -114,6 +138,31 @@ int32_t rsc_friction_update(rsc_friction* friction, double separation, double x,
             put(force_x, Q.x);
             put(force_y, Q.y);
             put(lost, history.step_lost());
+        });
+    });
+}
+
+int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
+    return guarded(2, [&] {
+        require(friction, 1, "friction");
+        require_finite(x0, 2, "x0");
+        require_finite(y0, 3, "y0");
+        require_place(friction->outer, x0, y0);
+        const rsc::Indenter& indenter = friction->outer.contact.indenter();
+        const rsc::Vec2 before{indenter.x0, indenter.y0};
+        if (before.x == x0 && before.y == y0) return;
+        with_levels(*friction, [&] {
+            rsc::FrictionHistory& history = friction->history;
+            const double delta = history.approach();
+            try {
+                const rsc::Level here = history.force() > 0 ? friction->curve.level(delta) : rsc::Level{};
+                put_tip(*friction, {x0, y0});
+                if (history.state().begun)
+                    history.move(friction->curve, here.force > 0 ? shared_force(here, friction->curve.level(delta)) : 0);
+            } catch (...) {
+                put_tip(*friction, before);
+                throw;
+            }
         });
     });
 }
@@ -152,6 +201,8 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
 int32_t rsc_friction_commit(rsc_friction* friction) {
     return guarded(0, [&] {
         require(friction, 1, "friction");
+        const rsc::Indenter& tip = friction->outer.contact.indenter();
+        friction->committed_tip = {tip.x0, tip.y0};
         friction->history.commit();
     });
 }
@@ -159,6 +210,7 @@ int32_t rsc_friction_commit(rsc_friction* friction) {
 int32_t rsc_friction_rollback(rsc_friction* friction) {
     return guarded(0, [&] {
         require(friction, 1, "friction");
+        put_tip(*friction, friction->committed_tip);
         friction->history.rollback();
     });
 }

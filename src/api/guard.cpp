@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "rough/library_lock.hpp"
 #include "rough/magnitude.hpp"
 #include "version.h"
 
@@ -12,6 +13,12 @@ namespace {
 // A plain array: nothing to allocate, nothing to destroy at the end of a thread.
 constexpr std::size_t kMessageSize = 4096;
 thread_local char last_message[kMessageSize];
+
+#define RSC_TEXT(x) #x
+#define RSC_DOTTED(a, b, c) RSC_TEXT(a) "." RSC_TEXT(b) "." RSC_TEXT(c)
+static_assert(std::string_view(RSC_VERSION) == RSC_DOTTED(RSC_VERSION_MAJOR, RSC_VERSION_MINOR, RSC_VERSION_PATCH));
+#undef RSC_DOTTED
+#undef RSC_TEXT
 
 const char* meaning(std::int32_t status) {
     switch (status) {
@@ -44,13 +51,18 @@ std::int32_t status_of(const Error& error, int input) noexcept {
 }
 
 void refuse(int argument, const char* name, const char* why) {
-    throw Refusal{argument, std::string("argument ") + std::to_string(argument) + " (" + name + ") " + why};
+    // By its name: other languages count arguments in their own ways.
+    throw Refusal{argument, std::string("argument ") + name + " " + why};
 }
 
 void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {
         if (!usable(values[k])) refuse(argument, name, (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
+        // NetCDF fills what was never written, or is masked, with this number; in single precision it differs in the eighth digit.
+        constexpr double fill = 9.969209968386869e36;
+        if (std::abs(values[k] / fill - 1) < 1e-6)
+            refuse(argument, name, ("holds the fill value of NetCDF: entry " + std::to_string(k) + " is missing").c_str());
     }
 }
 
@@ -73,6 +85,16 @@ extern "C" {
 
 int32_t rsc_version(char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] { put_text(RSC_VERSION, buffer, size, length, 1); });
+}
+
+int32_t rsc_lock(void) {
+    return guarded(0, [] { rsc::library_lock().lock(); });
+}
+
+int32_t rsc_unlock(void) {
+    return guarded(0, [] {
+        if (!rsc::library_lock().unlock()) throw Outcome{RSC_NO_RESULT, "this thread does not hold the lock"};
+    });
 }
 
 int32_t rsc_message(char* buffer, int64_t size, int64_t* length) {

@@ -10,6 +10,7 @@
 
 #include "error.hpp"
 #include "rsc.h"
+#include "run/signals.hpp"
 
 namespace rsc::api {
 
@@ -50,6 +51,9 @@ std::int32_t guarded(int input, Body&& body) noexcept {
     } catch (const std::length_error&) {  // an array longer than any memory
         remember("the machine refused memory");
         return RSC_NO_MEMORY;
+    } catch (const Interrupted& stop) {
+        remember(stop.what());
+        return RSC_STOPPED;
     } catch (const std::exception& error) {
         remember(error.what());
         return RSC_INTERNAL;
@@ -61,9 +65,12 @@ std::int32_t guarded(int input, Body&& body) noexcept {
 
 [[noreturn]] void refuse(int argument, const char* name, const char* why);
 
+// Of handles (api/handles.hpp) also that they are what they should be.
 template <class T>
 void require(T* pointer, int argument, const char* name) {
     if (!pointer) refuse(argument, name, "must not be null");
+    if constexpr (requires { pointer->tag.sound(); })
+        if (!pointer->tag.sound()) refuse(argument, name, "was released already, or is a handle of another kind");
 }
 
 inline void require_finite(double value, int argument, const char* name) {
@@ -92,6 +99,7 @@ void construct(Handle** handle, const char* name, Make&& make) {
 template <class Handle>
 void destroy(Handle** handle, const char* name) {
     require(handle, 1, name);
+    if (*handle) require(*handle, 1, name);
     delete *handle;
     *handle = nullptr;
 }

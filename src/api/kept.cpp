@@ -1,27 +1,30 @@
-// Many contacts at once, and contacts and friction kept in files.
-#include <omp.h>
-
-#include <algorithm>
-#include <cstdio>
+// Contacts and friction saved in files.
+//
+// A save is a line that says what it is, a checksum, and named entries: texts and arrays of numbers, as this machine stores them. What is
+// added to rsc later gets names of its own, so that later versions read what earlier ones saved.
+#include <bit>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "archive.hpp"
-#include "contact/indenter/shapes.hpp"
+#include "case/read_case.hpp"
+#include "file/whole_file.hpp"
+#include "observe/quantities.hpp"
 #include "version.h"
 
 namespace rsc::api {
 namespace {
 
-// --- files: a line that says what it is, a checksum, and the values as they lie in memory ---------------------------------------
+using Numbers = std::vector<double>;
+constexpr const char* kBroken = "the file is damaged";
+constexpr double kFormat = 1;  // increased when an earlier version could no longer read the entries rightly
 
 std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV-1a
     const auto* bytes = static_cast<const unsigned char*>(data);
@@ -30,195 +33,213 @@ std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV
 }
 constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;
 
-std::uint64_t digest(const Asperities& a) {
+// Tells whether a contact stood on the same asperities, or points of a surface. Columns that are not there do not count.
+double digest(const Ground& on) {
     std::uint64_t hash = kHash;
     for (const AsperityColumn& column : kAsperityColumns) {
-        const auto& values = a.*column.values;
-        const std::uint64_t n = values.size();
-        hash = mix(mix(hash, &n, sizeof n), values.data(), values.size() * sizeof(double));
+        const auto& values = on.asperities.*column.values;
+        if (values.empty()) continue;
+        hash = mix(mix(hash, column.name, std::strlen(column.name)), values.data(), values.size() * sizeof(double));
     }
-    return hash;
+    if (on.points)
+        for (int j = 0; j < on.points->ny; ++j)
+            hash = mix(hash, on.points->row(j), static_cast<std::size_t>(on.points->nx) * sizeof(double));
+    return static_cast<double>(hash >> 11);  // exact as a double
 }
 
-std::string first_line(const char* what) { return std::string("rsc ") + what + " " RSC_VERSION "\n"; }
-
-void write(const std::string& path, const char* what, const std::string& bytes) {
-    const std::string fresh = path + ".new";
-    const std::uint64_t hash = mix(kHash, bytes.data(), bytes.size());
-    std::ofstream out(fresh, std::ios::binary | std::ios::trunc);
-    out << first_line(what);
-    out.write(reinterpret_cast<const char*>(&hash), sizeof hash);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out || std::rename(fresh.c_str(), path.c_str()) != 0) {
-        std::remove(fresh.c_str());
-        throw Error(Failure::file_system, "cannot write '" + path + "'");
+struct Entries {
+    std::map<std::string, Numbers> numbers;
+    std::map<std::string, std::string> texts;
+    const Numbers& of(const std::string& name) const {
+        const auto found = numbers.find(name);
+        if (found == numbers.end()) throw Error(Failure::bad_input, kBroken);
+        return found->second;
     }
+    double one(const std::string& name) const {
+        if (of(name).size() != 1) throw Error(Failure::bad_input, kBroken);
+        return of(name)[0];
+    }
+};
+
+const std::string kStart = "rsc save of ";
+constexpr const char *kContact = "a contact", *kFriction = "a contact with friction";
+const FileKind kSave{"saved contact", [](const std::string& path) { return begins_with(path, kStart); }};
+
+std::vector<char> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+void write(const std::string& path, const char* what, Entries& entries) {
+    entries.numbers["format"] = {kFormat};
+    entries.texts["rsc"] = RSC_VERSION;
+    ArchiveWriter writer;
+    writer(static_cast<std::uint64_t>(entries.texts.size()));
+    for (const auto& [name, text] : entries.texts) writer(bytes_of(name)), writer(bytes_of(text));
+    writer(static_cast<std::uint64_t>(entries.numbers.size()));
+    for (const auto& [name, numbers] : entries.numbers) writer(bytes_of(name)), writer(numbers);
+    const std::uint64_t hash = mix(kHash, writer.bytes.data(), writer.bytes.size());
+    const std::string head = kStart + what + "\n" + std::string(reinterpret_cast<const char*>(&hash), sizeof hash);
+    write_whole(path, kSave, head + writer.bytes);
 }
 
-// The values in it.
-std::string read(const std::string& path, const char* what) {
+Entries read(const std::string& path, const char* what) {
+    const std::string head = kStart + what + "\n";
+    const auto refuse = [&](const std::string& why) { throw Error(Failure::bad_input, "'" + path + "' " + why); };
+    if (!std::ifstream(path)) throw Error(Failure::bad_input, "cannot read '" + path + "'");
+    if (!begins_with(path, head)) refuse(std::string("is not ") + what + " saved by rsc");
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw Error(Failure::bad_input, "cannot read '" + path + "'");
-    std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    const std::string head = first_line(what);
+    const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     std::uint64_t hash = 0;
-    if (!all.starts_with(head) || all.size() < head.size() + sizeof hash)
-        throw Error(Failure::bad_input, "'" + path + "' is not " + what + " kept by rsc " RSC_VERSION);
+    if (all.size() < head.size() + sizeof hash) refuse("is damaged");
     std::memcpy(&hash, all.data() + head.size(), sizeof hash);
-    all.erase(0, head.size() + sizeof hash);
-    if (mix(kHash, all.data(), all.size()) != hash) throw Error(Failure::bad_input, "'" + path + "' is damaged");
-    return all;
+    const std::string_view body = std::string_view(all).substr(head.size() + sizeof hash);
+    if (mix(kHash, body.data(), body.size()) != hash) refuse("is damaged");
+    ArchiveReader reader(body, Failure::bad_input, kBroken);
+    Entries entries;
+    std::vector<char> name, text;
+    std::uint64_t count = 0;
+    for (reader(count); count > 0; --count) {
+        reader(name), reader(text);
+        entries.texts[{name.begin(), name.end()}] = {text.begin(), text.end()};
+    }
+    for (reader(count); count > 0; --count) {
+        reader(name);
+        reader(entries.numbers[{name.begin(), name.end()}]);
+    }
+    reader.end();
+    if (entries.one("format") > kFormat)
+        refuse("was saved by rsc " + entries.texts["rsc"] + ", which this version (" RSC_VERSION ") cannot read");
+    return entries;
 }
-
-ArchiveReader reader_of(const std::string& bytes) { return {bytes, Failure::bad_input, "the file is damaged"}; }
 
 void require_path(const char* path, int argument) {
     require(path, argument, "path");
     if (!*path) refuse(argument, "path", "must not be empty");
 }
 
-template <class Archive, class L>
-void visit(Archive& archive, L& level) {
-    archive(static_cast<std::conditional_t<std::is_const_v<L>, const LevelValues&, LevelValues&>>(level));
-    archive(level.asperity), archive(level.x), archive(level.y), archive(level.f), archive(level.a), archive(level.u);
+// --- what makes a contact ---------------------------------------------------------------------------------------------------------------
+
+void put_making(Entries& to, const rsc_contact& contact) {
+    const Indenter& indenter = contact.contact.indenter();
+    to.numbers["ground"] = {digest(*contact.on)};
+    to.numbers["tip"] = {indenter.x0, indenter.y0};
+    if (contact.given) to.numbers["given"] = {(*contact.given)[0], (*contact.given)[1]};
+    to.texts["case"] = effective_namelist(*contact.keys);
 }
 
-template <class Archive, class State>
-void visit_state(Archive& archive, State& state) {
-    archive(state.begun), archive(state.delta), archive(state.xi), archive(state.nodes), archive(state.lost), archive(state.step_lost);
+std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperities& asperities) {
+    const Ground& on = *asperities.ground;
+    if (from.one("ground") != digest(on)) refuse(2, "asperities", "must be those the file was saved with");
+    const Numbers& tip = from.of("tip");
+    if (tip.size() != 2 || !from.texts.contains("case")) throw Error(Failure::bad_input, kBroken);
+    const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
+    const Site site = site_of(*keys, on);
+    const bool told = from.numbers.contains("given");
+    Indenter indenter =
+        told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0, period_of(*keys, site)} : indenter_of(*keys, site);
+    indenter.x0 = tip[0], indenter.y0 = tip[1];
+    auto made = std::make_unique<rsc_contact>(asperities.ground, keys, indenter);
+    if (told) made->given = {from.of("given")[0], from.of("given")[1]};
+    return made;
 }
 
-// What a handle knows of its last level beside the level itself.
-template <class Archive, class Handle>
-void visit_known(Archive& archive, Handle& contact) {
-    archive(contact.energy);
-    archive(contact.moved), archive(contact.lateral), archive(contact.moment);
+// --- states -----------------------------------------------------------------------------------------------------------------------------
+
+// The arrays of a level: what they are called, and how to come to them.
+template <class Visit>
+void visit_arrays(Level& level, Visit&& visit) {
+    visit("asperity", level.asperity), visit("yields", level.yields);
+    visit("x", level.x), visit("y", level.y), visit("f", level.f), visit("a", level.a), visit("u", level.u);
+    visit("pixel", level.pixels.index), visit("pixel_contact", level.pixels.contact), visit("pixel_pressure", level.pixels.pressure);
 }
 
-// The indenter by what its shape was made from.
-void visit_indenter(ArchiveWriter& writer, const Indenter& indenter) {
-    const ShapeKeys& keys = indenter.shape->keys();
-    writer(indenter.E_star), writer(indenter.x0), writer(indenter.y0), writer(indenter.period);
-    writer(shape_number(indenter.shape->name()));
-    if (keys.map) throw Error(Failure::bad_input, "a contact with a second rough body cannot be kept");
-    writer(keys.R), writer(keys.radii), writer(keys.angle), writer(keys.slope), writer(keys.radius), writer(keys.rim_radius);
-}
-void visit_indenter(ArchiveReader& reader, Indenter& indenter) {
-    ShapeKeys keys;
-    int shape = 0;
-    reader(indenter.E_star), reader(indenter.x0), reader(indenter.y0), reader(indenter.period);
-    reader(shape);
-    reader(keys.R), reader(keys.radii), reader(keys.angle), reader(keys.slope), reader(keys.radius), reader(keys.rim_radius);
-    indenter.shape = make_shape(shape, keys);
-}
-
-// What makes a contact of the same asperities.
-void put_making(ArchiveWriter& writer, const rsc_contact& contact) {
-    writer(digest(contact.on->asperities));
-    visit_indenter(writer, contact.contact.indenter());
-    writer(contact.options);
-    writer(contact.resistivity);
-}
-struct Making {
-    Indenter indenter;
-    SolverOptions options;
-    double resistivity[2];
-    std::unique_ptr<rsc_contact> contact(const rsc_asperities& asperities) const {
-        auto made = std::make_unique<rsc_contact>(asperities.ground, indenter, options);
-        std::copy_n(resistivity, 2, made->resistivity);
-        return made;
+void put_state(Entries& to, const std::string& prefix, const rsc_contact::State& state) {
+    to.numbers[prefix + "tip"] = {state.x0, state.y0};
+    to.numbers[prefix + "memory"] = state.memory;
+    if (!state.known.level) return;
+    Level level = *state.known.level;
+    const auto& k = state.known;
+    to.numbers[prefix + "level"] = {level.separation, k.x0, k.y0, k.energy, k.lateral.x, k.lateral.y, k.moment.x, k.moment.y};
+    for (const LevelQuantity& q : level_quantities()) {
+        to.numbers[prefix + "level." + q.name] = {q.of(level)};
+        if (q.y) to.numbers[prefix + "level." + q.name + ".y"] = {level.*q.y};
     }
-};
-
-// Contacts by elements are not saved: a level of theirs is many pixels, and a file could not tell later whether it belongs to a surface
-// (for asperities a checksum of the summits does).
-void require_keepable(const rsc_contact& contact) {
-    if (contact.on->points) refuse(1, "contact", "must be one of asperities: a contact of elements cannot be kept");
-}
-Making get_making(ArchiveReader& reader, const rsc_asperities& asperities) {
-    std::uint64_t hash = 0;
-    Making making;
-    reader(hash);
-    visit_indenter(reader, making.indenter);
-    reader(making.options);
-    reader(making.resistivity);
-    if (hash != digest(asperities.ground->asperities)) refuse(2, "asperities", "must be those the file was saved with");
-    return making;
-}
-
-// --- many contacts ------------------------------------------------------------------------------------------------------------------
-
-template <class Each>
-std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given, std::int32_t* status, std::int32_t threads, Each&& each) {
-    std::int32_t first = RSC_SUCCESS;
-    const std::int32_t whole = guarded(0, [&] {
-        if (n < 0) refuse(1, "n", "must not be negative");
-        if (threads < 0) refuse(6, "threads", "must not be negative");
-        if (n == 0) return;
-        require(contacts, 2, "contacts");
-        require(given, 3, "the values");
-        std::set<const rsc_contact*> different;
-        for (std::int64_t k = 0; k < n; ++k) {
-            if (!contacts[k]) refuse(2, "contacts", "must not hold a null handle");
-            if (!different.insert(contacts[k]).second) refuse(2, "contacts", "must be different handles");
-        }
-        std::vector<std::int32_t> outcome(static_cast<std::size_t>(n), RSC_SUCCESS);
-        std::vector<std::string> reason(static_cast<std::size_t>(n));
-#pragma omp parallel for schedule(dynamic) num_threads(threads > 0 ? threads : omp_get_max_threads())
-        for (std::int64_t k = 0; k < n; ++k) {
-            outcome[static_cast<std::size_t>(k)] = each(k);
-            if (outcome[static_cast<std::size_t>(k)] != RSC_SUCCESS) {
-                char text[500] = "";
-                rsc_message(text, sizeof text, nullptr);
-                (void)guarded(0, [&] { reason[static_cast<std::size_t>(k)] = text; });
-            }
-        }
-        if (status) std::copy(outcome.begin(), outcome.end(), status);
-        const auto bad = std::find_if(outcome.begin(), outcome.end(), [](std::int32_t s) { return s != RSC_SUCCESS; });
-        if (bad == outcome.end()) return;
-        first = *bad < 0 ? -2 : *bad;
-        const auto k = static_cast<std::size_t>(bad - outcome.begin());
-        remember("contact " + std::to_string(k) + ": " + reason[k]);
+    visit_arrays(level, [&](const char* name, const auto& values) {
+        to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
     });
-    return whole != RSC_SUCCESS ? whole : first;
+    const LevelPixels& p = level.pixels;
+    to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy};
+}
+
+rsc_contact::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
+    rsc_contact::State state;
+    const Numbers& tip = from.of(prefix + "tip");
+    state.memory = from.of(prefix + "memory");
+    if (tip.size() != 2) throw Error(Failure::bad_input, kBroken);
+    state.x0 = tip[0], state.y0 = tip[1];
+    if (!from.numbers.contains(prefix + "level")) return state;
+    const Numbers& known = from.of(prefix + "level");
+    const Numbers& pixels = from.of(prefix + "level.pixels");
+    if (known.size() != 8 || pixels.size() != 5) throw Error(Failure::bad_input, kBroken);
+    Level level;
+    level.separation = known[0];
+    state.known = {{}, known[1], known[2], known[3], {known[4], known[5]}, {known[6], known[7]}};
+    for (const LevelQuantity& q : level_quantities()) {  // those that an earlier version did not know keep their defaults
+        const std::string name = prefix + "level." + q.name;
+        if (from.numbers.contains(name)) q.put(level, from.one(name));
+        if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
+    }
+    visit_arrays(level, [&](const char* name, auto& values) {
+        for (const double value : from.of(prefix + "level." + name))
+            values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
+    });
+    level.pixels.columns = static_cast<int>(pixels[0]);
+    level.pixels.x0 = pixels[1], level.pixels.y0 = pixels[2], level.pixels.dx = pixels[3], level.pixels.dy = pixels[4];
+    const auto& points = contact.on->points;
+    const int places = points ? points->nx * points->ny : static_cast<int>(contact.contact.asperities()->size());
+    const auto outside = [&](int k) { return k < 0 || k >= places; };
+    const std::size_t n = level.asperity.size();
+    if (std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
+        std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) || level.x.size() != n || level.y.size() != n ||
+        level.f.size() != n || level.a.size() != n || level.u.size() != n)
+        throw Error(Failure::bad_input, kBroken);
+    state.known.level = std::move(level);
+    return state;
+}
+
+void put_path(Entries& to, const std::string& prefix, const FrictionHistory::State& path) {
+    to.numbers[prefix] = {double(path.begun), path.delta, path.xi.x, path.xi.y, path.lost, path.step_lost};
+    Numbers& nodes = to.numbers[prefix + ".nodes"];
+    for (const auto& node : path.nodes)
+        nodes.insert(nodes.end(), {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
+}
+
+FrictionHistory::State get_path(const Entries& from, const std::string& prefix) {
+    const Numbers &values = from.of(prefix), &nodes = from.of(prefix + ".nodes");
+    if (values.size() != 6 || nodes.size() % 5 != 0) throw Error(Failure::bad_input, kBroken);
+    FrictionHistory::State path{values[0] != 0, values[1], {values[2], values[3]}, {}, values[4], values[5]};
+    for (std::size_t k = 0; k < nodes.size(); k += 5)
+        path.nodes.push_back({nodes[k], nodes[k + 1], nodes[k + 2], {nodes[k + 3], nodes[k + 4]}});
+    return path;
 }
 
 }  // namespace
 }  // namespace rsc::api
 
-using rsc::ArchiveReader;
-using rsc::ArchiveWriter;
 using namespace rsc::api;
 
 extern "C" {
-
-int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status, int32_t threads) {
-    return for_all(n, contacts, force, status, threads,
-                   [&](int64_t k) { return rsc_contact_press(contacts[k], force[k], separation ? separation + k : nullptr); });
-}
-
-int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status, int32_t threads) {
-    return for_all(n, contacts, separation, status, threads,
-                   [&](int64_t k) { return rsc_contact_indent(contacts[k], separation[k], force ? force + k : nullptr); });
-}
 
 int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
     return guarded(2, [&] {
         require(contact, 1, "contact");
         require_path(path, 2);
-        require_keepable(*contact);
-        if (contact->contact.path_dependent()) refuse(1, "contact", "must be elastic: a contact that remembers its path cannot be kept");
-        ArchiveWriter writer;
-        put_making(writer, *contact);
-        writer(contact->level.has_value());
-        if (contact->level) {
-            visit(writer, std::as_const(*contact->level));
-            visit_known(writer, *contact);
-        }
-        write(path, "a contact", writer.bytes);
-        contact->contact.forget();
-        if (contact->level) (void)contact->contact.at_separation(contact->level->separation);
+        const rsc_contact::State now = contact->state();
+        Entries entries;
+        put_making(entries, *contact);
+        put_state(entries, "", now);
+        put_state(entries, "committed.", contact->committed);
+        write(path, kContact, entries);
+        contact->contact.forget();  // what a restored one cannot start from, this one shall not either
+        contact->recall(now.memory);
     });
 }
 
@@ -227,19 +248,11 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
         construct(contact, "contact", [&] {
             require(asperities, 2, "asperities");
             require_path(path, 3);
-            const std::string bytes = read(path, "a contact");
-            ArchiveReader reader = reader_of(bytes);
-            const Making making = get_making(reader, *asperities);
-            auto made = making.contact(*asperities);
-            bool has_level = false;
-            reader(has_level);
-            if (has_level) {
-                rsc::Level level;
-                visit(reader, level);
-                visit_known(reader, *made);
-                (void)made->contact.at_separation(level.separation);
-                made->level = std::move(level);
-            }
+            const Entries entries = read(path, kContact);
+            auto made = get_making(entries, *asperities);
+            made->go_back(get_state(entries, "", *made));
+            if (!made->recalled) made->recall();
+            made->committed = get_state(entries, "committed.", *made);
             return made.release();
         });
     });
@@ -249,13 +262,13 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
     return guarded(2, [&] {
         require(friction, 1, "friction");
         require_path(path, 2);
-        require_keepable(friction->outer);
-        ArchiveWriter writer;
-        put_making(writer, friction->outer);
-        writer(friction->history.friction());
-        visit_state(writer, friction->history.state());
-        visit_state(writer, friction->history.committed());
-        write(path, "a contact with friction", writer.bytes);
+        Entries entries;
+        put_making(entries, friction->outer);
+        entries.numbers["friction"] = {friction->history.friction().coefficient, friction->history.friction().ratio};
+        put_path(entries, "path", friction->history.state());
+        put_path(entries, "committed", friction->history.committed());
+        entries.numbers["committed_tip"] = {friction->committed_tip.x, friction->committed_tip.y};
+        write(path, kFriction, entries);
         friction->outer.contact.forget();
         friction->inner.contact.forget();
         friction->curve.forget();
@@ -267,16 +280,14 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         construct(friction, "friction", [&] {
             require(asperities, 2, "asperities");
             require_path(path, 3);
-            const std::string bytes = read(path, "a contact with friction");
-            ArchiveReader reader = reader_of(bytes);
-            const Making making = get_making(reader, *asperities);
-            rsc::Friction with;
-            rsc::FrictionHistory::State now, committed;
-            reader(with);
-            visit_state(reader, now);
-            visit_state(reader, committed);
-            auto made = std::make_unique<rsc_friction>(*making.contact(*asperities), with);
-            made->history.restore(now, committed);
+            const Entries entries = read(path, kFriction);
+            const Numbers& with = entries.of("friction");
+            if (with.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
+            auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities), rsc::Friction{with[0], with[1]});
+            const Numbers& tip = entries.of("committed_tip");
+            if (tip.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
+            made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
+            made->committed_tip = {tip[0], tip[1]};
             return made.release();
         });
     });

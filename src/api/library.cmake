@@ -33,8 +33,12 @@ install(FILES ${PROJECT_BINARY_DIR}/rsc.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/ma
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/output/plot ${PROJECT_SOURCE_DIR}/output/export DESTINATION ${CMAKE_INSTALL_DATADIR}/rsc
         FILES_MATCHING PATTERN *.py)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/input ${PROJECT_SOURCE_DIR}/modules/example DESTINATION ${CMAKE_INSTALL_DOCDIR}
-        FILES_MATCHING PATTERN *.nml PATTERN *.f90 PATTERN *.f PATTERN *.c)
-install(FILES ${PROJECT_SOURCE_DIR}/README ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        FILES_MATCHING PATTERN README PATTERN *.nml PATTERN *.sh PATTERN *.py PATTERN *.gwy PATTERN *.sdf PATTERN *.txt PATTERN *.nc
+        PATTERN *.f90 PATTERN *.f PATTERN *.c)
+install(FILES ${PROJECT_SOURCE_DIR}/README ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG DESTINATION ${CMAKE_INSTALL_DOCDIR})
+foreach(room modules output src)
+  install(FILES ${PROJECT_SOURCE_DIR}/${room}/README DESTINATION ${CMAKE_INSTALL_DOCDIR}/${room})
+endforeach()
 install(TARGETS rsc_shared EXPORT rscTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS rsc_static EXPORT rscStaticTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -95,7 +99,7 @@ foreach(library ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
     list(APPEND rsc_private_libraries "${library}")
   endif()
 endforeach()
-list(APPEND rsc_private_libraries -ludunits2 ${OpenMP_CXX_FLAGS} -lstdc++ -lm)
+list(APPEND rsc_private_libraries -lfftw3_threads -lfftw3f_threads -ludunits2 ${OpenMP_CXX_FLAGS} -lstdc++ -lm)
 list(REMOVE_DUPLICATES rsc_private_libraries)
 list(JOIN rsc_private_libraries " " rsc_private_libraries)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/rsc.pc.in ${PROJECT_BINARY_DIR}/rsc.pc @ONLY)

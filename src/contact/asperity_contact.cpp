@@ -334,6 +334,48 @@ std::vector<double> AsperityContact::residual_depths() const {
     return depths;
 }
 
+// Pairs: an asperity that yielded, how deep.
+std::vector<double> AsperityContact::memory() const {
+    std::vector<double> pairs;
+    for (std::size_t i = 0; path_dependent() && i < impl_->asperities.size(); ++i)
+        if (const double deepest = impl_->law->deepest(static_cast<int>(i)); deepest > 0)
+            pairs.insert(pairs.end(), {static_cast<double>(i), deepest});
+    return pairs;
+}
+
+void AsperityContact::recall(const std::vector<double>& memory, const Level* level) {
+    Impl& my = *impl_;
+    std::vector<int> yielded;
+    Vector deepest;
+    for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
+        if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
+            throw Error(Failure::bad_input, "this is no memory of these asperities");
+        yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
+    }
+    my.law->forget();
+    my.law->prepare(yielded);
+    my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
+    my.earlier = {};
+    my.candidates = {};
+    my.solution.clear();
+    if (!level) return;
+    const double Z0 = level->separation - shift() * level->force;  // as solve() counts
+    if (!my.follows()) return (void)solve(Z0);
+    my.select(Z0);
+    Vector start(at(my.candidates.size()), -1e300);  // no contact
+    const auto& known = level->asperity;
+    for (std::size_t k = 0; k < start.size(); ++k) {
+        const auto found = std::lower_bound(known.begin(), known.end(), my.candidates.set.asperity[k]);
+        if (found != known.end() && *found == my.candidates.set.asperity[k])
+            start[k] = level->u[at(static_cast<int>(found - known.begin()))];
+    }
+    my.solution.clear();
+    if (start.empty()) return;
+    my.solve_from(start, false);
+    my.solved = {Z0, level->status != LevelStatus::not_unique};
+    my.earlier.remember(Z0, my.candidates, my.solution.v, my.solved.unique);
+}
+
 void AsperityContact::forget_levels() {
     const Impl& my = *impl_;
     if (my.of_difference && !my.law->path_dependent() && (my.indenter.x0 != my.found_x || my.indenter.y0 != my.found_y)) {

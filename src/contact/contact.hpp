@@ -48,6 +48,12 @@ public:
 
     // Whether a level depends on those before it. Energy is then what would come back, and stiffness that of unloading.
     virtual bool path_dependent() const { return false; }
+    // All that accepted levels leave behind, as numbers that only a contact made alike understands; empty where nothing stays.
+    virtual std::vector<double> memory() const { return {}; }
+    // Goes back to such a memory and to the last level that was accepted before it was taken; null: there was none. energy() and stiffness()
+    // speak of that level, and later levels start from it. The tip is to be where it was.
+    virtual void recall(const std::vector<double>& memory, const Level* level) = 0;
+
     // How far each asperity stays pressed down without force [length]; empty where nothing does.
     virtual std::vector<double> residual_depths() const { return {}; }
     // Elements: the points that yielded, and how far each stays lowered.

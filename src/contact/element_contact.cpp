@@ -196,6 +196,26 @@ void ElementContact::accept(Level& level) {
 
 bool ElementContact::path_dependent() const { return std::isfinite(impl_->options.hardness.H0); }
 
+// Triples: column and row of a point that was pressed out, how far.
+std::vector<double> ElementContact::memory() const {
+    std::vector<double> triples;
+    for (const auto& [i, j, depth] : impl_->pressed.points()) triples.insert(triples.end(), {double(i), double(j), depth});
+    return triples;
+}
+
+void ElementContact::recall(const std::vector<double>& memory, const Level* level) {
+    Impl& my = *impl_;
+    my.pressed = pressed_out_of(my.heights, memory);
+    my.find_top();
+    forget_levels();
+    if (!level) return;
+    Impl::Past past{level->separation, {}, level->pixels.pressure};
+    for (const std::int32_t index : level->pixels.index) past.pixels.push_back({index % my.heights.nx, index / my.heights.nx});
+    my.past.push_front(std::move(past));
+    (void)solve(level->separation);
+    my.accepted = true;
+}
+
 ResidualProfile ElementContact::residual_profile() const {
     const Impl& my = *impl_;
     ResidualProfile profile{{}, {}, {}, my.heights.dx, my.heights.dy};

@@ -26,6 +26,8 @@ public:
     // W = p'Kp dx dy/2, evaluated as g0'p - p'Kp/2, which equals it at the solution.
     double energy() const override;
     bool path_dependent() const override;
+    std::vector<double> memory() const override;
+    void recall(const std::vector<double>& memory, const Level* level) override;
     ResidualProfile residual_profile() const override;
 
     void move_tip(double x0, double y0) override;

@@ -5,13 +5,15 @@
 
 #include "contact/contact.hpp"
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFarAbove = 100;  // times the force asked for
-constexpr int kPasses = 2;         // times that passing trials may lead to another solution than the answer; then answers alone lead
+constexpr double kUnresolved = 1e-6;  // a relative error of the force that rounding of the separation may have
+constexpr double kFarAbove = 100;     // times the force asked for
+constexpr int kPasses = 2;            // times that passing trials may lead to another solution than the answer; then answers alone lead
 
 }  // namespace
 
@@ -180,7 +182,12 @@ Level Contact::at_force(double N) {
             // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
             const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
             const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
-            if (std::abs(level.force - N) > resolved) level.status = LevelStatus::not_converged;
+            if (std::abs(level.force - N) > resolved)
+                level.status = LevelStatus::not_converged;
+            else if (std::abs(level.force / N - 1) > kUnresolved)  // a force grows with the depth to the power 3/2
+                throw Error(Failure::bad_input, format("a force of %.9g is less than the separation can tell: near %.9g its smallest steps "
+                                                       "allow %.9g or more",
+                                                       N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
             break;
         }
         Z0 = next;

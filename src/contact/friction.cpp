@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "error.hpp"
 
@@ -132,6 +133,34 @@ void FrictionHistory::go_to(LoadCurve& curve, double delta, Slide xi) {
     next.xi = xi;
     next.lost += next.step_lost;
     now_ = std::move(next);
+}
+
+void FrictionHistory::move(LoadCurve& curve, double share) {
+    State next = now_;
+    const double touch = curve.first_touch(), delta = next.delta, before = tangential_energy();
+    next.nodes.clear();
+    if (delta > touch && now_.nodes.empty()) next.nodes = {{touch, 0, 0, {}}, node_at(curve, delta, {})};
+    if (delta > touch && !now_.nodes.empty()) {
+        const double stretch = (delta - touch) / (delta - now_.nodes.front().approach);
+        for (std::size_t k = 0; k < now_.nodes.size(); ++k) {
+            const Node& node = now_.nodes[k];
+            const Slide u = (share * stretch) * node.deflection;
+            if (k == 0)
+                next.nodes.push_back({touch, 0, 0, u});
+            else
+                next.nodes.push_back(node_at(curve, delta - stretch * (delta - node.approach), u));
+        }
+        next.nodes.back().approach = delta;
+    }
+    State old = std::exchange(now_, std::move(next));
+    double after = tangential_energy();
+    if (after > before) {
+        const double less = std::sqrt(before / after);
+        for (Node& node : now_.nodes) node.deflection = less * node.deflection;
+        after = before;
+    }
+    now_.step_lost = before - after;
+    now_.lost = old.lost + now_.step_lost;
 }
 
 // One straight piece of path; delta is not below the node before the last.

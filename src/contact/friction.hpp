@@ -47,6 +47,10 @@ public:
     // before. If it throws, nothing has changed.
     void go_to(LoadCurve& curve, double delta, Slide xi);
 
+    // The sphere has moved to where its load curve is `curve`; the approach stays. Deflections are kept at the same share of the depth below the
+    // first touch, times the share of the force that asperities carry at both places. Their energy falls or stays; what it falls by is lost.
+    void move(LoadCurve& curve, double share);
+
     double approach() const { return now_.delta; }
     Slide slide() const { return now_.xi; }
     double force() const { return now_.nodes.empty() ? 0 : now_.nodes.back().load; }  // N

@@ -122,6 +122,28 @@ void PeriodicElementContact::accept(Level& level) {
 
 bool PeriodicElementContact::path_dependent() const { return std::isfinite(impl_->options.hardness.H0); }
 
+std::vector<double> PeriodicElementContact::memory() const {  // as of ElementContact
+    std::vector<double> triples;
+    for (const auto& [i, j, depth] : impl_->pressed.points()) triples.insert(triples.end(), {double(i), double(j), depth});
+    return triples;
+}
+
+void PeriodicElementContact::recall(const std::vector<double>& memory, const Level* level) {
+    Impl& my = *impl_;
+    const std::vector<PressedOut::Point> before = my.pressed.points();
+    my.pressed = pressed_out_of(my.heights, memory);
+    if (my.indenter.shape->flat()) {
+        for (const auto& [i, j, depth] : before) my.own.row(j)[i] = my.surface(i, j);
+        for (const auto& [i, j, depth] : my.pressed.points()) my.own.row(j)[i] = my.surface(i, j) - depth;
+        if (my.own.data) my.solver.heights_changed();
+    }
+    my.place_indenter();
+    my.touches = false;
+    if (!level) return;
+    (void)solve(level->separation);
+    my.accepted = true;
+}
+
 ResidualProfile PeriodicElementContact::residual_profile() const {
     const Impl& my = *impl_;
     ResidualProfile profile{{}, {}, {}, my.heights.dx, my.heights.dy};

@@ -24,6 +24,8 @@ public:
     double first_touch() const override;
     const Indenter& indenter() const override;
     bool path_dependent() const override;  // with a hardness, as in element_contact.hpp
+    std::vector<double> memory() const override;
+    void recall(const std::vector<double>& memory, const Level* level) override;
     ResidualProfile residual_profile() const override;
 
 protected:

@@ -1,5 +1,7 @@
 #include "contact/pressed_out.hpp"
 
+#include "error.hpp"
+
 namespace rsc {
 
 PressedOut::PressedOut(int nx, int ny) : nx_(nx), ny_(ny), across_(static_cast<std::size_t>((nx + kSide - 1) / kSide)) {
@@ -23,6 +25,17 @@ std::vector<PressedOut::Point> PressedOut::points() const {
                 if (const double depth = (*this)(k, j); depth > 0) points.push_back({k, j, depth});
         }
     return points;
+}
+
+PressedOut pressed_out_of(const HeightMap& map, const std::vector<double>& triples) {
+    PressedOut pressed(map.nx, map.ny);
+    for (std::size_t k = 0; k + 2 < triples.size(); k += 3) {
+        if (!(triples[k] >= 0 && triples[k] < map.nx && triples[k + 1] >= 0 && triples[k + 1] < map.ny && triples[k + 2] > 0 &&
+              triples[k + 2] < 1e50))
+            throw Error(Failure::bad_input, "this is no memory of this surface");
+        pressed.add(static_cast<int>(triples[k]), static_cast<int>(triples[k + 1]), triples[k + 2]);
+    }
+    return pressed;
 }
 
 }  // namespace rsc

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "rough/surface.hpp"
+
 namespace rsc {
 
 // Depths [length] of a map of nx x ny points, kept in squares where there are some: few points of a rough surface ever yield.
@@ -39,5 +41,8 @@ private:
     std::vector<std::unique_ptr<double[]>> squares_;
     double sum_ = 0;
 };
+
+// From triples: column, row, depth. Throws Error(bad_input) where they do not lie on the map.
+PressedOut pressed_out_of(const HeightMap& map, const std::vector<double>& triples);
 
 }  // namespace rsc

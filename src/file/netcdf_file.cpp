@@ -1,6 +1,5 @@
 #include "file/netcdf_file.hpp"
 
-#include <fcntl.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 #include <unistd.h>
@@ -8,14 +7,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <span>
 #include <system_error>
 
 #include "error.hpp"
-#include "read/netcdf_library.hpp"
+#include "file/output_path.hpp"
+#include "file/whole_file.hpp"
+#include "read/checksum.hpp"
+#include "rough/library_lock.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -26,31 +27,11 @@ fs::path folder_of(const std::string& path) {
     return parent.empty() ? fs::path(".") : parent;
 }
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
-
-[[noreturn]] void fail(const std::string& path, const std::string& why, const std::string& remedy) {
-    throw Error(Failure::file_system, "cannot write '" + path + "': " + why + "; " + remedy);
-}
-
-// An error of the system, with what to do about it.
-[[noreturn]] void fail_system(const std::string& path, int error) {
-    const std::string folder = folder_of(path).string();
-    if (error == ENOSPC)
-        fail(path, "the disk that holds folder '" + folder + "' is full",
-             "make room there or let &output file name another disk, and run again");
-    if (error == EDQUOT)
-        fail(path, "the disk quota for folder '" + folder + "' is used up",
-             "make room there or let &output file name another disk, and run again");
-    if (error == EFBIG)
-        fail(path, "the file grows beyond the limit of file sizes (see ulimit -f)",
-             "raise the limit, or write less (&output contacts, heights)");
-    fail(path, reason(error), "see whether folder '" + folder + "' can be written to");
-}
-
 void check(int status, const std::string& path) {
     if (status == NC_NOERR) return;
     if (status == NC_EVARSIZE || status == NC_EDIMSIZE)
-        fail(path, "a variable is too large for &output format='classic'", "use format='netcdf4' or 'cdf5'");
+        throw Error(Failure::file_system,
+                    "cannot write '" + path + "': a variable is too large for &output format='classic'; use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
         throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
     // The file is put together in memory: when NetCDF or HDF5 fail there, memory is the likely reason, whatever error they report.
@@ -59,75 +40,47 @@ void check(int status, const std::string& path) {
                     "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
 }
 
-// The work in progress beside the file: removed unless it became the file.
-class Part {
-public:
-    explicit Part(const std::string& path) : path_(path), name_(path + ".part-" + std::to_string(::getpid())) {
-        fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        if (fd_ < 0) fail_system(path_, errno);
-    }
-    Part(const Part&) = delete;
-    Part& operator=(const Part&) = delete;
-    ~Part() {
-        if (fd_ >= 0) ::close(fd_);
-        std::error_code ignored;
-        if (!renamed_) fs::remove(name_, ignored);
-    }
-    const std::string& name() const { return name_; }
-    void write(std::span<const char> bytes) {
-        constexpr std::size_t most = std::size_t{1} << 30;  // one call writes less than 2 GiB
-        while (!bytes.empty()) {
-            const ssize_t n = ::write(fd_, bytes.data(), std::min(bytes.size(), most));
-            if (n < 0 && errno == EINTR) continue;
-            if (n < 0) fail_system(path_, errno);
-            bytes = bytes.subspan(static_cast<std::size_t>(n));
+// The bytes of a netCDF-4 file without contents. One born in memory forgets the order in which its variables are defined; one born on the
+// disk and taken into memory keeps it. HDF5 crashes on a disk that is full: the file is shown to have room before HDF5 gets it.
+std::vector<char> make_empty(const std::string& path, int mode) {
+    std::error_code none;
+    int error = 0;
+    for (const fs::path& folder : {fs::temp_directory_path(none), folder_of(path)}) {
+        std::string name = (folder / "rsc-empty-XXXXXX").string();
+        const int fd = ::mkstemp(name.data());
+        if (fd < 0) {
+            error = errno;
+            continue;
         }
+        std::vector<char> bytes(1 << 16);
+        int status = NC_NOERR, ncid = -1;
+        const bool room = ::write(fd, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()) && ::ftruncate(fd, 0) == 0;
+        error = room ? 0 : errno;
+        if (room) {
+            status = nc_create(name.c_str(), mode, &ncid);
+            if (status == NC_NOERR) status = nc_close(ncid);
+            bytes.resize(static_cast<std::size_t>(std::max<off_t>(::lseek(fd, 0, SEEK_END), 0)));
+            if (::pread(fd, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) error = errno != 0 ? errno : EIO;
+        }
+        ::close(fd);
+        ::unlink(name.c_str());
+        check(status, path);
+        if (error == 0) return bytes;
     }
-    std::vector<char> read() {
-        std::vector<char> bytes(static_cast<std::size_t>(std::max<off_t>(::lseek(fd_, 0, SEEK_END), 0)));
-        const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), 0);
-        if (n < 0 || static_cast<std::size_t>(n) != bytes.size()) fail_system(path_, n < 0 ? errno : EIO);
-        return bytes;
-    }
-    void clear() {
-        if (::ftruncate(fd_, 0) != 0 || ::lseek(fd_, 0, SEEK_SET) != 0) fail_system(path_, errno);
-    }
-    // Makes sure that the bytes are on the disk, and only then gives the file its name.
-    void finish() {
-        if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOSYS) fail_system(path_, errno);  // some file systems lack it
-        if (::close(std::exchange(fd_, -1)) != 0) fail_system(path_, errno);                     // network disks report a full disk here
-        if (std::rename(name_.c_str(), path_.c_str()) != 0) fail_system(path_, errno);
-        renamed_ = true;
-        const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (folder < 0) return;  // the name may then reach the disk a little later
-        ::fsync(folder);
-        ::close(folder);
-    }
-
-private:
-    std::string path_, name_;
-    int fd_ = -1;
-    bool renamed_ = false;
-};
+    fail_to_write(path, error);
+}
 
 // A file put together in memory. HDF5 cannot be trusted with a disk that fills up: closing a file that could not be written
 // crashes it (1.10), and the reason of the failure is lost. The bytes go to the disk by plain system calls instead, whose
 // errors are reported.
 class MemoryFile {
 public:
-    MemoryFile(const std::string& path, Part& part, int mode) : path_(path) {
+    MemoryFile(const std::string& path, int mode) : path_(path) {
         if ((mode & NC_NETCDF4) == 0) {
             check(nc_create_mem(path.c_str(), mode, 1 << 16, &ncid_), path);
             return;
         }
-        // A netCDF-4 file born in memory forgets the order in which its variables are defined; one born empty on the disk and
-        // taken into memory keeps it. The disk is known to have room for that little: it just held more.
-        part.write(std::vector<char>(1 << 16));
-        part.clear();
-        check(nc_create(part.name().c_str(), mode, &ncid_), path);
-        check(nc_close(std::exchange(ncid_, -1)), path);
-        const std::vector<char> empty = part.read();
-        part.clear();
+        static const std::vector<char> empty = make_empty(path, mode);
         image_.size = empty.size();
         image_.memory = std::malloc(empty.size());  // NetCDF reallocates it as the file grows
         if (image_.memory == nullptr) throw Error(Failure::no_memory, "no memory to put '" + path + "' together");
@@ -318,12 +271,14 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression, const 
 }
 
 void NetcdfFile::write(const std::string& path, Format format, int compression) const {
-    const std::lock_guard lock(netcdf_mutex());
+    const std::lock_guard lock(library_lock());
     std::error_code error;
     const fs::path folder = folder_of(path);
     fs::create_directories(folder, error);
-    if (error) fail(path, "folder '" + folder.string() + "' cannot be made: " + error.message(), "let &output file name another folder");
-    if (fs::is_directory(path, error)) fail(path, "it is a folder", "let &output file name a file in it");
+    if (error)
+        throw Error(Failure::file_system,
+                    "cannot write '" + path + "': folder '" + folder.string() + "' cannot be made: " + error.message());
+    WholeFile file(path, kResultFile);
 
     double bytes = 0;
     for (const NetcdfVariable& v : variables_) {
@@ -336,11 +291,12 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     if (format == Format::cdf5) mode = NC_CLOBBER | NC_64BIT_DATA;
     if (format == Format::classic) mode = bytes < 1.9e9 ? NC_CLOBBER : NC_CLOBBER | NC_64BIT_OFFSET;  // offsets of 32 bits reach 2 GiB
 
-    Part part(path);
-    MemoryFile memory(path, part, mode);
+    MemoryFile memory(path, mode);
     define_and_put(memory.id(), format, compression, path);
-    part.write(memory.close());
-    part.finish();
+    const std::span<const char> image = memory.close();
+    file.write(image);
+    file.write(checksum_line(image.data(), image.size()));
+    file.finish();
 }
 
 }  // namespace rsc

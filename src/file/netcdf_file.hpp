@@ -39,8 +39,8 @@ public:
     void attribute(const std::string& name, NetcdfAttribute value);
     void variable(NetcdfVariable variable);
 
-    // Writes everything to `path`.part-<process id>, brings it to the disk and renames it to `path`; missing folders are made.
-    // Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system), saying what to do, and leaves nothing
+    // Writes everything to `path`, whole or not at all (whole_file.hpp); missing folders are made. A file that is there is replaced only if
+    // it is a result or a manifest of rsc. Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system), saying what to do, and leaves nothing
     // behind; Error(internal) for an infinite value or an unexpected NaN.
     void write(const std::string& path, Format format, int compression) const;
 

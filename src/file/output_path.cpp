@@ -13,7 +13,8 @@
 
 #include "error.hpp"
 #include "file/netcdf_file.hpp"
-#include "read/netcdf_library.hpp"
+#include "read/checksum.hpp"
+#include "rough/library_lock.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -51,11 +52,12 @@ void require_memory(const std::string& path) {
 bool ResultHead::this_version() const { return source.starts_with("rsc " RSC_VERSION ","); }
 
 std::optional<ResultHead> head_of_result(const std::string& path) {
-    const std::lock_guard lock(netcdf_mutex());
+    const std::lock_guard lock(library_lock());
     std::error_code error;
     int file = -1;
     if (!fs::is_regular_file(path, error) || !begins_as_netcdf(path)) return std::nullopt;
     require_memory(path);
+    require_sound(path);
     if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {
         constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: a damaged file may announce anything
@@ -78,14 +80,16 @@ std::optional<std::string> case_in_result(const std::string& path) {
     return head ? std::optional(std::move(head->case_text)) : std::nullopt;
 }
 
+const FileKind kResultFile{"result", [](const std::string& path) { return head_of_result(path).has_value(); }};
+
 bool check_output(const std::string& path, const std::vector<std::string>& inputs) {
     const auto refuse = [&path](const std::string& why) { throw Error(Failure::bad_input, "&output file='" + path + "': " + why); };
     if (path.empty()) refuse("a file name is expected");
-    std::error_code error;
-    if (fs::is_directory(path, error))
-        refuse("this is a folder; name a file in it, such as '" + (fs::path(path) / "rsc.nc").string() + "'");
     if (path.back() == '/') refuse("a file name is expected after the last '/'");
-    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("something that is not a plain file has this name");
+    // NetCDF takes such names for data sets on the net or for folders of the zarr format.
+    if (path.find("://") != std::string::npos || path.starts_with("http:") || path.find("#mode=") != std::string::npos)
+        refuse("this is an address, not the name of a file; rsc writes to plain files alone");
+    std::error_code error;
     const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? fs::path(".") : parent,
                    ancestor = existing_ancestor(folder);
     if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
@@ -96,9 +100,8 @@ bool check_output(const std::string& path, const std::vector<std::string>& input
     for (const std::string& input : inputs)
         if (fs::is_regular_file(input, error) && fs::equivalent(input, path, error))
             refuse("this is an input of the run ('" + input + "'), which the result would overwrite; name another file");
-    if (!fs::exists(path, error)) return false;
-    if (!case_in_result(path)) refuse("this file exists and is no result of rsc; it is left alone: name another, or remove it first");
-    return true;
+    if (const std::string why = reason_to_leave(path, kResultFile); !why.empty()) refuse(why);
+    return fs::exists(path, error);
 }
 
 }  // namespace rsc

@@ -9,6 +9,7 @@
 
 #include "case/units.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "read/bytes.hpp"
 #include "read/grid.hpp"
 
@@ -16,13 +17,6 @@ namespace rsc {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
-
-std::string printable(std::string_view text) {
-    std::string shown(text.substr(0, 60));
-    for (char& c : shown)
-        if (static_cast<unsigned char>(c) < 32) c = '?';
-    return shown;
-}
 
 // A name and its value: where the bytes of the value are, and what they are.
 struct Component {

@@ -11,8 +11,10 @@
 #include <fstream>
 
 #include "error.hpp"
+#include "format.hpp"
+#include "read/checksum.hpp"
 #include "read/input_classic.hpp"
-#include "read/netcdf_library.hpp"
+#include "rough/library_lock.hpp"
 
 // NetCDF asks for attributes that may not be there, and HDF5 tells each refusal on stderr; NetCDF silences it in the first thread alone.
 extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));
@@ -47,6 +49,8 @@ std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
 bool is_netcdf(const std::string& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse(path + ": is a directory, not a file");
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+        refuse(path + ": is a device or a FIFO; a plain file was expected");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) refuse(path + ": " + (errno != 0 ? std::strerror(errno) : "cannot be opened"));
@@ -65,8 +69,9 @@ bool is_netcdf(const std::string& path) {
     return false;
 }
 
-NetcdfInput::NetcdfInput(const std::string& path) : alone_(netcdf_mutex()), path_(path) {
+NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
     if (H5Eset_auto2) H5Eset_auto2(0, nullptr, nullptr);
+    require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
     if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it whole? (" + nc_strerror(status) + ")");
@@ -94,14 +99,14 @@ std::vector<NetcdfInput::Variable> NetcdfInput::variables() const {
         char name[NC_MAX_NAME + 1] = {};
         int rank = 0;
         must(nc_inq_var(id_, id, name, &v.type, &rank, nullptr, nullptr), "variable " + std::to_string(id));
-        v.name = name;
+        v.name = printable(name, NC_MAX_NAME);
         v.dimensions.resize(static_cast<std::size_t>(rank));
         must(nc_inq_vardimid(id_, id, v.dimensions.data()), "the dimensions of " + v.name);
         for (const int d : v.dimensions) {
             std::size_t length = 0;
             must(nc_inq_dim(id_, d, name, &length), "a dimension of " + v.name);
             v.lengths.push_back(length);
-            v.axes.emplace_back(name);
+            v.axes.push_back(printable(name, NC_MAX_NAME));
         }
         all.push_back(std::move(v));
     }
@@ -140,9 +145,9 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
         if (value) text = value;
         nc_free_string(1, &value);
     } else {
-        return std::nullopt;
+        refuse(path_ + ": attribute " + v.name + ":" + name + " is no text");
     }
-    return text.substr(0, text.find('\0'));
+    return printable(text.substr(0, text.find('\0')), text.size());
 }
 
 void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {

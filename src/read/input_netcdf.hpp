@@ -1,4 +1,4 @@
-// A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds netcdf_mutex(): the library
+// A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds library_lock(): the library
 // is not made for several threads.
 #pragma once
 
@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "rough/library_lock.hpp"
+
 namespace rsc {
 
 class NetcdfInput {
 public:
-    // Throws Error(bad_input) if it cannot be opened or ends before its data do.
+    // Throws Error(bad_input) if it cannot be opened, ends before its data do, or its checksum (checksum.hpp) does not hold.
     explicit NetcdfInput(const std::string& path);
     ~NetcdfInput();
     NetcdfInput(const NetcdfInput&) = delete;
@@ -36,6 +38,7 @@ public:
     // first that is missing or not finite, by its indices counted from 0; with `missing` these are NaN, but infinity is refused.
     void read(const Variable& variable, double* out, bool missing = false) const;
 
+    // None where there is none; throws Error(bad_input) for one that is no text. Control characters are replaced.
     std::optional<std::string> text_attribute(const Variable& variable, const char* name) const;
     const std::string& path() const { return path_; }
 
@@ -43,7 +46,7 @@ private:
     void must(int status, const std::string& what) const;
     std::optional<std::vector<double>> numbers_attribute(const Variable& variable, const char* name) const;
 
-    std::unique_lock<std::mutex> alone_;
+    std::unique_lock<LibraryLock> alone_;
     std::string path_;
     int id_ = -1;
 };

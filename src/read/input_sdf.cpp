@@ -9,6 +9,7 @@
 
 #include "case/units.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "read/bytes.hpp"
 #include "read/grid.hpp"
 
@@ -30,8 +31,7 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
     const auto positive = [&](const char* name, double value) {
         if (!(value > 0 && std::isfinite(value))) refuse(path + ": " + name + " = " + text_of(value) + ": must be positive");
     };
-    positive("Xscale", h.dx), positive("Yscale", h.dy);
-    if (!(h.scale != 0 && std::isfinite(h.scale))) refuse(path + ": Zscale = " + text_of(h.scale) + ": must be finite and not 0");
+    positive("Xscale", h.dx), positive("Yscale", h.dy), positive("Zscale", h.scale);
     if (h.compression != 0) refuse(path + ": Compression = " + std::to_string(h.compression) + ": only 0 (none) is known");
     if (h.check != 0) refuse(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
     const double metre = length_factor("m", length_unit);
@@ -93,6 +93,11 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
         case 6: take_values<std::int32_t>(in, map, factor); break;
         default: take_values<double>(in, map, factor); break;
     }
+    // A trailer of text may follow; more than that are heights that the header does not know.
+    constexpr std::size_t longest = std::size_t{1} << 16;
+    if (in.left() > longest)
+        in.refuse(std::to_string(in.left()) + " bytes follow the last of " + std::to_string(h.nx) + " x " + std::to_string(h.ny) +
+                  " heights; are NumPoints and NumProfiles right?");
     return map;
 }
 
@@ -138,12 +143,7 @@ std::string lower(std::string_view text) {
     return s;
 }
 
-std::string shown(std::string_view word) {
-    std::string s(word.substr(0, 40));
-    for (char& c : s)
-        if (static_cast<unsigned char>(c) < 32) c = '?';
-    return "'" + s + (word.size() > 40 ? "...'" : "'");
-}
+std::string shown(std::string_view word) { return "'" + printable(word, 40) + (word.size() > 40 ? "...'" : "'"); }
 
 template <class T>
 bool to_number(std::string_view word, T& value) {

@@ -5,6 +5,8 @@
 #include <exception>
 #include <functional>
 
+#include "rough/omp_team.hpp"
+#include "rough/stopping.hpp"
 #include "rough/subgrid.hpp"
 #include "rough/summits.hpp"
 #include "rough/synthesis.hpp"
@@ -55,10 +57,12 @@ Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic,
 // Runs part(t, first, last) on each of `threads` shares of the rows 0 ... rows - 1; an exception of one comes out of here.
 void share_rows(int rows, int threads, const std::function<void(int, int, int)>& part) {
     std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(threads));
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    Watch* const watch = Watch::here();
+#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / threads); };
         try {
+            const Watch::Shared shared(watch);
             if (bound(t) < bound(t + 1)) part(t, bound(t), bound(t + 1));
         } catch (...) {
             thrown[static_cast<std::size_t>(t)] = std::current_exception();
@@ -80,6 +84,7 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
     int held = 0;               // rows in the window, of which the first is row next - held
     int next = first - margin;  // the row to make next
     while (next <= last - 1 + margin) {
+        stopping_point();
         const int made = std::min(rows_held - held, last + margin - next);
         source.rows(next, made, window.get() + held * stride, stride, scratch);
         next += made;

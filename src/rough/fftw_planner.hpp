@@ -1,5 +1,5 @@
-// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds this
-// lock. Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
+// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds
+// library_lock(). Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
 #pragma once
 
 #include <fftw3.h>
@@ -10,18 +10,15 @@
 #include <new>
 #include <type_traits>
 
-namespace rsc {
+#include "rough/library_lock.hpp"
 
-inline std::mutex& fftw_planner_mutex() {
-    static std::mutex mutex;
-    return mutex;
-}
+namespace rsc {
 
 // To be held while plans are made. FFTW ends the program where it is refused memory: some of it is asked for here first. Throws
 // std::bad_alloc.
-inline std::unique_lock<std::mutex> fftw_planning() {
+inline std::unique_lock<LibraryLock> fftw_planning() {
     constexpr std::size_t most = std::size_t{8} << 20;  // tables of the longest transforms included
-    std::unique_lock lock(fftw_planner_mutex());
+    std::unique_lock lock(library_lock());
     void* const probe = std::malloc(most);
     if (!probe) throw std::bad_alloc();
     std::free(probe);
@@ -30,7 +27,7 @@ inline std::unique_lock<std::mutex> fftw_planning() {
 
 struct FftwPlanDestroyer {
     void operator()(fftw_plan plan) const noexcept {
-        const std::lock_guard lock(fftw_planner_mutex());
+        const std::lock_guard lock(library_lock());
         fftw_destroy_plan(plan);
     }
 };
@@ -41,7 +38,7 @@ using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwPlanDestr
 // The same in single precision.
 struct FftwfPlanDestroyer {
     void operator()(fftwf_plan plan) const noexcept {
-        const std::lock_guard lock(fftw_planner_mutex());
+        const std::lock_guard lock(library_lock());
         fftwf_destroy_plan(plan);
     }
 };

@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "rough/modes.hpp"
+#include "rough/omp_team.hpp"
 #include "rough/reshape.hpp"
 
 namespace rsc {
@@ -62,7 +63,7 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
         block.emplace_back(allocate_doubles(static_cast<std::size_t>(kBlock * stride), "rows of a synthetic surface"));
     }
     const int blocks = (n_ + kBlock - 1) / kBlock;
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
+#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         double* const rows = block[static_cast<std::size_t>(t)].get();
         for (int b = t; b < blocks; b += threads) {
@@ -96,7 +97,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     const Band limits = band(spectrum);
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
     // Thread t takes the columns t, t + threads, ...: the low ones hold more modes than the high ones.
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
+#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
         for (int kx = t; kx < columns_; kx += threads) {
@@ -108,7 +109,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     HeightShape shape;
     if (!spectrum.gaussian()) {
         shape = reshape_heights(spectrum, store, column_stride_, n_);
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
+#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
         for (int t = 0; t < threads; ++t) {
             auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
             for (int kx = t; kx < columns_; kx += threads) {
@@ -178,7 +179,7 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
     map.periodic = true;
     std::vector<RowSource::Scratch> scratch;
     for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
+#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / threads); };
         const int first = bound(t), last = bound(t + 1);

@@ -93,15 +93,6 @@ private:
     Checkpoint& checkpoint_;
 };
 
-// Removes what an interrupted writer of the result left. The checkpoint's lock makes sure that no process is writing it now.
-void remove_parts(const std::string& file) {
-    std::error_code error;
-    const fs::path folder = fs::path(file).parent_path(), name = fs::path(file).filename();
-    const std::string start = name.string() + ".part-";
-    for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error))
-        if (entry.path().filename().string().starts_with(start)) fs::remove(entry.path(), error);
-}
-
 std::string how_far(const Progressing& state, const Case& settings) {
     return std::to_string(state.finished()) + " of " + std::to_string(settings.run.realizations) +
            " realizations are finished and kept in '" + checkpoint_name(settings.output.file) + "'";
@@ -119,7 +110,6 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     if (const fs::path folder = fs::path(file).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
 
     Checkpoint checkpoint(file, settings, options.resume);
-    remove_parts(file);
     Progressing state(*job, checkpoint, team.workers(), [&]() -> std::optional<Accumulators> {
         return options.resume && replaces ? earlier_sums(*job, options.messages) : std::nullopt;
     });
@@ -131,6 +121,10 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal);
     if (table) print_campaign_heading(*table, *job, team.workers(), already);
     const std::size_t batch = std::max<std::size_t>(1, total / 20);
+    if (options.report)
+        team.meanwhile = [&] {
+            if (options.report(static_cast<double>(state.finished()), static_cast<double>(total))) throw Interrupted(0, "stopped");
+        };
     try {
         ProgressLine line(show ? options.messages : nullptr, terminal, "realizations", static_cast<double>(already));
         team.run(

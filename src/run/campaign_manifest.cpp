@@ -1,12 +1,6 @@
 #include "run/campaign_manifest.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -92,22 +86,9 @@ void add_axis(NetcdfFile& file, const std::string& axis, const std::vector<Membe
     file.variable({name, {"member", length}, "", key.meaning, values, attributes, false});
 }
 
-void write_text(const std::string& path, const std::string& text) {
-    const std::string part = path + ".part-" + std::to_string(::getpid());
-    const auto fail = [&](int error) {
-        std::error_code ignored;
-        fs::remove(part, ignored);
-        throw Error(Failure::file_system, "cannot write '" + path + "': " + std::error_code(error, std::generic_category()).message());
-    };
-    std::FILE* const out = std::fopen(part.c_str(), "we");
-    if (!out) fail(errno);
-    const bool whole = std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0 && ::fsync(fileno(out)) == 0;
-    const int error = errno;
-    if (std::fclose(out) != 0 || !whole) fail(whole ? errno : error);
-    if (std::rename(part.c_str(), path.c_str()) != 0) fail(errno);
-}
-
 constexpr const char* kTextStart = "# member\tfile";
+const FileKind kTextManifest{"manifest", [](const std::string& path) { return begins_with(path, kTextStart); }};
+const FileKind kManifest{"manifest", kResultFile.is_one};
 
 // Beside the NetCDF manifest.
 std::string text_manifest_file(const std::string& manifest) { return fs::path(manifest).replace_extension(".txt").string(); }
@@ -140,19 +121,15 @@ std::string manifest_file(const std::string& output_file) {
 
 void check_manifest(const std::string& output_file, const std::vector<std::string>& inputs) {
     const std::string path = manifest_file(output_file), text_path = text_manifest_file(path);
-    const auto refuse = [](const std::string& name, const char* why) {
-        throw Error(Failure::bad_input,
-                    "the manifest of the study, '" + name + "': " + why + "; it is left alone: let &output file have another name");
+    const auto refuse = [](const std::string& name, const std::string& why) {
+        throw Error(Failure::bad_input, "the manifest of the study, '" + name + "': " + why + " (let &output file have another name)");
     };
     std::error_code error;
     for (const std::string& input : inputs)
         for (const std::string& name : {path, text_path})
             if (fs::is_regular_file(input, error) && fs::equivalent(input, name, error)) refuse(name, "this is an input of the run");
-    if (fs::exists(path, error) && !case_in_result(path)) refuse(path, "this file exists and is no manifest of rsc");
-    std::string start(std::strlen(kTextStart), '\0');
-    if (std::ifstream in(text_path, std::ios::binary);
-        in && (!in.read(start.data(), static_cast<std::streamsize>(start.size())) || start != kTextStart))
-        refuse(text_path, "this file exists and is no manifest of rsc");
+    if (const std::string why = reason_to_leave(path, kManifest); !why.empty()) refuse(path, why);
+    if (const std::string why = reason_to_leave(text_path, kTextManifest); !why.empty()) refuse(text_path, why);
 }
 
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command) {
@@ -182,7 +159,7 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
     file.variable({"file", {"member", "file_length"}, "", "result file of the member", names, {}, false});
     for (std::size_t k = 0; k < members.front().values.size(); ++k) add_axis(file, members.front().values[k].first, members, k);
     file.write(path, read.settings.output.format, read.settings.output.compression);
-    if (!holds(text_path, text)) write_text(text_path, text);
+    if (!holds(text_path, text)) write_whole(text_path, kTextManifest, text);
 }
 
 std::string member_name(const Member& member) {

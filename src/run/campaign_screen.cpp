@@ -68,7 +68,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
 RunSummary campaign_summary(const Result& result) {
     const Observations& o = result.observations;
     RunSummary summary;
-    summary.levels = static_cast<long>(o.rows.size());
+    summary.levels = static_cast<long>(o.rows.size() + result.compared.step.size());
     summary.failed = result.compared.failed;
     for (const LevelValues& row : o.rows)
         if (row.status == LevelStatus::not_converged) ++summary.failed;

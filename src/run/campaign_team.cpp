@@ -6,17 +6,13 @@
 #include <chrono>
 
 #include "error.hpp"
+#include "rough/omp_team.hpp"
 #include "run/signals.hpp"
 
 namespace rsc {
 
 void leave_if_interrupted() {
     if (const int signal = caught_signal()) throw Interrupted(signal, std::string("stopped by ") + signal_name(signal));
-}
-
-std::size_t thread_count(int threads) {
-    if (threads > 0) return static_cast<std::size_t>(threads);
-    return static_cast<std::size_t>(std::max(1, omp_get_max_threads()));
 }
 
 WorkerThreads::WorkerThreads(const Work& work, std::size_t threads) : work_(work) {
@@ -76,7 +72,7 @@ std::optional<WorkerThreads::Done> WorkerThreads::pop(std::chrono::microseconds 
     return done;
 }
 
-ThreadTeam::ThreadTeam(Work work, int threads) : work_(std::move(work)), threads_(thread_count(threads)) {}
+ThreadTeam::ThreadTeam(Work work, int threads) : work_(std::move(work)), threads_(most_threads(threads)) {}
 
 void ThreadTeam::run(const Next& next, const Collect& collect, int ahead) {
     leave_if_interrupted();
@@ -91,6 +87,7 @@ void ThreadTeam::run(const Next& next, const Collect& collect, int ahead) {
         if (workers.unfinished() == 0) return;
         std::optional<WorkerThreads::Done> done = workers.pop(std::chrono::milliseconds(50));
         leave_if_interrupted();
+        if (meanwhile) meanwhile();
         if (!done) continue;
         if (done->error) std::rethrow_exception(done->error);
         collect(done->task, std::move(done->answer));

@@ -38,6 +38,8 @@ public:
     // Runs until `next` has nothing more and every answer is in. `ahead`: tasks held ready for a worker beside the one it is at.
     // Throws what a task or `collect` throws, and Interrupted once a signal has been caught; unfinished tasks are then abandoned.
     virtual void run(const Next& next, const Collect& collect, int ahead) = 0;
+
+    std::function<void()> meanwhile;  // called several times a second by the thread that called run(); may throw, as a task may
 };
 
 // Threads that take tasks from a queue. Each works with one OpenMP thread.
@@ -87,8 +89,5 @@ private:
 
 // Throws Interrupted if a signal has been caught.
 void leave_if_interrupted();
-
-// threads of the case, or of the machine where it says 0.
-std::size_t thread_count(int threads);
 
 }  // namespace rsc

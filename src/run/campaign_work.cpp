@@ -4,6 +4,7 @@
 #include <new>
 
 #include "error.hpp"
+#include "rough/stopping.hpp"
 #include "run/campaign_archive.hpp"
 #include "run/signals.hpp"
 #include "run/single.hpp"
@@ -34,9 +35,12 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     const std::shared_ptr<const Job> ready = job(task.member);
     const std::string which = "realization " + std::to_string(task.realization) + ": ";
     try {
-        const Realization r =
-            realize(*ready, task.realization, 1, [&](std::size_t, const Level&) { return !abandoned && caught_signal() == 0; });
-        if (abandoned || caught_signal() != 0) throw Interrupted(caught_signal(), "abandoned");
+        const auto go_on = [&] {
+            if (abandoned || caught_signal() != 0) throw Interrupted(caught_signal(), "abandoned");
+        };
+        const Watch watch(go_on);
+        const Realization r = realize(*ready, task.realization, 1);
+        go_on();
         return to_bytes(observe(*ready, task.realization, r));
     } catch (const Error& error) {
         throw Error(error.kind(), which + error.what());

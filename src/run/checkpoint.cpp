@@ -8,12 +8,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <system_error>
+#include <utility>
 
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
+#include "file/whole_file.hpp"
 #include "run/campaign_archive.hpp"
 #include "version.h"
 
@@ -31,11 +31,22 @@ constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // smaller files a
 constexpr double kSyncShare = 0.01;                           // at most this share of the time is spent on waiting for the disk
 constexpr double kSyncSeconds = 5;
 
+// Its owner is who holds its lock; load() refuses what is no checkpoint.
+const FileKind kCheckpoint{"checkpoint", [](const std::string&) { return true; }};
+
 // CRC-32 of kind, length and bytes.
 std::uint32_t checksum_of(const FrameHead& head, const std::string& bytes) {
     const auto add = [](uLong crc, const void* data, std::size_t n) { return crc32_z(crc, static_cast<const Bytef*>(data), n); };
     const uLong crc = add(add(0, &head.kind, sizeof head.kind), &head.length, sizeof head.length);
     return static_cast<std::uint32_t>(add(crc, bytes.data(), bytes.size()));
+}
+
+FrameHead head_of(std::uint32_t kind, const std::string& bytes) {
+    FrameHead head;
+    head.kind = kind;
+    head.length = bytes.size();
+    head.checksum = checksum_of(head, bytes);
+    return head;
 }
 
 // 0, or errno.
@@ -94,8 +105,10 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
       header_(header_start() + effective_namelist(settings)),
       last_sync_(std::chrono::steady_clock::now()) {
     for (int attempt = 0; fd_ < 0; ++attempt) {
-        fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (fd_ < 0) fail(errno);
+        if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty())
+            throw Error(Failure::bad_input, "'" + name_ + "': " + why);
+        fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
         const bool busy = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (!busy && still_named(fd_, name_)) break;  // otherwise it was replaced or removed meanwhile
@@ -120,29 +133,20 @@ Checkpoint::~Checkpoint() {
     if (fd_ >= 0) ::close(fd_);
 }
 
-void Checkpoint::fail(int error) const {
-    const std::string why = std::error_code(error, std::generic_category()).message();
-    const bool full = error == ENOSPC || error == EDQUOT;
-    throw Error(Failure::file_system, "cannot write '" + name_ + "': " + (full ? "the disk is full (" + why + "); make room there" : why));
-}
-
 void Checkpoint::create() {
-    if (::ftruncate(fd_, 0) != 0) fail(errno);
-    write_frame(fd_, kHeader, header_, base_size_);
+    if (::ftruncate(fd_, 0) != 0) fail_to_write(name_, errno);
+    write_frame(kHeader, header_, base_size_);
     size_ = base_size_;
 }
 
-void Checkpoint::write_frame(int fd, std::uint32_t kind, const std::string& bytes, std::uint64_t& size) {
-    FrameHead head;
-    head.kind = kind;
-    head.length = bytes.size();
-    head.checksum = checksum_of(head, bytes);
-    int error = put(fd, reinterpret_cast<const char*>(&head), sizeof head, size);
-    if (error == 0) error = put(fd, bytes.data(), bytes.size(), size + sizeof head);
+void Checkpoint::write_frame(std::uint32_t kind, const std::string& bytes, std::uint64_t& size) {
+    const FrameHead head = head_of(kind, bytes);
+    int error = put(fd_, reinterpret_cast<const char*>(&head), sizeof head, size);
+    if (error == 0) error = put(fd_, bytes.data(), bytes.size(), size + sizeof head);
     if (error != 0) {
         // A torn frame at the end is ignored, but nothing may follow it.
-        if (::ftruncate(fd, static_cast<off_t>(size)) != 0) error = errno;
-        fail(error);
+        if (::ftruncate(fd_, static_cast<off_t>(size)) != 0) error = errno;
+        fail_to_write(name_, error);
     }
     size += sizeof head + bytes.size();
 }
@@ -191,44 +195,38 @@ void Checkpoint::load(const Case& settings) {
     if (size_ == base_size_ && !contents_.sums && end - size_ >= sizeof head &&
         get(fd_, reinterpret_cast<char*>(&head), sizeof head, size_) && head.kind == kSums)
         refuse("is damaged: its checksum does not hold; remove it to start from the beginning");
-    if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) fail(errno);
+    if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) fail_to_write(name_, errno);
 }
 
 void Checkpoint::append(const std::string& record) {
-    write_frame(fd_, kRecord, record, size_);
+    write_frame(kRecord, record, size_);
     sync_now_and_then();
 }
 
 bool Checkpoint::wants_rewrite() const { return size_ - base_size_ > std::max({kSmallLog, base_size_, next_rewrite_}); }
 
 void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::string*>& records) {
-    const std::string fresh = name_ + ".new";
-    const int fd = ::open(fresh.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    std::uint64_t base = 0, size = 0;
-    bool good = fd >= 0;
-    if (good) {
-        try {
-            ::flock(fd, LOCK_EX | LOCK_NB);
-            write_frame(fd, kHeader, header_, size);
-            write_frame(fd, kSums, sums, size);
-            base = size;
-            for (const std::string* record : records) write_frame(fd, kRecord, *record, size);
-            good = (::fsync(fd) == 0 || errno == EINVAL || errno == ENOSYS) && std::rename(fresh.c_str(), name_.c_str()) == 0;
-        } catch (const Error&) {
-            good = false;
-        }
-    }
-    if (!good) {
-        if (fd >= 0) ::close(fd);
-        ::unlink(fresh.c_str());
+    try {
+        WholeFile fresh(name_, kCheckpoint);
+        std::uint64_t base = 0, size = 0;
+        const auto add = [&](std::uint32_t kind, const std::string& bytes) {
+            const FrameHead head = head_of(kind, bytes);
+            fresh.write({reinterpret_cast<const char*>(&head), sizeof head});
+            fresh.write(bytes);
+            size += sizeof head + bytes.size();
+        };
+        add(kHeader, header_);
+        add(kSums, sums);
+        base = size;
+        for (const std::string* record : records) add(kRecord, *record);
+        ::close(std::exchange(fd_, fresh.finish(true)));
+        size_ = size;
+        base_size_ = base;
+        next_rewrite_ = 0;
+        last_sync_ = std::chrono::steady_clock::now();
+    } catch (const Error&) {
         next_rewrite_ = 2 * (size_ - base_size_);  // not again at once
-        return;
     }
-    ::close(std::exchange(fd_, fd));
-    size_ = size;
-    base_size_ = base;
-    next_rewrite_ = 0;
-    last_sync_ = std::chrono::steady_clock::now();
 }
 
 // After kill -9 the file is complete, because the system holds what was written. Only a crash of the machine loses what is not yet on
@@ -241,12 +239,12 @@ void Checkpoint::sync_now_and_then() {
     const int error = ::fdatasync(fd_) != 0 ? errno : 0;
     last_sync_ = Clock::now();
     sync_seconds_ = std::chrono::duration<double>(last_sync_ - start).count();
-    if (error == ENOSPC || error == EDQUOT || error == EIO) fail(error);
+    if (error == ENOSPC || error == EDQUOT || error == EIO) fail_to_write(name_, error);
 }
 
 void Checkpoint::remove() {
-    ::unlink((name_ + ".new").c_str());
-    if (::unlink(name_.c_str()) != 0 && errno != ENOENT) fail(errno);
+    remove_parts_left(name_);
+    if (::unlink(name_.c_str()) != 0 && errno != ENOENT) fail_to_write(name_, errno);
 }
 
 std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now, const std::string& of_there,

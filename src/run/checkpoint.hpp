@@ -61,9 +61,8 @@ public:
 private:
     void create();
     void load(const Case& settings);
-    void write_frame(int fd, std::uint32_t kind, const std::string& bytes, std::uint64_t& size);
+    void write_frame(std::uint32_t kind, const std::string& bytes, std::uint64_t& size);
     void sync_now_and_then();
-    [[noreturn]] void fail(int error) const;
 
     std::string name_;
     std::string header_;  // bytes of the first frame

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -20,12 +21,15 @@ struct RunOptions {
     bool resume = false;                           // a campaign: go on with what an interrupted run left
     std::ostream* table = nullptr;                 // the level table and the summary; null: none
     std::ostream* messages = nullptr;              // warnings, progress; null: none
-    const std::atomic<bool>* abandoned = nullptr;  // once true the run ends at the next level, with Interrupted
+    const std::atomic<bool>* abandoned = nullptr;  // once true the run ends, with Interrupted
+    // Called by the thread that called, several times a second where it can be: levels or realizations done, of how many. True: the run ends, with
+    // Interrupted.
+    std::function<bool(double done, double total)> report;
 };
 
 // The outcome of a run.
 struct RunSummary {
-    long levels = 0, failed = 0;  // of all realizations; failed: did not converge
+    long levels = 0, failed = 0;  // of all realizations, those compared with elements included; failed: did not converge
     double separation = 0;        // of the last level; its means over the realizations:
     double force = 0, area = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "run/resolution.hpp"
 
 namespace rsc {
+namespace fs = std::filesystem;
 namespace {
 
 const char* fallback_text(Fallback fallback) {
@@ -277,8 +279,19 @@ const char* slope_remark(double rms_slope) {
            "the paper (4.7 there); no load, area or pressure here is that of a real body";
 }
 
+// Where the pictures' script is: in a clone, beside the program's installation, or in the clone that the program was built in.
+static std::string plot_script() {
+    const std::string here = "output/plot/plot.py";
+    std::error_code error;
+    if (fs::exists(here, error)) return here;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+    for (const char* place : {"../share/rsc/plot/plot.py", "../output/plot/plot.py"})
+        if (fs::exists(folder / place, error)) return (folder / place).lexically_normal().string();
+    return here;
+}
+
 void print_result(std::ostream& out, const std::string& file, bool replaces) {
-    out << "result: " << file << (replaces ? " (replaces the result that was there)" : "") << "\npicture: python3 output/plot/plot.py "
+    out << "result: " << file << (replaces ? " (replaces the result that was there)" : "") << "\npicture: python3 " << plot_script() << ' '
         << file << std::endl;
 }
 

@@ -38,10 +38,12 @@ void catch_signals() {
     action.sa_handler = remember;
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESTART;
-    struct sigaction before {};
-    sigaction(SIGINT, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);  // a shell's background jobs ignore the keyboard
-    sigaction(SIGTERM, &action, nullptr);
+    // A shell's background jobs ignore the keyboard, and what nohup starts the end of the terminal.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        sigaction(signal, nullptr, &before);
+        if (before.sa_handler != SIG_IGN || signal == SIGTERM) sigaction(signal, &action, nullptr);
+    }
     std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond the limit of file sizes is an error of write() then
 }
 
@@ -52,6 +54,8 @@ void note_signal(int signal) noexcept {
     caught.compare_exchange_strong(none, signal);
 }
 
-const char* signal_name(int signal) noexcept { return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "a signal"; }
+const char* signal_name(int signal) noexcept {
+    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "a signal";
+}
 
 }  // namespace rsc

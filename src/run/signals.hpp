@@ -1,16 +1,16 @@
-// SIGINT and SIGTERM, remembered until the work can be stopped in an orderly state.
+// SIGINT, SIGTERM and SIGHUP, remembered until the work can be stopped in an orderly state.
 #pragma once
 
 #include <stdexcept>
 
 namespace rsc {
 
-// From now on the first SIGINT or SIGTERM is remembered instead of ending the program; a second one, some seconds later, ends it
-// at once. SIGINT stays ignored where it is, and a file beyond the limit of file sizes becomes an error instead of a signal. A
+// From now on the first of them is remembered instead of ending the program; a second one, some seconds later, ends it
+// at once. SIGINT and SIGHUP stay ignored where they are, and a file beyond the limit of file sizes becomes an error instead of a signal. A
 // program calls this; the library never does, and caught_signal() is then 0 for ever.
 void catch_signals();
 
-// SIGINT or SIGTERM once one has come, 0 before.
+// Their number once one has come, 0 before.
 int caught_signal() noexcept;
 
 // As if the signal had come to this process: another rank was told to stop.
@@ -26,7 +26,7 @@ private:
     int signal_;
 };
 
-// "SIGINT", "SIGTERM".
+// "SIGINT", "SIGTERM", "SIGHUP".
 const char* signal_name(int signal) noexcept;
 
 }  // namespace rsc

@@ -1,4 +1,5 @@
 #include "run/single.hpp"
+#include "rough/omp_team.hpp"
 
 #include <omp.h>
 
@@ -6,14 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <mutex>
-#include <system_error>
-#include <thread>
 
 #include "case/registry.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
 #include "observe/regimes.hpp"
+#include "rough/stopping.hpp"
 #include "run/campaign_team.hpp"
 #include "run/compare.hpp"
 #include "run/job.hpp"
@@ -45,33 +44,10 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     print_result(out, file, replaces);
 }
 
-// Starts as many threads once, because OpenMP ends the program where the machine refuses one.
-void require_threads(int threads) {
-    std::vector<std::thread> started;
-    started.reserve(static_cast<std::size_t>(threads));
-    std::mutex all_there;
-    bool refused = false;
-    {
-        const std::lock_guard wait(all_there);  // they must be there at the same time
-        try {
-            for (int k = 1; k < threads; ++k) started.emplace_back([&] { const std::lock_guard lock(all_there); });
-        } catch (const std::system_error&) {
-            refused = true;
-        }
-    }
-    for (std::thread& thread : started) thread.join();
-    if (refused)
-        throw Error(Failure::no_memory,
-                    "the machine refused to start " + std::to_string(threads) + " threads; fewer run%threads need less");
-}
-
 // The OpenMP threads of the caller while this lives.
 class OmpThreads {
 public:
-    explicit OmpThreads(int threads) {
-        require_threads(threads);
-        omp_set_num_threads(threads);
-    }
+    explicit OmpThreads(int threads) { omp_set_num_threads(threads); }
     OmpThreads(const OmpThreads&) = delete;
     OmpThreads& operator=(const OmpThreads&) = delete;
     ~OmpThreads() { omp_set_num_threads(before_); }
@@ -87,34 +63,39 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const bool replaces = check_result_path(settings, options);
     const Contacts keep = contacts_kept(settings);
     Job job = prepare(settings);
-    const int threads = static_cast<int>(thread_count(settings.run.threads));
+    const int threads = static_cast<int>(most_threads(settings.run.threads));
     const OmpThreads omp(threads);
     bool terminal = false;
     std::ostream* const line_out = progress_stream(options, terminal);
     std::ostream* table = options.quiet ? nullptr : options.table;
+    const double total = static_cast<double>(job.levels.size());
+    double done = 0;
+    const auto go_on = [&] {
+        if (const int signal = caught_signal())
+            throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+        if ((options.abandoned && *options.abandoned) || (options.report && options.report(done, total)))
+            throw Interrupted(0, "stopped; nothing is written");
+    };
+    const Watch watch(go_on);
     if (table) print_heading(*table, job);
     Realization r;
     {
         ProgressLine progress(line_out, terminal, "levels");
         r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
             if (table) print_level(*table, job, k, level);
-            progress.show(static_cast<double>(k + 1), static_cast<double>(job.levels.size()));
-            return caught_signal() == 0 && !(options.abandoned && *options.abandoned);
+            done = static_cast<double>(k + 1);
+            progress.show(done, total);
+            go_on();
+            return true;
         });
     }
-    if (const int signal = caught_signal())
-        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
-    if (options.abandoned && *options.abandoned) throw Interrupted(0, "abandoned");
     Accumulators sums(job.observe, job.levels.size());
     const RealizationRecord record = observe(job, settings.run.first_realization, r);
     sums.add(record);
-    const auto stopped = [&] { return caught_signal() != 0 || (options.abandoned && *options.abandoned); };
     ComparedLevels compared;
     if (compares(job, options.compare_automatically))
-        compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, stopped);
-    if (const int signal = caught_signal())
-        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
-    if (options.abandoned && *options.abandoned) throw Interrupted(0, "abandoned");
+        compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, [] { return false; });
+    go_on();
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
     keep_contacts(result, r.levels, keep);
     const SurfaceStatistics statistics = r.statistics;
@@ -133,7 +114,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces, twins);
     const LevelValues& last = record.levels.back();
     const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
-    const RunSummary summary{static_cast<long>(record.levels.size()),
+    const RunSummary summary{static_cast<long>(record.levels.size() + result.compared.step.size()),
                              static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) + result.compared.failed,
                              last.separation, last.force, last.area};
     tell_failed(options, summary);

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "case/registry.hpp"
-#include "error.hpp"
+#include "file/whole_file.hpp"
 
 namespace rsc {
 namespace {
 
 constexpr const char* kMark = "! Written by rsc beside a measured map's result, and again with it: change a copy.\n";
+const FileKind kTwins{"case of twins", [](const std::string& path) { return begins_with(path, kMark); }};
 constexpr int kRealizations = 100;
 
 std::string stem(const std::string& result) { return result.ends_with(".nc") ? result.substr(0, result.size() - 3) : result; }
@@ -58,21 +58,8 @@ std::string twins_text(const Job& job, const std::string& result) {
 std::string write_twins(const Job& job, const std::string& result) {
     if (!job.measured || !job.measured->fit) return {};
     const std::string path = stem(result) + "_twins.nml";
-    if (std::ifstream old(path, std::ios::binary); old) {
-        std::string first;
-        std::getline(old, first);
-        if (first + '\n' != kMark) return "twins: " + path + " is there already and was not written by rsc: left as it is";
-    }
-    const std::string part = path + ".part";
-    std::ofstream file(part, std::ios::binary);
-    file << twins_text(job, result);
-    file.close();
-    std::error_code error;
-    if (file) std::filesystem::rename(part, path, error);
-    if (!file || error) {
-        std::filesystem::remove(part, error);
-        throw Error(Failure::file_system, path + ": could not be written");
-    }
+    if (const std::string why = reason_to_leave(path, kTwins); !why.empty()) return "twins: " + path + ": " + why;
+    write_whole(path, kTwins, twins_text(job, result));
     return "twins: " + path + " (surfaces with this spectrum: rsc < " + path + ")";
 }
 

@@ -24,7 +24,7 @@ import generate  # noqa: E402
 
 CASE = "&surface n=64, L=1.5, L_lambda_l=2, L_lambda_s=8, sigma=0.03125 /\n&indentation levels=2, 0, -1 /\n&solver max_iterations=1, tolerance=1e-14 /\n&output file='calls.nc' /\n"
 # Functions that calls.txt cannot have: called by the runners themselves, or told in other ways by the languages.
-NOT_CALLED = {"message", "status_text", "key_count", "key_name"} | {f"{kind}_destroy" for kind in generate.KINDS}
+NOT_CALLED = {"message", "status_text", "key_count", "key_name", "lock", "unlock", "case_run_watched", "contacts_step"} | {f"{kind}_destroy" for kind in generate.KINDS}
 FUNCTIONS = {f.short: f for f in generate.read_header("rsc.h")[0]}
 
 
@@ -572,6 +572,8 @@ def main():
             if int(found.split()[0]) != status or word not in found:
                 wrong.append(f"{name}({', '.join(words)}): {found}; expected {status} {word}")
         for f in FUNCTIONS.values():
+            if f.short in NOT_CALLED:
+                continue
             outputs = [a for a in f.arguments if a.role in ("out", "array") and a.name != "length"]
             for one, other in itertools.combinations(outputs, 2):
                 places = [k for k, call in enumerate(calls) if call[0] == f.short and (k, one.name) in reference]

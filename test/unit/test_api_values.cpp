@@ -321,7 +321,7 @@ void friction_spots() {
     CHECK_RELATIVE(Q[1] / Q[0], -4.0 / 3, 1e-9);
     std::int64_t n = 0;
     CHECK(rsc_friction_spots(f, 0, &n, nullptr, nullptr, nullptr, nullptr, nullptr) == -2 &&
-          message() == "argument 2 (n) must be at least the number of spots, " + std::to_string(n));
+          message() == "argument n must be at least the number of spots, " + std::to_string(n));
     const auto size = static_cast<std::size_t>(n);
     std::vector<std::int32_t> which(size), in_contact(size);
     Values radius(size), inner(size), fx(size), fy(size), now(size), force(size), before(35), load(35);

@@ -1,6 +1,9 @@
 // Campaigns: what is written comes back, what is torn is left out, sums over realizations are those of the realizations.
+#include <sys/resource.h>
+
 #include <netcdf.h>
 #include <zlib.h>
+#include <csignal>
 
 #include <algorithm>
 #include <atomic>
@@ -241,10 +244,13 @@ void test_rewrite(const Folder& folder) {
         CHECK(contents.sums && *contents.sums == "the sums");
         CHECK((contents.records == std::vector<std::string>{records[3], "after it"}));
         // No room for the new file: the old one goes on.
-        std::filesystem::create_directory(state + ".new");
+        rlimit usual{};
+        CHECK(getrlimit(RLIMIT_FSIZE, &usual) == 0 && std::signal(SIGXFSZ, SIG_IGN) != SIG_ERR);
+        const rlimit little{10, usual.rlim_max};
+        CHECK(setrlimit(RLIMIT_FSIZE, &little) == 0);
         checkpoint.rewrite("newer sums", {});
+        CHECK(setrlimit(RLIMIT_FSIZE, &usual) == 0);
         checkpoint.append("and on");
-        std::filesystem::remove(state + ".new");
     }
     Checkpoint checkpoint(file, small_case(), true);
     const auto contents = checkpoint.take_contents();

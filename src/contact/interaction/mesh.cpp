@@ -12,6 +12,7 @@
 #include "contact/interaction/mesh_far.hpp"
 #include "contact/interaction/pair_sums.hpp"
 #include "error.hpp"
+#include "rough/omp_team.hpp"
 
 namespace rsc {
 
@@ -242,7 +243,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
     const double offset = 0.5 * design->width;
     const double dx = lattice ? lattice->period().x / static_cast<double>(far->columns()) : choice.spacing;
     const double dy = lattice ? lattice->period().y / static_cast<double>(far->lines()) : choice.spacing;
-#pragma omp parallel for schedule(dynamic, 16) if (n > kThreads)
+#pragma omp parallel for schedule(dynamic, 16) num_threads(omp_team(n > kThreads ? kEveryThread : 1))
     for (std::size_t s = 0; s < all; ++s) {
         const double right = s >= whole ? lattice->period().x : 0, up = s % whole >= strips ? lattice->period().y : 0;
         const auto begin = point.begin() + static_cast<std::ptrdiff_t>(strip_begin[s]);
@@ -315,7 +316,7 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
 void MeshPotential::Parts::spread(const double* f, double* mesh) const {
     const std::size_t bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
     const auto table = pair_kernels().spread;
-#pragma omp parallel if (n > kThreads)
+#pragma omp parallel num_threads(omp_team(n > kThreads ? kEveryThread : 1))
     {
 #pragma omp for schedule(static)
         for (std::size_t n = 0; n < far->rows(); ++n) std::fill_n(mesh + n * stride, stride, 0.0);
@@ -352,7 +353,7 @@ void MeshPotential::Parts::near_strip(std::size_t s, const double* f, double* ph
 void MeshPotential::Parts::near_field(const double* f, double* phi) const {
     constexpr std::size_t kGroup = 4;
     const std::size_t groups = (strips + kGroup - 1) / kGroup;
-#pragma omp parallel if (n > kThreads)
+#pragma omp parallel num_threads(omp_team(n > kThreads ? kEveryThread : 1))
     for (std::size_t odd = 0; odd < 2; ++odd) {
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t group = odd; group < groups; group += 2)
@@ -368,7 +369,7 @@ void MeshPotential::apply(const double* f, double* phi) const {
     auto scratch = p.take_scratch();
     const std::size_t strips = p.strips, all = p.strip_size.size();
     double *const sorted = scratch->f.data(), *const near = scratch->near.data(), *const far = scratch->far.data();
-#pragma omp parallel for schedule(static) if (p.n > kThreads)
+#pragma omp parallel for schedule(static) num_threads(omp_team(p.n > kThreads ? kEveryThread : 1))
     for (std::size_t s = 0; s < all; ++s) {
         const std::size_t b = p.strip_begin[s];
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // pads stay without force
@@ -378,7 +379,7 @@ void MeshPotential::apply(const double* f, double* phi) const {
     p.spread(sorted, scratch->mesh.get());
     p.far->convolve(scratch->mesh.get());
     const double unit = p.kernel->near(), near_unit = unit * p.scale, far_unit = p.lattice ? unit : unit / p.choice.spacing;
-#pragma omp parallel for schedule(static) if (p.n > kThreads)
+#pragma omp parallel for schedule(static) num_threads(omp_team(p.n > kThreads ? kEveryThread : 1))
     for (std::size_t s = 0; s < strips; ++s) {
         const std::size_t b = p.strip_begin[s];
         pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(),

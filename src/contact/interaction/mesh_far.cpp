@@ -8,6 +8,7 @@
 #include <string>
 
 #include "error.hpp"
+#include "rough/omp_team.hpp"
 
 namespace rsc {
 
@@ -27,7 +28,7 @@ std::size_t transform_length(double n) {
 double period_needed(const MeshDesign& design, double length) { return 2 * length + 4 * design.cutoff + 2; }
 
 // A mesh this small is not worth the threads.
-int threads_for(std::size_t points) { return points < 65536 ? 1 : omp_get_max_threads(); }
+int threads_for(std::size_t points) { return points < 65536 ? 1 : static_cast<int>(most_threads(0)); }
 
 // A buffer a thread, made before the threads start: what is thrown inside of a parallel region is lost.
 std::vector<FftwArray> buffers(int threads, std::size_t n) {
@@ -151,7 +152,7 @@ void FarField::make_multiplier(const MeshDesign& design, const std::function<dou
     const FftwArray half = fftw_array((half_y + 1) * (half_x + 1));
     const int threads = threads_for(points());
     const std::vector<FftwArray> row_of = buffers(threads, stride()), block_of = buffers(threads, 2 * kColumns * period_y_);
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(omp_team(kEveryThread, threads))
     {
         double* row = row_of[static_cast<std::size_t>(omp_get_thread_num())].get();
 #pragma omp for schedule(static)
@@ -168,7 +169,7 @@ void FarField::make_multiplier(const MeshDesign& design, const std::function<dou
 
     multiplier_ = fftw_array(multiplier_size());
     const std::size_t blocks = columns_ / kColumns;
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(omp_team(kEveryThread, threads))
     {
         double* block = block_of[static_cast<std::size_t>(omp_get_thread_num())].get();
 #pragma omp for schedule(static)
@@ -191,7 +192,7 @@ void FarField::convolve(double* mesh) const {
     if (periodic_) fold(mesh);
     const int threads = threads_for(points());
     const std::vector<FftwArray> block_of = buffers(threads, 2 * kColumns * period_y_);
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(omp_team(kEveryThread, threads))
     {
 #pragma omp for schedule(static)
         for (std::size_t n = 0; n < rows; ++n)

@@ -10,6 +10,7 @@
 
 #include "error.hpp"
 #include "rough/fftw_planner.hpp"
+#include "rough/omp_team.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -88,7 +89,7 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy, const
     lines += lines % 2 == 0;
     stride_ = lines * line;
     plane_ = allocate(stride_ * static_cast<std::size_t>(ny));
-    const int threads = threads_ ? omp_get_max_threads() : 1;
+    const int threads = threads_ ? static_cast<int>(most_threads(0)) : 1;
     for (int t = 0; t < threads; ++t) plans_->blocks.push_back(allocate(2 * kColumns * static_cast<std::size_t>(ny)));
     const auto lock = fftw_planning();
     Real *const rows = plane_.get(), *const block = plans_->blocks[0].get();
@@ -102,7 +103,7 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy, const
     const int columns = (nx / 2 + kColumns) / kColumns * kColumns, half = ny / 2 + 1;
     layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
     const double pi = std::numbers::pi;
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
     for (int j = 0; j < half; ++j)
         for (int i = 0; i < columns; ++i) {
             const double k = 2 * pi * std::hypot(static_cast<double>(i) / nx / dx, static_cast<double>(j) / ny / dy);
@@ -129,7 +130,7 @@ void PeriodicPixels<Real>::columns(Answer answer) {
         const double k = 2 * pi * (2 * j <= ny_ ? j : j - ny_) / ny_ * (dx_ / dy_);
         ky2[static_cast<std::size_t>(j)] = static_cast<Real>(k * k);
     }
-#pragma omp parallel for schedule(static) num_threads(static_cast <int>(plans_->blocks.size()))
+#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, static_cast <int>(plans_->blocks.size())))
     for (int b = 0; b < blocks; ++b) {
         constexpr std::size_t width = 2 * kColumns;
         Real* const block = plans_->blocks[static_cast<std::size_t>(omp_get_thread_num())].get();
@@ -169,14 +170,14 @@ void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answ
     const int threads = static_cast<int>(plans_->blocks.size());
     // What lies beyond the modes of a row would be transformed with them: it must be numbers.
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
     for (int j = 0; j < ny_; ++j) {
         load(j, row(j));
         Fftw<Real>::forward(plans_->rows_forward, row(j));
         std::fill(row(j) + used, row(j) + stride_, Real(0));
     }
     columns(answer);
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
     for (int j = 0; j < ny_; ++j) {
         Fftw<Real>::backward(plans_->rows_backward, row(j));
         take(j, row(j));

@@ -9,6 +9,7 @@
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
+#include "rough/omp_team.hpp"
 
 namespace rsc {
 namespace {
@@ -88,7 +89,7 @@ void enclose(Generation& g, const std::vector<Box>& boxes) {
 void pair_up(Generation& g, bool last) {
     const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
     std::vector<std::vector<std::array<int, 3>>> found(chunks);
-#pragma omp parallel for schedule(dynamic, 4) if (g.boxes.size() > 2 * kThreads)
+#pragma omp parallel for schedule(dynamic, 4) num_threads(omp_team(g.boxes.size() > 2 * kThreads ? kEveryThread : 1))
     for (std::size_t c = 0; c < chunks; ++c)
         for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
             const Box b = g.boxes[k];
@@ -424,7 +425,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
         for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
-#pragma omp parallel for schedule(dynamic, 1) if (tiles > kThreads)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
     for (std::size_t job = 0; job < chunks.size(); ++job) {
         const auto [l, c] = chunks[job];
         const Generation& g = generations[l];
@@ -450,7 +451,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     };
     for (std::size_t l = levels - 1; l-- > 1;)
         for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
-#pragma omp parallel for schedule(dynamic, 32) if (tiles > kThreads)
+#pragma omp parallel for schedule(dynamic, 32) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
     for (std::size_t t = 0; t < tiles; ++t) {
         if (levels > 1) down(0, t);
         double* values = tiles_.data() + t * size;

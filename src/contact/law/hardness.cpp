@@ -103,6 +103,10 @@ public:
         return u > s.yield && u >= s.deepest;
     }
     double residual_depth(int asperity) const override { return place_[at(asperity)] < 0 ? 0 : summit(asperity).rest; }
+    double deepest(int asperity) const override { return place_[at(asperity)] < 0 ? 0 : summit(asperity).deepest; }
+    void forget() override {
+        for (Summit& s : summits_) s.deepest = 0, s.end = {}, s.rest = 0, s.power = 1.5, s.lost = 0;
+    }
     double work_lost() const override {
         double sum = 0;
         for (const Summit& s : summits_) sum += s.lost;

@@ -62,6 +62,9 @@ public:
     virtual bool yields(int asperity, double u) const { return (void)asperity, (void)u, false; }
     virtual double residual_depth(int asperity) const { return (void)asperity, 0.0; }
     virtual double work_lost() const { return 0; }
+    // Their whole memory: the deepest penetration of a level that was accepted, 0 where the asperity never yielded. Goes back to none.
+    virtual double deepest(int asperity) const { return (void)asperity, 0.0; }
+    virtual void forget() {}
 };
 
 // hertz         a paraboloid of the asperity's radius: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.

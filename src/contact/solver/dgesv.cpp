@@ -7,6 +7,7 @@
 #include "contact/interaction/pair_sums.hpp"
 #include "contact/solver/lapack.hpp"
 #include "error.hpp"
+#include "rough/stopping.hpp"
 
 namespace rsc {
 namespace {
@@ -83,6 +84,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     PaperOutcome outcome;
     double delta = method.delta0;
     while (outcome.iterations < method.max_iterations) {
+        stopping_point();
         outcome.delta = delta;
         paper_equations(law, kernel, set, delta, force, v, R, K.get());
         ++outcome.iterations;

@@ -1,4 +1,5 @@
 #include "contact/solver/elements.hpp"
+#include "rough/stopping.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,7 @@ void ElementsSolver::draw(const std::vector<Pixel>& pixels, const std::vector<do
 }
 
 void ElementsSolver::evaluate(Accuracy accuracy) {
+    stopping_point();
     products_.apply(p_.data(), w_.data(), accuracy);
     for (std::size_t k = 0; k < w_.size(); ++k) w_[k] -= g0_[k];
 }
@@ -178,6 +180,7 @@ void ElementsSolver::descend(int most_steps, double reduction) {
             double& d = direction_[at(free_[k])];
             d = z_[k] + beta * d;
         }
+        stopping_point();
         products_.apply(direction_.data(), image_.data(), Accuracy::inner);
         double curvature = 0;
         for (int k : free_) curvature += direction_[at(k)] * image_[at(k)];

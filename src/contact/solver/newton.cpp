@@ -6,6 +6,7 @@
 
 #include "contact/solver/lanczos.hpp"
 #include "contact/solver/uniqueness.hpp"
+#include "rough/stopping.hpp"
 
 namespace rsc {
 namespace {
@@ -68,6 +69,7 @@ bool Newton::rough_will_do(double residual) const {
 
 // Fills everything of the state from its v; in full accuracy if asked, or if the residual turns out too small for less.
 void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
+    stopping_point();
     const int n = set.size();
     for (auto* x : {&state.force, &state.slope, &state.work, &state.phi, &state.res}) x->resize(at(n));
     law_.respond(n, set.asperity.data(), state.v.data(), state.force.data(), state.slope.data(), state.work.data());
@@ -107,6 +109,7 @@ void Newton::scale_active(const State& state) {
 
 void Newton::multiply(const Vector& w, Vector& out) {
     for (std::size_t k = 0; k < root_.size(); ++k) force_[k] = root_[k] * w[k];
+    stopping_point();
     products_->inner(force_.data(), phi_.data());
     for (std::size_t k = 0; k < root_.size(); ++k) out[k] = w[k] + root_[k] * phi_[k];
 }

@@ -1,4 +1,6 @@
 #include "contact/solver/periodic_grid.hpp"
+#include "rough/omp_team.hpp"
+#include "rough/stopping.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +80,7 @@ void PeriodicGrid::release() { fine_.reset(); }
 template <class F>
 double PeriodicGrid::over_rows(F&& f) {
     partial_.resize(at(ny_));
-#pragma omp parallel for schedule(static) if (nx_ >= kThreads / ny_)
+#pragma omp parallel for schedule(static) num_threads(omp_team(nx_ >= kThreads / ny_ ? kEveryThread : 1))
     for (int j = 0; j < ny_; ++j) partial_[at(j)] = f(j);
     double sum = 0;
     for (double v : partial_) sum += v;
@@ -90,7 +92,7 @@ bool PeriodicGrid::can_be_coarsened() const { return nx_ % 2 == 0 && ny_ % 2 == 
 std::unique_ptr<PeriodicGrid> PeriodicGrid::coarsened(std::vector<double>& storage) const {
     const int nx = nx_ / 2, ny = ny_ / 2;
     storage.resize(at(nx) * at(ny));
-#pragma omp parallel for schedule(static) if (nx_ >= kThreads / ny_)
+#pragma omp parallel for schedule(static) num_threads(omp_team(nx_ >= kThreads / ny_ ? kEveryThread : 1))
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)
             storage[at(j) * at(nx) + at(i)] =
@@ -152,6 +154,7 @@ template <class Real>
 void PeriodicGrid::evaluate(PeriodicPixels<Real>& pixels, Given given) {
     ++products_;
     w_.resize(p_.size());
+    stopping_point();
     pixels.apply(
         [&](int j, Real* row) {
             std::fill_n(row, nx_, Real(0));
@@ -229,13 +232,13 @@ void PeriodicGrid::collect(const PeriodicPixels<Real>& pixels) {
         }
     };
     const auto parallel = nx_ >= kThreads / ny_;
-#pragma omp parallel for schedule(static) if (parallel)
+#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
     for (int j = 0; j < ny_; ++j) visit(j, [&](int, double, double) { ++next.begin[at(j) + 1]; });
     for (int j = 0; j < ny_; ++j) next.begin[at(j) + 1] += next.begin[at(j)];
     const std::size_t n = next.begin.back();
     next.column.resize(n);
     std::vector<double> p(n), w(n);
-#pragma omp parallel for schedule(static) if (parallel)
+#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
     for (int j = 0; j < ny_; ++j) {
         std::size_t k = next.begin[at(j)];
         visit(j, [&](int i, double pressure, double gap) {
@@ -255,7 +258,7 @@ void PeriodicGrid::collect(const PeriodicPixels<Real>& pixels) {
 // y = the part of K^-1 that reaches no farther than kReach pixels, of r, over the free pixels.
 void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double>& y) {
     const auto parallel = nx_ >= kThreads / ny_;
-#pragma omp parallel for schedule(static) if (parallel)
+#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
     for (int j = 0; j < ny_; ++j) {
         float* const row = inner_.row(j);
         std::fill_n(row, nx_, 0.0f);
@@ -263,7 +266,7 @@ void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double
             row[set_.column[k]] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
     }
     const auto around = [](int v, int n) { return ((v % n) + n) % n; };
-#pragma omp parallel for schedule(static) if (parallel)
+#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
     for (int j = 0; j < ny_; ++j) {
         const float* rows[2 * kReach + 1];
         for (int b = -kReach; b <= kReach; ++b) rows[b + kReach] = inner_.row(around(j + b, ny_));

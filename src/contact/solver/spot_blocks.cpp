@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "rough/dispatch.hpp"
+#include "rough/omp_team.hpp"
 
 namespace rsc {
 namespace {
@@ -151,7 +152,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
         b = e;
     }
     std::erase_if(known_, [](const auto& entry) { return !entry.second.wanted; });
-#pragma omp parallel for schedule(dynamic, 1) if (fresh.size() > 100)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(omp_team(fresh.size() > 100 ? kEveryThread : 1))
     for (std::size_t f = 0; f < fresh.size(); ++f) {
         const Shape& shape = *fresh[f].first;
         const std::size_t n = shape.size();
@@ -170,7 +171,7 @@ void SpotBlocks::apply(const double* r, double* z) const {
     double unit = 0;  // single precision takes any unit
     for (std::size_t k = 0; k < members_.size(); ++k) unit = std::max(unit, std::abs(r[k]));
     if (!(unit > 0)) unit = 1;
-#pragma omp parallel for schedule(static) if (members_.size() > 30000)
+#pragma omp parallel for schedule(static) num_threads(omp_team(members_.size() > 30000 ? kEveryThread : 1))
     for (std::size_t b = 0; b < blocks_.size() - 1; ++b) {
         const std::size_t begin = blocks_[b].begin, n = blocks_[b + 1].begin - begin;
         float x[kMostPixels], y[kMostPixels];

@@ -1,0 +1,95 @@
+// What a contact is made of, and its state as a value: copies, commit and roll back.
+#include <memory>
+
+#include "api/guard.hpp"
+#include "api/handles.hpp"
+
+using namespace rsc::api;
+
+namespace rsc::api {
+
+Site site_of(const Case& settings, const Ground& on) {
+    return on.list && settings.surface.L ? list_site(on.asperities, settings.surface.L, "the asperities") : on.site;
+}
+
+void require_place(const rsc_contact& contact, double x0, double y0) {
+    const Indenter& indenter = contact.contact.indenter();
+    if (indenter.period.finite()) return;
+    Site site = contact.on->site;
+    if (const Rectangle& known = contact.options.surface; known.known()) {
+        site.domain = {known.x0, known.y0, known.Lx, known.Ly};
+        site.guessed = false;
+    }
+    require_tip_above(site, indenter.shape, x0, y0);
+}
+
+namespace {
+
+// Earlier levels are better starts where the tip stays.
+void put_tip(rsc_contact& contact, double x0, double y0) {
+    const Indenter& now = contact.contact.indenter();
+    if (now.x0 != x0 || now.y0 != y0) contact.contact.move_tip(x0, y0);
+}
+
+}  // namespace
+}  // namespace rsc::api
+
+rsc_contact::rsc_contact(std::shared_ptr<const rsc::Ground> on_, std::shared_ptr<const rsc::Case> keys_, const rsc::Indenter& indenter)
+    : on(std::move(on_)),
+      keys(std::move(keys_)),
+      options(rsc::solver_of(*keys, site_of(*keys, *on))),
+      model(rsc::make_contact(*on, indenter, options)),
+      contact(*model),
+      committed(state()) {}
+
+rsc_contact::rsc_contact(const rsc_contact& like) : rsc_contact(like.on, like.keys, like.contact.indenter()) { given = like.given; }
+
+rsc_contact::State rsc_contact::state() const { return {contact.indenter().x0, contact.indenter().y0, contact.memory(), known}; }
+
+void rsc_contact::go_back(const State& state) {
+    const bool path = contact.path_dependent();
+    put_tip(*this, state.x0, state.y0);
+    known = state.known;
+    if (path)
+        recall(state.memory);
+    else
+        recalled = !known.level;  // an elastic contact recalls its level when it is asked for more than was kept
+}
+
+void rsc_contact::recall(const std::vector<double>& memory) {
+    const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
+    if (known.level) put_tip(*this, known.x0, known.y0);
+    contact.recall(memory, known.level ? &*known.level : nullptr);
+    put_tip(*this, x0, y0);
+    recalled = true;
+}
+
+extern "C" {
+
+int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
+    return guarded(0, [&] {
+        construct(contact, "contact", [&] {
+            require(original, 2, "original");
+            auto made = std::make_unique<rsc_contact>(*original);
+            made->go_back(original->state());
+            made->committed = original->committed;
+            return made.release();
+        });
+    });
+}
+
+int32_t rsc_contact_commit(rsc_contact* contact) {
+    return guarded(0, [&] {
+        require(contact, 1, "contact");
+        contact->committed = contact->state();
+    });
+}
+
+int32_t rsc_contact_rollback(rsc_contact* contact) {
+    return guarded(0, [&] {
+        require(contact, 1, "contact");
+        contact->go_back(contact->committed);
+    });
+}
+
+}  // extern "C"

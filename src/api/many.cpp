@@ -1,0 +1,96 @@
+// Many contacts at once.
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "api/guard.hpp"
+#include "api/handles.hpp"
+#include "rough/omp_team.hpp"
+
+namespace rsc::api {
+namespace {
+
+// `value`, `last`: numbers of the arguments with the values and the threads.
+template <class Each>
+std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given, int value, std::int32_t* status, std::int32_t threads,
+                     int last, Each&& each) {
+    std::int32_t first = RSC_SUCCESS;
+    const std::int32_t whole = guarded(0, [&] {
+        if (n < 0) refuse(1, "n", "must not be negative");
+        if (threads < 0) refuse(last, "threads", "must not be negative");
+        if (n == 0) return;
+        require(contacts, 2, "contacts");
+        require(given, value, "the values");
+        std::set<const rsc_contact*> different;
+        for (std::int64_t k = 0; k < n; ++k) {
+            require(contacts[k], 2, "contacts: one of them");
+            if (!different.insert(contacts[k]).second) refuse(2, "contacts", "must be different handles");
+        }
+        std::vector<std::int32_t> outcome(static_cast<std::size_t>(n), RSC_SUCCESS);
+        std::vector<std::string> reason(static_cast<std::size_t>(n));
+#pragma omp parallel for schedule(dynamic) num_threads(omp_team(static_cast <std::size_t>(n), threads))
+        for (std::int64_t k = 0; k < n; ++k) {
+            outcome[static_cast<std::size_t>(k)] = each(k);
+            if (outcome[static_cast<std::size_t>(k)] != RSC_SUCCESS) {
+                char text[500] = "";
+                rsc_message(text, sizeof text, nullptr);
+                (void)guarded(0, [&] { reason[static_cast<std::size_t>(k)] = text; });
+            }
+        }
+        if (status) std::copy(outcome.begin(), outcome.end(), status);
+        const auto bad = std::find_if(outcome.begin(), outcome.end(), [](std::int32_t s) { return s != RSC_SUCCESS; });
+        if (bad == outcome.end()) return;
+        first = *bad < 0 ? -2 : *bad;
+        const auto k = static_cast<std::size_t>(bad - outcome.begin());
+        remember("contact " + std::to_string(k) + ": " + reason[k]);
+    });
+    return whole != RSC_SUCCESS ? whole : first;
+}
+
+}  // namespace
+}  // namespace rsc::api
+
+using namespace rsc::api;
+
+extern "C" {
+
+int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status, int32_t threads) {
+    return for_all(n, contacts, force, 3, status, threads, 6,
+                   [&](int64_t k) { return rsc_contact_press(contacts[k], force[k], separation ? separation + k : nullptr); });
+}
+
+int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status, int32_t threads) {
+    return for_all(n, contacts, separation, 3, status, threads, 6,
+                   [&](int64_t k) { return rsc_contact_indent(contacts[k], separation[k], force ? force + k : nullptr); });
+}
+
+int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const double* y0, int32_t by_force, const double* value,
+                          double* separation, double* force, double* stiffness, double* lateral_x, double* lateral_y, double* moment_x,
+                          double* moment_y, int32_t* level_status, int32_t* status, int32_t threads) {
+    const int32_t sound = guarded(0, [&] {
+        if (!x0 != !y0) refuse(x0 ? 4 : 3, x0 ? "y0" : "x0", "must be null where the other is");
+        if (by_force != 0 && by_force != 1) refuse(5, "by_force", "must be 0 or 1");
+    });
+    if (sound != RSC_SUCCESS) return sound;
+    return for_all(n, contacts, value, 6, status, threads, 16, [&](int64_t k) {
+        rsc_contact* const contact = contacts[k];
+        if (x0)
+            if (const int32_t moved = rsc_contact_move_tip(contact, x0[k], y0[k]); moved != RSC_SUCCESS) return moved;
+        const int32_t reached = by_force ? rsc_contact_press(contact, value[k], nullptr) : rsc_contact_indent(contact, value[k], nullptr);
+        if (reached != RSC_SUCCESS && reached != RSC_NOT_CONVERGED) return reached;
+        double slope = 0;
+        if (stiffness)
+            if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS) return found;
+        const auto& known = contact->known;
+        const auto to = [&](auto* output, auto of) {
+            if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
+        };
+        to(separation, known.level->separation), to(force, known.level->force), to(stiffness, slope);
+        to(lateral_x, known.lateral.x), to(lateral_y, known.lateral.y), to(moment_x, known.moment.x), to(moment_y, known.moment.y);
+        to(level_status, known.level->status);
+        return reached;
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,42 @@
+#include "rough/library_lock.hpp"
+
+#include <pthread.h>
+
+#include <mutex>
+
+extern "C" void fftw_make_planner_thread_safe();  // of libfftw3_threads; fftw3.h declares more than this needs
+extern "C" void fftwf_make_planner_thread_safe();
+
+namespace rsc {
+namespace {
+
+// Not std::recursive_mutex: the child of a fork could not unlock one.
+std::mutex mutex;
+thread_local int depth = 0;
+
+// A program that makes plans of its own, and knows nothing of rsc's lock, is then safe beside rsc.
+[[maybe_unused]] const bool planner_is_safe = (fftw_make_planner_thread_safe(), fftwf_make_planner_thread_safe(), true);
+
+}  // namespace
+
+LibraryLock::LibraryLock() {
+    pthread_atfork([] { library_lock().lock(); }, [] { library_lock().unlock(); }, [] { library_lock().unlock(); });
+}
+
+void LibraryLock::lock() {
+    if (depth == 0) mutex.lock();
+    ++depth;
+}
+
+bool LibraryLock::unlock() {
+    if (depth == 0) return false;
+    if (--depth == 0) mutex.unlock();
+    return true;
+}
+
+LibraryLock& library_lock() {
+    static LibraryLock lock;
+    return lock;
+}
+
+}  // namespace rsc

@@ -1,0 +1,113 @@
+"""The library as a guest of Python: Ctrl-C, NetCDF from several threads, states, many contacts, arrays with holes, damaged results."""
+import os
+import signal
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import rsc
+
+SMALL = {"surface": {"n": 64, "L_lambda_l": 2, "L_lambda_s": 8}, "solids": {"R": [float("inf"), 2.5]}}
+
+
+class Guest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_interrupt(self):
+        # One level of elements that takes minutes: the run ends in the middle of it.
+        case = rsc.Case("&surface n=512 L_lambda_l=2 L_lambda_s=64 / &solver model='elements' tolerance=1e-12 / &elements points_per_wave=32 / &indentation levels=-3 /")
+        seen = []
+
+        def progress(done, total):
+            seen.append((done, total))
+            if len(seen) == 3:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            case.run(self.path("long.nc"), progress)
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+        def refuse(done, total):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            case.run(self.path("long.nc"), refuse)
+
+    def test_netcdf_in_threads(self):
+        def run(member):
+            file = self.path(f"{threading.get_ident()}.nc")
+            member.run(file)
+            return float(rsc.read(file, xarray=False)["force_mean"][-1])
+
+        case = rsc.Case(SMALL)
+        case["indentation%steps"] = 2
+        over = {"surface%sigma": [0.01 + 0.001 * k for k in range(8)]}
+        alone, together = (rsc.study(case, over, run, threads=threads) for threads in (1, 4))
+        self.assertEqual([force for _, force in alone], [force for _, force in together])
+
+    def test_damage(self):
+        case = rsc.Case(SMALL)
+        file = case.run(self.path("whole.nc"))
+        with open(file, "rb") as whole:
+            content = bytearray(whole.read())
+        self.assertIn("force", rsc.read(file, xarray=False))
+        for place in range(100, len(content) - 50, len(content) // 20):
+            content[place] ^= 16
+            with open(file, "wb") as damaged:
+                damaged.write(content)
+            with self.assertRaisesRegex(rsc.Error, "damaged"):
+                rsc.read(file)
+            content[place] ^= 16
+
+    def test_holes(self):
+        heights = np.ma.masked_greater(np.random.default_rng(1).normal(size=(8, 8)), 0.5)
+        with self.assertRaisesRegex(rsc.ArgumentError, "masked"):
+            rsc.Surface.take(heights, dx=0.1)
+        with self.assertRaisesRegex(rsc.ArgumentError, "heights"):
+            rsc.Surface.take(np.ma.getdata(np.ma.filled(heights, 9.969209968386869e36)), dx=0.1)
+
+    def test_states(self):
+        case = rsc.Case(SMALL)
+        asperities = rsc.Asperities.make(case)
+        contact = rsc.Contact.from_case(asperities, case)
+        force = contact.indent(0.01)
+        contact.commit()
+        contact.tip = (0.4, 0.6)
+        there = contact.indent(0.0)
+        copy = contact.copy()
+        contact.rollback()
+        self.assertEqual((contact.force, contact.tip, copy.force), (force, (0.5, 0.5), there))
+        friction = rsc.Friction(contact, 0.3, 0.8)
+        friction.update(0.01)
+        friction.update(0.01, 1e-4)
+        before = friction.state()
+        friction.move_tip(0.5 + 1e-3, 0.5)
+        after = friction.state()
+        self.assertLessEqual(after.tangential_energy, before.tangential_energy)
+        self.assertAlmostEqual(after.tangential_energy + after.lost, before.tangential_energy + before.lost, delta=1e-12 * before.tangential_energy)
+
+    def test_step(self):
+        case = rsc.Case(SMALL)
+        asperities = rsc.Asperities.make(case)
+        contacts = [rsc.Contact.from_case(asperities, case) for _ in range(3)]
+        tips = np.array([[0.4, 0.5], [0.5, 0.6], [0.45, 0.55]])
+        answers = rsc.step_all(contacts, forces=[1.0, 2.0, 3.0], tips=tips, stiffness=True, threads=2)
+        for k, (force, tip) in enumerate(zip([1.0, 2.0, 3.0], tips)):
+            alone = rsc.Contact.from_case(asperities, case)
+            alone.tip = tip
+            self.assertAlmostEqual(answers["separation"][k], alone.press(force), delta=1e-7)
+            self.assertAlmostEqual(answers["lateral_x"][k], alone.value("lateral_force_x"), delta=1e-5 * force)
+            self.assertAlmostEqual(answers["stiffness"][k] / alone.stiffness(), 1, delta=1e-4)
+        with self.assertRaises(rsc.ArgumentError):
+            rsc.step_all(contacts, forces=[1.0, 2.0, 3.0], separations=[0.0, 0.0, 0.0])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,147 @@
+// Damaged results and unusual files: what is read is what was written, or it is refused.
+#include <sys/stat.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "file/netcdf_writer.hpp"
+#include "file/output_path.hpp"
+#include "file/result_sums.hpp"
+#include "read/inputs.hpp"
+#include "rsc.h"
+#include "unit/map_files.hpp"
+#include "unit/sample_result.hpp"
+#include "unit/temporary_folder.hpp"
+
+using namespace rsc;
+
+namespace {
+
+std::vector<double> heights_in(const std::string& path) {
+    const HeightMap map = read_heights(path, {}, "mm", "", Missing::refuse);
+    std::vector<double> z{map.dx, map.dy, map.x0, map.y0};
+    for (int j = 0; j < map.ny; ++j) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
+    return z;
+}
+
+std::vector<double> asperities_in(const std::string& path) {
+    const Asperities a = read_asperities(path, "mm");
+    std::vector<double> all;
+    for (const auto& column : kAsperityColumns) all.insert(all.end(), (a.*column.values).begin(), (a.*column.values).end());
+    return all;
+}
+
+// One byte after the other is spoilt, all over the file: nothing that differs is read.
+void test_damage(const Folder& folder, Format format) {
+    const std::string path = folder / "result.nc", spoilt = folder / "spoilt.nc";
+    write_result(sample::result(1), path, {format, 0, "made"});
+    const std::string whole = bytes(path);
+    const auto heights = heights_in(path), asperities = asperities_in(path);
+    const auto text = case_in_result(path);
+    int read = 0, refused = 0;
+    for (std::size_t k = 1; k <= 150; ++k) {
+        std::string damaged = whole;
+        damaged[(k * whole.size()) / 151 + k % 7] ^= static_cast<char>(1 << k % 8);
+        folder.write("spoilt.nc", damaged);
+        const auto look = [&](auto&& in, const auto& truth) {
+            try {
+                CHECK(in(spoilt) == truth);
+                ++read;
+            } catch (const Error& error) {
+                CHECK(error.kind() == Failure::bad_input);
+                ++refused;
+            }
+        };
+        look(heights_in, heights);
+        look(asperities_in, asperities);
+        look([](const std::string& file) { return case_in_result(file); }, text);
+    }
+    CHECK(read == 0 && refused == 450);
+}
+
+bool refused(const std::string& path, const char* word) {
+    try {
+        read_heights(path, {}, "mm", "", Missing::refuse);
+    } catch (const Error& error) {
+        return error.kind() == Failure::bad_input && std::strstr(error.what(), word);
+    }
+    return false;
+}
+
+// A surface data file with 3 x 3 heights, and what follows them.
+std::string sdf(double scale, const std::string& more) {
+    std::string text = "bISO-1.0" + std::string(34, ' ');
+    map_files::put(text, std::uint16_t{3}), map_files::put(text, std::uint16_t{3});
+    for (const double x : {1e-6, 1e-6, scale, 1e-9}) map_files::put(text, x);
+    text += std::string("\0\7\0", 3);
+    for (double z = 0; z < 9; ++z) map_files::put(text, z);
+    return text + more;
+}
+
+void test_inputs(const Folder& folder) {
+    CHECK(read_heights(folder.write("good.sdf", sdf(1e-6, "trailer")), {}, "mm", "", Missing::refuse).nx == 3);
+    CHECK(refused(folder.write("down.sdf", sdf(-1e-6, "")), "Zscale"));
+    CHECK(refused(folder.write("long.sdf", sdf(1e-6, std::string(1 << 20, 'x'))), "follow"));
+    const std::string fifo = folder / "fifo";
+    CHECK(mkfifo(fifo.c_str(), 0600) == 0 && refused(fifo, "FIFO") && refused("/dev/zero", "device"));
+    for (const char* name : {"http://host/a.nc", "file://a#mode=zarr,file", "a.nc#mode=zarr,file"}) {
+        bool told = false;
+        try {
+            check_output(name);
+        } catch (const Error& error) {
+            told = std::strstr(error.what(), "address");
+        }
+        CHECK(told);
+    }
+}
+
+// What netCDF4 leaves where nothing was measured is no height.
+void test_fill_values() {
+    std::vector<double> z(9);
+    z[4] = 9.9692099683868690e+36;
+    rsc_surface* surface = nullptr;
+    CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
+    z[4] = static_cast<double>(9.9692099683868690e+36f);
+    CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
+}
+
+// A force that no separation can be told apart for is refused; larger ones are met.
+void test_small_forces() {
+    const double x[] = {0.5}, z[] = {0.01}, r[] = {0.05};
+    rsc_asperities* asperities = nullptr;
+    rsc_contact* contact = nullptr;
+    CHECK(rsc_asperities_take(&asperities, 1, x, x, z, r, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+    CHECK(rsc_contact_create(&contact, asperities, 1e5, 2.5, 0.5, 0.5, nullptr) == RSC_SUCCESS);
+    int met = 0, told = 0;
+    for (double N = 1; N > 1e-26; N *= 0.1) {
+        double found = 0;
+        const std::int32_t status = rsc_contact_press(contact, N, nullptr);
+        CHECK(status == RSC_SUCCESS || status == -2);
+        if (status == RSC_SUCCESS) {
+            CHECK(rsc_contact_value(contact, "force", &found) == RSC_SUCCESS);
+            CHECK_RELATIVE(found, N, 2e-6);
+            ++met;
+        } else {
+            ++told;
+        }
+    }
+    CHECK(met > 8 && told > 3);
+    rsc_contact* gone = contact;
+    CHECK(rsc_contact_destroy(&contact) == RSC_SUCCESS);
+#if !defined(__SANITIZE_ADDRESS__)
+    CHECK(rsc_contact_press(gone, 1, nullptr) == -1 && rsc_contact_destroy(&gone) == -1);  // released
+#endif
+    CHECK(rsc_surface_moments(reinterpret_cast<rsc_surface*>(asperities), nullptr, nullptr, nullptr) == -1);
+    rsc_asperities_destroy(&asperities);
+}
+
+}  // namespace
+
+TESTS {
+    for (const Format format : {Format::netcdf4, Format::classic}) test_damage(Folder(), format);
+    test_inputs(Folder());
+    test_fill_values();
+    test_small_forces();
+}

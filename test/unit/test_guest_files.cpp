@@ -1,0 +1,138 @@
+// Files that are written whole or not at all, and what they may replace.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "check.hpp"
+#include "error.hpp"
+#include "file/whole_file.hpp"
+#include "rsc.h"
+#include "unit/temporary_folder.hpp"
+
+using namespace rsc;
+
+namespace {
+
+const FileKind kNotes{"note", [](const std::string& path) { return begins_with(path, "note "); }};
+
+bool refused(const std::string& path, const char* word) {
+    try {
+        write_whole(path, kNotes, std::string("note new"));
+    } catch (const Error& error) {
+        return error.kind() == Failure::file_system && std::string(error.what()).find(word) != std::string::npos;
+    }
+    return false;
+}
+
+void test_what_may_be_replaced(const Folder& folder) {
+    const std::string mine = folder / "mine", thesis = folder / "thesis", link = folder / "link", fifo = folder / "fifo";
+    write_whole(mine, kNotes, std::string("note 1"));
+    write_whole(mine, kNotes, std::string("note 2"));
+    CHECK(bytes(mine) == "note 2");
+    std::ofstream(thesis) << "thesis";
+    CHECK(refused(thesis, "no note") && bytes(thesis) == "thesis");
+    CHECK(symlink(mine.c_str(), link.c_str()) == 0 && refused(link, "link") && bytes(mine) == "note 2");
+    CHECK(mkfifo(fifo.c_str(), 0600) == 0 && refused(fifo, "plain file"));
+    CHECK(refused(folder / ".", "folder"));
+    if (geteuid() != 0) CHECK(refused("/dev/null", "plain file"));  // root could lose the device
+    CHECK(chmod(mine.c_str(), 0440) == 0 && refused(mine, "read-only") && bytes(mine) == "note 2");
+    CHECK(chmod(mine.c_str(), 0640) == 0);
+    write_whole(mine, kNotes, std::string("note 3"));
+    struct stat status {};
+    CHECK(stat(mine.c_str(), &status) == 0 && (status.st_mode & 0777) == 0640);  // who may read it stays
+    CHECK(folder.files() == 4);
+}
+
+// A link of the temporary's name is not followed, a temporary that is being written is not touched, one that was left is removed.
+void test_temporaries(const Folder& folder) {
+    const std::string mine = folder / "mine", other = folder / "other";
+    std::ofstream(other) << "other";
+    CHECK(symlink(other.c_str(), (mine + ".rsc-part-0").c_str()) == 0);
+    std::ofstream(mine + ".rsc-part-1") << "left by a writer that was killed";
+    const int held = open((mine + ".rsc-part-2").c_str(), O_RDWR | O_CREAT, 0600);
+    CHECK(flock(held, LOCK_EX) == 0);
+    write_whole(mine, kNotes, std::string("note"));
+    CHECK(bytes(mine) == "note" && bytes(other) == "other");
+    CHECK(access((mine + ".rsc-part-1").c_str(), F_OK) != 0 && access((mine + ".rsc-part-2").c_str(), F_OK) == 0);
+    close(held);
+}
+
+// Writers of one file at once, some killed on the way: a reader finds one whole writing or none, and nothing is left in the end.
+void test_many_writers(const Folder& folder) {
+    const std::string path = folder / "one";
+    std::vector<pid_t> children;
+    for (char c = 'a'; c < 'e'; ++c) {
+        const pid_t child = fork();
+        if (child == 0)
+            for (;;) write_whole(path, kNotes, "note " + std::string(100000, c));
+        children.push_back(child);
+    }
+    int whole = 0;
+    for (int k = 0; k < 300; ++k) {
+        const std::string there = bytes(path);
+        if (there.empty() && whole == 0) {
+            usleep(1000);
+            continue;
+        }
+        ++whole;
+        CHECK(there.size() == 100005 && there == "note " + std::string(100000, there.back()));
+    }
+    CHECK(whole > 0);
+    for (const pid_t child : children) {
+        kill(child, SIGKILL);
+        CHECK(waitpid(child, nullptr, 0) == child);
+    }
+    write_whole(path, kNotes, std::string("note"));
+    CHECK(folder.files() == 1 && bytes(path) == "note");
+}
+
+// Threads that save contacts to one path all succeed, and a contact is restored from it; other people's files stay.
+void test_saves(const Folder& folder) {
+    const double x[] = {0.3, 0.7}, z[] = {0.01, 0.012}, r[] = {0.05, 0.04};
+    rsc_asperities* asperities = nullptr;
+    rsc_contact* contact = nullptr;
+    const std::string path = folder / "save", source = folder / "source.f90";
+    CHECK(rsc_asperities_take(&asperities, 2, x, x, z, r, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+    CHECK(rsc_contact_create(&contact, asperities, 1e5, 2.5, 0.5, 0.5, nullptr) == RSC_SUCCESS);
+    CHECK(rsc_contact_indent(contact, 0.0, nullptr) == RSC_SUCCESS);
+    std::ofstream(source) << "end";
+    CHECK(rsc_contact_save(contact, source.c_str()) == RSC_FILE && bytes(source) == "end");
+    if (geteuid() != 0) CHECK(rsc_contact_save(contact, "/dev/full") == RSC_FILE);
+    std::vector<std::thread> threads;
+    std::vector<int> failed(4);
+    for (std::size_t t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+            rsc_contact* copy = nullptr;
+            failed[t] += rsc_contact_copy(&copy, contact) != RSC_SUCCESS;
+            for (int k = 0; k < 25; ++k) {
+                rsc_contact* again = nullptr;
+                failed[t] += rsc_contact_save(copy, path.c_str()) != RSC_SUCCESS;
+                failed[t] += rsc_contact_restore(&again, asperities, path.c_str()) != RSC_SUCCESS;
+                rsc_contact_destroy(&again);
+            }
+            rsc_contact_destroy(&copy);
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const int f : failed) CHECK(f == 0);
+    CHECK(folder.files() == 2);
+    rsc_contact* again = nullptr;
+    CHECK(rsc_contact_restore(&again, asperities, "/dev/zero") == -3 && !again);
+    rsc_contact_destroy(&contact);
+    rsc_asperities_destroy(&asperities);
+}
+
+}  // namespace
+
+TESTS {
+    test_what_may_be_replaced(Folder());
+    test_temporaries(Folder());
+    test_many_writers(Folder());
+    test_saves(Folder());
+}

@@ -1,0 +1,214 @@
+// States as values: commit, roll back, copies and saves of contacts that yield; a sphere with friction that rolls; many contacts at once; runs
+// that are watched.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "rsc.h"
+#include "unit/temporary_folder.hpp"
+
+namespace {
+
+constexpr double kTolerance = 1e-5;  // ten times that of the levels
+
+struct Made {
+    rsc_case* c = nullptr;
+    rsc_asperities* asperities = nullptr;
+    rsc_contact* contact = nullptr;
+    explicit Made(const std::string& more) {
+        const std::string text =
+            "&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity,2.5 " + more;
+        CHECK(rsc_case_create(&c) == RSC_SUCCESS && rsc_case_read(c, text.c_str()) == RSC_SUCCESS);
+        CHECK(rsc_asperities_make(&asperities, c, 1) == RSC_SUCCESS);
+        CHECK(rsc_contact_create_from_case(&contact, asperities, c) == RSC_SUCCESS);
+    }
+    ~Made() {
+        rsc_contact_destroy(&contact);
+        rsc_asperities_destroy(&asperities);
+        rsc_case_destroy(&c);
+    }
+};
+
+double value(rsc_contact* contact, const char* name) {
+    double found = std::nan("");
+    CHECK(rsc_contact_value(contact, name, &found) == RSC_SUCCESS);
+    return found;
+}
+
+double force_at(rsc_contact* contact, double Z0) {
+    double N = std::nan("");
+    CHECK(rsc_contact_indent(contact, Z0, &N) == RSC_SUCCESS);
+    return N;
+}
+
+// A step that was tried leaves no trace; a copy and a restored save go on as the original does.
+void test_yielding(const std::string& keys, const Folder& folder) {
+    Made made("hardness=1500 / " + keys);
+    rsc_contact *contact = made.contact, *copy = nullptr, *saved = nullptr, *fresh = nullptr;
+    const std::string path = folder / "save";
+    force_at(contact, 0.01);
+    const double before = force_at(contact, 0.0102), work = value(contact, "plastic_work"), stiffness = value(contact, "stiffness");
+    CHECK(before > 0 && work > 0);
+    CHECK(rsc_contact_commit(contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_copy(&copy, contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_save(contact, path.c_str()) == RSC_SUCCESS);
+    CHECK(rsc_contact_restore(&saved, made.asperities, path.c_str()) == RSC_SUCCESS);
+    for (rsc_contact* one : {contact, copy, saved}) {
+        CHECK_RELATIVE(value(one, "force"), before, 1e-15);
+        CHECK_RELATIVE(value(one, "stiffness"), stiffness, 1e-3);
+    }
+    const double deeper = force_at(contact, 0.005), again = force_at(contact, 0.0102);
+    CHECK(deeper > before && again < before);  // it has yielded further
+    CHECK(rsc_contact_create_from_case(&fresh, made.asperities, made.c) == RSC_SUCCESS);
+    force_at(fresh, 0.01), force_at(fresh, 0.0102);
+    const double way_back = force_at(fresh, 0.0104);
+    CHECK(rsc_contact_rollback(contact) == RSC_SUCCESS);
+    CHECK_RELATIVE(value(contact, "force"), before, 1e-15);
+    CHECK_RELATIVE(value(contact, "plastic_work"), work, 1e-15);
+    CHECK_RELATIVE(value(contact, "stiffness"), stiffness, 1e-3);
+    for (rsc_contact* one : {contact, copy, saved}) {
+        CHECK_RELATIVE(force_at(one, 0.0104), way_back, kTolerance);
+        CHECK_RELATIVE(value(one, "plastic_work"), work, kTolerance);
+        CHECK_RELATIVE(force_at(one, 0.005), deeper, kTolerance);
+        CHECK(rsc_contact_rollback(one) == RSC_SUCCESS);
+        CHECK_RELATIVE(force_at(one, 0.0104), way_back, kTolerance);
+    }
+    for (rsc_contact** one : {&copy, &saved, &fresh}) rsc_contact_destroy(one);
+}
+
+// The tip goes back, too.
+void test_elastic() {
+    Made made("/");
+    const double here = force_at(made.contact, 0.01);
+    CHECK(rsc_contact_commit(made.contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_move_tip(made.contact, 0.3, 0.4) == RSC_SUCCESS);
+    const double there = force_at(made.contact, 0.01);
+    CHECK(there != here);
+    rsc_contact* copy = nullptr;
+    CHECK(rsc_contact_copy(&copy, made.contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_rollback(made.contact) == RSC_SUCCESS);
+    double x = 0;
+    CHECK(rsc_contact_tip(made.contact, &x, nullptr) == RSC_SUCCESS && x == 0.5);
+    CHECK(value(made.contact, "force") == here && value(copy, "force") == there);
+    const double h = 1e-5;
+    const double slope = (force_at(copy, 0.01 + h) - force_at(copy, 0.01 - h)) / (2 * h);
+    CHECK(rsc_contact_rollback(copy) == RSC_SUCCESS);
+    force_at(copy, 0.01);
+    CHECK_RELATIVE(value(copy, "force"), here, kTolerance);
+    CHECK(rsc_contact_move_tip(copy, 0.3, 0.4) == RSC_SUCCESS && rsc_contact_commit(copy) == RSC_SUCCESS);
+    force_at(copy, 0.01);
+    rsc_contact* third = nullptr;
+    CHECK(rsc_contact_copy(&third, copy) == RSC_SUCCESS);  // its stiffness is worked out after the copy
+    CHECK_RELATIVE(value(third, "stiffness"), slope, 1e-2);
+    rsc_contact_destroy(&copy);
+    rsc_contact_destroy(&third);
+}
+
+struct Path {
+    double N = 0, Qx = 0, Qy = 0, tangential = 0, lost = 0;
+};
+
+Path state(const rsc_friction* friction) {
+    Path p;
+    CHECK(rsc_friction_state(friction, nullptr, nullptr, nullptr, &p.N, &p.Qx, &p.Qy, nullptr, &p.tangential, &p.lost, nullptr) ==
+          RSC_SUCCESS);
+    return p;
+}
+
+// The force of the slide is bounded by mu N, what its energy falls by is lost, none is won; a move back to where the tip is does nothing, one to
+// other asperities leaves nothing of the slide.
+void test_rolling() {
+    Made made("/");
+    rsc_friction* friction = nullptr;
+    constexpr double mu = 0.4, Z0 = 0.012;
+    CHECK(rsc_friction_create(&friction, made.contact, mu, 0.8) == RSC_SUCCESS);
+    CHECK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+    CHECK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+    const Path slid = state(friction);
+    CHECK(slid.Qx > 0 && slid.tangential > 0 && rsc_friction_commit(friction) == RSC_SUCCESS);
+    CHECK(rsc_friction_move_tip(friction, 0.5, 0.5) == RSC_SUCCESS && state(friction).Qx == slid.Qx);
+    Path last = slid;
+    for (int k = 1; k <= 20; ++k) {
+        CHECK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5) == RSC_SUCCESS);
+        const Path now = state(friction);
+        CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12));
+        CHECK(now.tangential <= last.tangential * (1 + 1e-12) && now.lost >= last.lost);
+        CHECK_CLOSE(now.tangential + now.lost, last.tangential + last.lost, 1e-12 * slid.tangential);
+        last = now;
+    }
+    CHECK(last.Qx > 0 && last.Qx < slid.Qx);
+    rsc_contact* there = nullptr;
+    CHECK(rsc_contact_copy(&there, made.contact) == RSC_SUCCESS && rsc_contact_move_tip(there, 0.52, 0.5) == RSC_SUCCESS);
+    CHECK_RELATIVE(last.N, force_at(there, Z0), kTolerance);
+    CHECK(rsc_friction_move_tip(friction, 0.9, 0.1) == RSC_SUCCESS && state(friction).Qx == 0 && state(friction).tangential == 0);
+    CHECK(rsc_friction_rollback(friction) == RSC_SUCCESS);
+    double N = 0, Qx = 0;
+    CHECK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr) == RSC_SUCCESS);
+    CHECK_RELATIVE(N, slid.N, kTolerance);
+    CHECK_RELATIVE(Qx, slid.Qx, kTolerance);
+    rsc_contact_destroy(&there);
+    rsc_friction_destroy(&friction);
+}
+
+// A step of many contacts is what the functions for one do.
+void test_many() {
+    Made made("/");
+    rsc_contact* contacts[3] = {};
+    const double x[] = {0.3, 0.5, 0.6}, y[] = {0.5, 0.4, 0.7}, N[] = {1, 2, 3};
+    double Z0[3], S[3], Fx[3], My[3];
+    std::int32_t status[3];
+    for (auto& contact : contacts) CHECK(rsc_contact_copy(&contact, made.contact) == RSC_SUCCESS);
+    CHECK(rsc_contacts_step(3, contacts, x, y, 1, N, Z0, nullptr, S, Fx, nullptr, nullptr, My, nullptr, status, 2) == RSC_SUCCESS);
+    for (int k = 0; k < 3; ++k) {
+        double single = 0;
+        CHECK(rsc_contact_move_tip(made.contact, x[k], y[k]) == RSC_SUCCESS);
+        CHECK(rsc_contact_press(made.contact, N[k], &single) == RSC_SUCCESS && status[k] == RSC_SUCCESS);
+        CHECK_RELATIVE(Z0[k], single, kTolerance);
+        CHECK_RELATIVE(S[k], value(made.contact, "stiffness"), 1e-4);
+        CHECK_CLOSE(Fx[k], value(made.contact, "lateral_force_x"), 1e-5 * N[k]);
+        CHECK_CLOSE(My[k], value(made.contact, "moment_y"), 1e-5 * N[k]);
+    }
+    const double outside[] = {0.3, 7, 0.6};
+    CHECK(rsc_contacts_step(3, contacts, outside, y, 1, N, Z0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, status, 0) ==
+          -2);
+    CHECK(status[0] == 0 && status[1] == -2 && status[2] == 0);
+    CHECK(rsc_contacts_step(3, contacts, x, nullptr, 1, N, Z0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, status, 0) ==
+          -4);
+    for (auto& contact : contacts) rsc_contact_destroy(&contact);
+}
+
+struct Watched {
+    int calls = 0, until = 0;
+    double done = 0, total = 0;
+};
+std::int32_t watch(double done, double total, void* data) {
+    auto& w = *static_cast<Watched*>(data);
+    w.done = done, w.total = total;
+    return ++w.calls >= w.until;
+}
+
+void test_watched(const Folder& folder) {
+    for (const char* realizations : {"1", "20"}) {
+        const std::string file = folder / "run.nc";
+        Made made("/ &indentation steps=40 / &run realizations=" + std::string(realizations) + " / &output file='" + file + "' /");
+        Watched once{0, 1, 0, 0}, never{0, 1 << 30, 0, 0};
+        CHECK(rsc_case_run_watched(made.c, watch, &once, nullptr) == RSC_STOPPED && folder.files() <= 1);
+        CHECK(once.calls == 1 && !std::ifstream(file));
+        std::filesystem::remove(file + ".checkpoint");
+        CHECK(rsc_case_run_watched(made.c, watch, &never, nullptr) == RSC_SUCCESS && std::ifstream(file));
+        CHECK(never.calls > 1 && never.done >= never.total - 1 && never.total == (*realizations == '1' ? 40 : 20));
+        std::filesystem::remove(file);
+    }
+}
+
+}  // namespace
+
+TESTS {
+    test_yielding("", Folder());
+    test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
+    test_elastic();
+    test_rolling();
+    test_many();
+    test_watched(Folder());
+}

@@ -1,0 +1,118 @@
+// The library in processes that are short of threads, and in children of processes that had threads.
+#include <omp.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "check.hpp"
+#include "rsc.h"
+
+namespace {
+
+rsc_case* small_case(const char* more) {
+    rsc_case* c = nullptr;
+    const std::string text = std::string("&surface n=256 L_lambda_l=4 L_lambda_s=32 / ") + more;
+    CHECK(rsc_case_create(&c) == RSC_SUCCESS && rsc_case_read(c, text.c_str()) == RSC_SUCCESS);
+    return c;
+}
+
+// The exit status of a process of its own that does this; 128 + signal where it was ended, by an alarm if it hangs.
+int in_child(const std::function<int()>& body) {
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(60);
+        _exit(body());
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// Some 100 MB more than the process has: room for a few of the 200 threads asked for. 0: an answer, 1: a status.
+int with_little_memory() {
+    long pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t most = static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{100} << 20);
+    const rlimit limit{most, most};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) return 9;
+    rsc_case* c = small_case("&run threads=200 /");
+    rsc_surface* surface = nullptr;
+    const std::int32_t status = rsc_surface_synthesize(&surface, c, 1);
+    return status == RSC_SUCCESS ? 0 : status == RSC_NO_MEMORY ? 1 : 2;
+}
+
+double height(const rsc_case* c) {
+    rsc_surface* surface = nullptr;
+    std::vector<double> z(256 * 256);
+    CHECK(rsc_surface_synthesize(&surface, c, 1) == RSC_SUCCESS);
+    CHECK(rsc_surface_heights(surface, 256 * 256, z.data()) == RSC_SUCCESS);
+    rsc_surface_destroy(&surface);
+    return z[777];
+}
+
+void test_more_threads_than_work() {
+    rsc_case* c = small_case("");
+    rsc_asperities* asperities = nullptr;
+    rsc_contact* contacts[2] = {};
+    CHECK(rsc_asperities_make(&asperities, c, 1) == RSC_SUCCESS);
+    for (auto& contact : contacts) CHECK(rsc_contact_create_from_case(&contact, asperities, c) == RSC_SUCCESS);
+    const double force[] = {1e-3, 2e-3};
+    double few[2], many[2];
+    CHECK(rsc_contacts_press(2, contacts, force, few, nullptr, 1) == RSC_SUCCESS);
+    CHECK(in_child([&] { return rsc_contacts_press(2, contacts, force, many, nullptr, 100000); }) == 0);
+    for (auto& contact : contacts) rsc_contact_destroy(&contact);
+    rsc_asperities_destroy(&asperities);
+    rsc_case_destroy(&c);
+}
+
+void test_fork() {
+    rsc_case* c = small_case("&run threads=4 /");
+    const double before = height(c);  // OpenMP's threads are there now
+    CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
+    CHECK(height(c) == before);
+    // While another thread is in the library.
+    std::atomic<bool> done{false};
+    std::thread other([&] {
+        while (!done) height(c);
+    });
+    for (int k = 0; k < 5; ++k) CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
+    done = true;
+    other.join();
+    rsc_case_destroy(&c);
+}
+
+void test_lock() {
+    CHECK(rsc_unlock() == RSC_NO_RESULT);
+    CHECK(rsc_lock() == RSC_SUCCESS && rsc_lock() == RSC_SUCCESS);
+    rsc_case* c = small_case("");
+    height(c);  // makes plans of FFTW on the way
+    CHECK(rsc_unlock() == RSC_SUCCESS);
+    std::atomic<bool> in{false};
+    std::thread other([&] {
+        rsc_lock();
+        in = true;
+        rsc_unlock();
+    });
+    usleep(50000);
+    CHECK(!in);
+    CHECK(rsc_unlock() == RSC_SUCCESS);
+    other.join();
+    CHECK(in && rsc_unlock() == RSC_NO_RESULT);
+    rsc_case_destroy(&c);
+}
+
+}  // namespace
+
+TESTS {
+    CHECK(in_child(with_little_memory) <= 1);
+    test_more_threads_than_work();
+    test_fork();
+    test_lock();
+}
