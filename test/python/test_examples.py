@@ -144,6 +144,17 @@ class Presses(unittest.TestCase):
             for found, expected in ((resistance, 2 * 2.2e-5 * E / (-2 * slope)), (alone, 2.2e-5 / (2 * a.sum())), (one, 2.2e-5 / (2 * np.sqrt(area / np.pi)))):
                 self.assertAlmostEqual(found, 1e3 * expected, delta=6e-6 + 3e-6 * found)
 
+    def test_fixed(self):
+        found = asperities(SMALL.format(0.01))
+        lines = printed("fixed")
+        self.assertEqual(len(lines), 6)
+        for k, line in enumerate(lines[1:]):
+            x, Z0, A, contacts = numbers(line)
+            Z, _, _, area, a = Spheres(found, GOLD, 2.5, (x, 0.5)).press(20.0)
+            self.close(Z0, Z, 4)
+            self.close(A, area, 4)
+            self.assertEqual((contacts, round(x, 6)), (a.size, round(0.44 + 0.04 * k, 6)))
+
     def test_threads(self):
         lines = printed("threads")
         found = asperities("&surface n=512, L_lambda_l=16, L_lambda_s=128, sigma=0.005 / &solids R=Infinity, 0.5 /")

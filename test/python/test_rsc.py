@@ -1,9 +1,8 @@
-"""rsc.py against closed forms and laws of its own: values, lifetimes, threads, studies, result files, documentation."""
+"""What rsc.py has beyond the calls of the C interface (test/calls): arrays, curves, lifetimes, threads, studies, result files, documentation."""
 import gc
 import inspect
 import math
 import os
-import sys
 import tempfile
 import threading
 import time
@@ -22,30 +21,6 @@ def one_asperity(case=None):
 
 
 class Values(unittest.TestCase):
-    def test_hertz(self):
-        """One asperity: the tolerances are rounding, but for press, which goes to solver%tolerance."""
-        contact = one_asperity(rsc.Case({"solver%tolerance": 1e-11}))
-        f = 4 / 3 * E * math.sqrt(0.3) * U**1.5
-        self.assertAlmostEqual(contact.indent(-U) / f, 1, delta=1e-13)
-        self.assertAlmostEqual(contact.area / (math.pi * 0.3 * U), 1, delta=1e-13)
-        self.assertAlmostEqual(contact.stiffness() / (-2 * E * math.sqrt(0.3 * U)), 1, delta=1e-12)
-        self.assertAlmostEqual(contact.energy() / (0.4 * f * U), 1, delta=1e-12)
-        self.assertEqual((contact.contacts, contact.separation), (1, -U))
-        self.assertEqual(contact.force, contact.indent(-U))
-        spots = contact.spots()
-        self.assertEqual((spots.asperity.tolist(), spots.asperity.dtype), ([0], np.int32))
-        self.assertAlmostEqual(spots.radius[0] ** 2 / (0.3 * U), 1, delta=1e-12)
-        far = f / (math.pi * E * 5) * (1 + 0.3 * U / (10 * 5**2))  # of a Hertz pressure on a circle, to (a/d)^4
-        self.assertAlmostEqual(contact.deflection([0.0, 3.0], [0.0, 4.0])[1] / far, 1, delta=1e-9)
-        self.assertAlmostEqual(contact.deflection(0.0, 0.0) / U, 1, delta=1e-12)
-        self.assertIs(type(contact.deflection(0.0, 0.0)), float)
-        self.assertEqual(contact.deflection(np.zeros((2, 3)), np.ones((2, 3))).shape, (2, 3))
-        self.assertAlmostEqual(contact.press(f) / -U, 1, delta=1e-9)
-        contact.tip = (0.05, 0.0)
-        self.assertEqual(contact.tip, (0.05, 0.0))
-        self.assertAlmostEqual(contact.first_touch() / (math.sqrt(25 - 0.05**2) - 5), 1, delta=1e-9)
-        self.assertEqual(contact.level().status, rsc.LEVELS.index("converged"))
-
     def test_arrays(self):
         """Places, order and kind of every array: heights [y, x], asperities, spots, sums."""
         case = rsc.Case(SMALL)
@@ -135,33 +110,6 @@ class Lifetimes(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
-    def test_other_threads_run(self):
-        """While the library works in one thread, another goes on. Python itself is told not to change threads by the clock; a held interpreter
-        would let the other thread in at no time."""
-        interval = sys.getswitchinterval()
-        seen, gate = [], threading.Lock()
-        gate.acquire()
-
-        def wait():
-            with gate:
-                seen.append(True)
-
-        other = threading.Thread(target=wait)
-        other.start()
-        handle, call = rsc.ctypes.c_void_p(), rsc._library.rsc_surface_synthesize  # 2048^2 points: some 50 ms
-        sys.setswitchinterval(1000.0)
-        try:
-            gate.release()
-            for _ in range(40):  # the machine may be busy
-                if not seen:
-                    call(rsc.ctypes.byref(handle), None, 1)
-                    rsc._library.rsc_surface_destroy(rsc.ctypes.byref(handle))
-            in_time = bool(seen)
-        finally:
-            sys.setswitchinterval(interval)
-        other.join()
-        self.assertTrue(in_time)
-
     def test_readers_and_writers(self):
         """On one object, calls that read are in the library together, and one that changes it is there alone."""
         contact, library = one_asperity(), rsc._library
