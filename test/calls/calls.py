@@ -307,7 +307,7 @@ def program(name, head, arrays, used, before, body, tail):
     return "\n".join(" &\n      &".join(re.findall(r".{1,110}(?:$|(?<=[ ,(]))|.{1,110}", line)) if len(line) > 120 else line for line in "\n".join(lines).splitlines()) + "\n"
 
 
-FREE = {"version": "rsc_library_version", "tangential_ratio": "rsc_stiffness_ratio", "contacts_press": "rsc_press_all", "contacts_indent": "rsc_indent_all"}
+FREE = {"version": "rsc_library_version", "tangential_ratio": "rsc_stiffness_ratio", "stiffness_ratio": "rsc_stiffness_ratio", "contacts_press": "rsc_press_all", "contacts_indent": "rsc_indent_all"}
 
 
 def signatures():

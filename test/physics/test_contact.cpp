@@ -310,6 +310,7 @@ public:
     double stiffness() override { return touching_ ? -1.0 : 0.0; }
     double energy() const override { return 0; }
     void move_tip(double, double) override {}
+    void recall(const std::vector<double>&, const Level*) override {}
     double first_touch() const override { return 1; }
     const Indenter& indenter() const override { return indenter_; }
 

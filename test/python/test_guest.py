@@ -21,8 +21,8 @@ class Guest(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def test_interrupt(self):
-        # One level of elements that takes minutes: the run ends in the middle of it.
-        case = rsc.Case("&surface n=512 L_lambda_l=2 L_lambda_s=64 / &solver model='elements' tolerance=1e-12 / &elements points_per_wave=32 / &indentation levels=-3 /")
+        # Levels of elements that would take minutes.
+        case = rsc.Case("&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 / &elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /")
         seen = []
 
         def progress(done, total):

@@ -26,6 +26,7 @@ public:
     double stiffness() override { return slope_ / (1 + shift_ * slope_); }
     double energy() const override { return 0.4 * std::pow(std::max(kTop - z_, 0.0), 2.5); }
     void move_tip(double, double) override {}
+    void recall(const std::vector<double>&, const Level*) override {}
     double first_touch() const override { return kTop; }
     const Indenter& indenter() const override { return indenter_; }
 
