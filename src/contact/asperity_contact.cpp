@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "contact/candidates.hpp"
 #include "contact/expected_error.hpp"
@@ -131,6 +133,8 @@ struct AsperityContact::Impl {
     }
     Level report(double Z0) const;
     std::vector<Spot> spots(const Level& level) const;
+    double beside() const;
+    mutable std::optional<double> beside_;  // until the tip moves
 };
 
 void AsperityContact::Impl::use(Method how) {
@@ -178,6 +182,19 @@ std::vector<Spot> AsperityContact::Impl::spots(const Level& level) const {
     return spots;
 }
 
+// Z0 from which on down the flank of some summit touches the indenter, slope^2/(2 curvature) before its top does.
+double AsperityContact::Impl::beside() const {
+    if (beside_) return *beside_;
+    double highest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < asperities.size(); ++i) {
+        const Vec2 slope = indenter.shape->gradient(asperities.x[i] - indenter.x0, asperities.y[i] - indenter.y0);
+        const double nearer = 0.5 * (slope.x * slope.x + slope.y * slope.y) * asperities.radius[i];
+        highest = std::fmax(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer);
+    }
+    beside_ = highest;
+    return highest;
+}
+
 Level AsperityContact::Impl::report(double Z0) const {
     const WorkingSet& set = candidates.set;
     const auto& [v, force, slope] = solution;
@@ -210,7 +227,8 @@ Level AsperityContact::Impl::report(double Z0) const {
     expect_error(level, asperities, indenter, options);
     judge_range(level, indenter, options);
     // The surface's own summits touch only where the indenter is flat beside them.
-    if (!of_difference && level.slope_ratio > kMostSlopeRatio) level.status = graver(level.status, LevelStatus::out_of_validity);
+    if (!of_difference && (level.slope_ratio > kMostSlopeRatio || (level.contacts == 0 && Z0 < beside())))
+        level.status = graver(level.status, LevelStatus::out_of_validity);
     return level;
 }
 
@@ -434,6 +452,7 @@ void AsperityContact::move_tip(double x0, double y0) {
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size());
     my.indenter.x0 = x0;
     my.indenter.y0 = y0;
+    my.beside_.reset();
     if (my.of_difference && !my.law->path_dependent() &&
         std::hypot(x0 - my.found_x, y0 - my.found_y) > summits_keep(my.of_surface, my.indenter, my.options)) {
         forget();

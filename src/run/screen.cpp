@@ -131,7 +131,7 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
 }
 
 void print_statuses(std::ostream& out, std::span<const LevelValues> levels, const Job& job, bool elements) {
-    const double sigma = job.sigma, points_touch = job.points_touch;
+    const double sigma = job.sigma;
     const std::string remedy = job.spectrum ? format("elements%%points_per_wave = %g would.", 2 * job.settings.elements.points_per_wave)
                                             : "the map has no more points; contacts there are of few of them.";
     const auto count = [&](auto holds) { return static_cast<long>(std::count_if(levels.begin(), levels.end(), holds)); };
@@ -153,8 +153,9 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
              format("a finer grid may change N by more than 1 %%, at most by %.2g %% (force_error_expected); ", 100 * worst) + remedy);
     }
     if (!elements) {
-        tell(count([points_touch](const LevelValues& l) { return l.force == 0 && l.separation < points_touch; }),
-             "points of the map touch where no summit does: N is not 0; see solver%model = 'elements'.");
+        tell(
+            count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
+            "the surface touches beside the summits that are looked at: N is not 0; see solver%model = 'elements', or law = 'fourth_order'.");
         const bool list = job.settings.surface.source == Source::asperities;
         double steepest = 0;
         for (const LevelValues& l : levels) steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);
