@@ -21,8 +21,8 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
             low, high = np.nanpercentile(result[scatter][:, at], [16, 84], axis=0) * np.sign(np.nanmean(result[scatter]))
             low, high = np.minimum(low, high), np.maximum(low, high)
             band(page, axis, x[at], low, high, colour)
-        if alone and error in result:
-            off = result.worst(error)[at]
+        off = result.worst(error)[at] if alone and error in result else np.zeros(0)
+        if off.max(initial=0) > 0.03:  # less is not seen
             axis.fill_between(x[at], y[at] * np.maximum(1 - off, 0.02), y[at] * (1 + off), color="#c1440e", alpha=0.18, lw=0, gid="error")
             page.entry("expected error of the model", color="#c1440e", alpha=0.18, lw=5)
     if name:
