@@ -93,7 +93,11 @@ double stiffness_of(rsc_contact& contact) {
     return known;
 }
 
-double conductance_length_of(rsc_contact& contact) { return conductance_length(stiffness_of(contact), contact.contact.indenter().E_star); }
+double conductance_length_of(rsc_contact& contact) {
+    if (contact.contact.indenter().layers.count > 0)
+        throw Outcome{RSC_NO_RESULT, "the body has layers: its stiffness says nothing of its conductance"};
+    return conductance_length(stiffness_of(contact), contact.contact.indenter().E_star);
+}
 
 double resistance_of(rsc_contact& contact) {
     const auto& resistivity = contact.keys->solids.resistivity;
@@ -160,6 +164,8 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             require_finite(y0, 6, "y0");
             const rsc::Case& settings = settings_of(a_case);
             require_contact_keys(settings);
+            if (!settings.solids.layer_thickness.empty())
+                refuse(7, "a_case", "has layers, and one modulus E* does not say what lies where: rsc_contact_create_from_case takes them");
             const auto& on = asperities->ground;
             require_model(*on, settings, 7);
             const rsc::Period period = rsc::period_of(settings, site_of(settings, *on));

@@ -30,6 +30,8 @@ const FrictionHistory& contact_of(const rsc_friction* friction) {
 
 void require_elastic(const rsc_contact& contact) {
     if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction needs one load for one separation");
+    if (contact.contact.indenter().layers.count > 0)
+        refuse(2, "contact", "is one of a body with layers: friction there is not available yet");
 }
 
 // Moves the tip of both contacts behind the path.

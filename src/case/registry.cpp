@@ -57,6 +57,11 @@ Key one_of(const char* group, const char* name, std::vector<const char*> choices
     return {group, name, choice, 1, false, 32, "", kAny, std::move(choices), "", meaning, slot};
 }
 
+Key within(Bounds bounds, Key key) {
+    key.bounds = bounds;
+    return key;
+}
+
 Key changing(Changes what, Key key) {
     key.changes = what;
     return key;
@@ -103,6 +108,13 @@ std::vector<Key> make_registry() {
         scalar("solids", "friction", real, "1", kNotNegative,
                "coefficient of friction mu at every point of contact; above 0, one realization: the tangential force at each level",
                RSC_SLOT(solids.friction)),
+        within(kPositive, list("solids", "layer_thickness", kMostLayers, "length", "none",
+                               "thicknesses of layers on body 1, top first; E(1) and nu(1) are then the body below them",
+                               RSC_SLOT(solids.layer_thickness))),
+        within(kPositive,
+               list("solids", "layer_E", kMostLayers, "force/length^2", "none", "Young's moduli of the layers", RSC_SLOT(solids.layer_E))),
+        within(above(-1, 0.5),
+               list("solids", "layer_nu", kMostLayers, "1", "none", "Poisson's ratios of the layers", RSC_SLOT(solids.layer_nu))),
 
         one_of(
             "surface", "source", names(kSourceNames),

@@ -105,10 +105,11 @@ private:
     }
 
     void check_solids() {
-        if (std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
+        check_layers();
+        if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
             complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform, one at most may be rigid");
         if (std::isfinite(c_.solids.hardness)) {
-            if (std::isinf(c_.solids.E[0]))
+            if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]))
                 complain({"solids%hardness", "solids%E"},
                          "hardness: body 1 carries the asperities that yield, E(1) = Infinity makes it rigid");
             if (c_.solids.friction > 0)
@@ -125,6 +126,24 @@ private:
         }
         if (c_.solids.friction > 0 && by_elements(c_))
             complain({"solids%friction", "solver%model"}, "friction: with model = 'elements' it is not available yet");
+    }
+
+    void check_layers() {
+        const Case::Solids& s = c_.solids;
+        const std::size_t n = s.layer_thickness.size();
+        if (s.layer_E.size() != n || s.layer_nu.size() != n)
+            complain({s.layer_E.size() != n ? "solids%layer_E" : "solids%layer_nu", "solids%layer_thickness"},
+                     "layer_thickness, layer_E, layer_nu: have " + std::to_string(n) + ", " + std::to_string(s.layer_E.size()) + " and " +
+                         std::to_string(s.layer_nu.size()) + " values; each layer needs one of each");
+        if (n == 0) return;
+        if (s.friction > 0)
+            complain({"solids%friction", "solids%layer_thickness"}, "friction: on a body with layers it is not available yet");
+        if (s.resistivity[0] > 0 || s.resistivity[1] > 0)
+            complain({"solids%resistivity", "solids%layer_thickness"},
+                     "resistivity: the stiffness of a body with layers says nothing of its conductance; this is not available yet");
+        if (c_.indentation.boundary == Boundary::periodic && !by_elements(c_))
+            complain({"solids%layer_thickness", "solver%model"},
+                     "layer_thickness: asperities between two flats with layers are not available yet; model = 'elements' has them");
     }
 
     void check_surface() {

@@ -18,7 +18,7 @@ void add_answers(Contact& contact, Level& level, const double (&resistivity)[2])
     const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
     level.lateral_x = force.x, level.lateral_y = force.y;
     level.moment_x = moment.x, level.moment_y = moment.y;
-    level.conductance_length = conductance_length(level.stiffness, indenter.E_star);
+    if (indenter.layers.count == 0) level.conductance_length = conductance_length(level.stiffness, indenter.E_star);
     level.resistance = constriction_resistance(level.conductance_length, resistivity);
 }
 

@@ -27,6 +27,7 @@ struct ElementContact::Impl {
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
+    double bulge;
     std::unique_ptr<PixelProducts> products;
     ElementsSolver solver;
     int blocks_x, blocks_y;
@@ -53,6 +54,7 @@ struct ElementContact::Impl {
         : heights(heights_),
           indenter(indenter_),
           options(options_),
+          bulge(substrate_of(indenter_).bulge()),
           products(make_tree_products(substrate_of(indenter_), heights_.dx, heights_.dy, kInnerError, 0.1 * options_.tolerance)),
           solver(*products, options_.hardness.H0),
           blocks_x((heights_.nx + kBlock - 1) / kBlock),
@@ -230,10 +232,20 @@ ResidualProfile ElementContact::residual_profile() const {
 double ElementContact::stiffness() {
     const double pixel = impl_->heights.dx * impl_->heights.dy;
     const auto way = impl_->accepted ? ElementsSolver::Way::back : ElementsSolver::Way::further;
-    return 0.0 - pixel * impl_->solver.stiffness(1e-9, way);
+    const double slope = 0.0 - pixel * impl_->solver.stiffness(1e-9, way);
+    return slope / (1 + shift() * slope);
 }
 
-double ElementContact::energy() const { return impl_->heights.dx * impl_->heights.dy * impl_->solver.energy(); }
+// What the shift adds to p'Kp/2 is no energy of the bodies.
+double ElementContact::energy() const {
+    const Impl& my = *impl_;
+    const double pixel = my.heights.dx * my.heights.dy;
+    double N = 0;
+    for (double p : my.p) N += pixel * p;
+    return pixel * my.solver.energy() - 0.5 * shift() * N * N;
+}
+
+double ElementContact::shift() const { return impl_->bulge; }
 
 void ElementContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");

@@ -44,6 +44,7 @@ protected:
     // A smooth indenter's where it is known, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
     double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
+    double shift() const override;
     std::size_t levels_since_move() const override;
 
 private:

@@ -23,12 +23,27 @@ inline constexpr std::array kInteractionNames = {"point", "none"};
 enum class LawKind { hertz, elliptic, fourth_order };  // law/law.hpp
 inline constexpr std::array kLawNames = {"hertz", "elliptic", "fourth_order"};
 
-// The equivalent problem: elastic half-space E_star, rigid indenter of some shape with its tip above (x0, y0).
+// Layers of body 1, from the top, bonded to each other and to a half-space of E, nu (interaction/layers.hpp).
+inline constexpr int kMostLayers = 8;
+struct Layer {
+    double thickness = 0, E = 0, nu = 0;  // [length], Young's modulus [force/length^2], Poisson's ratio
+    friend bool operator==(const Layer&, const Layer&) = default;
+};
+struct LayeredBody {
+    std::int64_t count = 0;  // 0: a homogeneous half-space
+    std::array<Layer, kMostLayers> layer{};
+    double E = 0, nu = 0;  // E = Infinity: rigid
+    friend bool operator==(const LayeredBody&, const LayeredBody&) = default;
+};
+
+// The equivalent problem: elastic half-space E_star (with layers, that of the topmost), rigid indenter of some shape with its tip above
+// (x0, y0).
 struct Indenter {
     double E_star = 0;  // [force/length^2]
     Shape shape;        // a number is a sphere of that radius, Infinity a flat
     double x0 = 0, y0 = 0;
     Period period = {};  // finite: surface and contact repeat (two flats, boundary='periodic')
+    LayeredBody layers = {};
 
     // A point of the surface less the indenter's face above it, z - s; the penetration without interaction is g0 = clearance - Z0.
     // -Infinity where the indenter does not reach.

@@ -69,8 +69,10 @@ struct LevelValues {
     Method method = Method::direct;      // the one whose answer this is
     Fallback fallback = Fallback::none;  // why it is not the one asked for
     std::int32_t large_contacts = 0;     // contacts with a > <d>/4
-    std::int32_t edge_contacts = 0;      // contacts within <d> of the border of a free surface, or cut by it
-    double nominal_area = 0;             // smallest disc about the tip that holds all contacts, at most the surface [length^2]
+    // Layers, asperities: share of the contacts with a > h/5, h the top layer's thickness.
+    double wide_contacts = kNotComputed;
+    std::int32_t edge_contacts = 0;  // contacts within <d> of the border of a free surface, or cut by it
+    double nominal_area = 0;         // smallest disc about the tip that holds all contacts, at most the surface [length^2]
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
     std::int32_t outside_map = 0;    // contacts outside the map

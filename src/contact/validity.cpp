@@ -57,11 +57,16 @@ void judge_range(Level& level, const Indenter& indenter, const SolverOptions& op
     }
     count_edges(level, options);
     level.nominal_area = nominal_area(level, indenter, options.surface);
+    if (indenter.layers.count > 0) {
+        const double widest = indenter.layers.layer[0].thickness / 5;
+        const auto wide = std::count_if(level.a.begin(), level.a.end(), [&](double a) { return a > widest; });
+        level.wide_contacts = level.a.empty() ? 0 : static_cast<double>(wide) / static_cast<double>(level.a.size());
+    }
     const bool too_deep = options.sigma > 0 && level.separation < kLowestSeparation * options.sigma;
     // Large contacts, and those beyond the law, are in the expected error where there is one.
     const bool far_off =
         std::isnan(level.force_error_expected) ? level.large_contacts > 0 || level.beyond_law > 0 : level.force_error_expected > kMuchError;
-    if (far_off || level.edge_contacts > 0 || exceeds_nominal_area(level) || too_deep)
+    if (far_off || level.wide_contacts > 0 || level.edge_contacts > 0 || exceeds_nominal_area(level) || too_deep)
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

@@ -197,7 +197,7 @@ void ResultTable::theory() {
            "sqrt(3) m4/(18 pi m2)");
     const double R = r_.indenter.shape->hertz_radius();
     add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
-        comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"));
+        comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the topmost"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
                "1/R* = 1/R1 + 1/R2; absent for flat on flat and for what is no sphere");
     add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
@@ -242,6 +242,7 @@ void ResultTable::regimes() {
     add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II", second,
                "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which);
     if (r_.indenter.period.finite()) return two_flats(m);
+    if (r_.indenter.layers.count > 0) return;  // no closed form
     add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
                "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for flat on flat and where no closed form is known");
 }

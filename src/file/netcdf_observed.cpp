@@ -62,6 +62,7 @@ void ResultTable::radial() {
     const std::string how = "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres";
     add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
     add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
+    if (r_.indenter.layers.count > 0) return;  // no closed form
     std::vector<double> hertz;
     const double R = r_.indenter.shape->hertz_radius();
     for (double N : o_.force.mean)

@@ -35,7 +35,7 @@ constexpr LevelQuantity kQuantities[] = {
                 "penetrations left, over the mean overlap under pressure", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "how the level ended",
      .comment = "1: force_error_expected above 10 % (where it is not known: large_contacts or beyond_law; elements: above 1 %), contacts at the border "
-                "(edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, or filled_share above 1 %; 2: contacts "
+                "(edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, wide_contacts, or filled_share above 1 %; 2: contacts "
                 "overlap, d < a_i + a_j; 3: a local minimum of the energy, perhaps not the only one; 4: do not use. 4 hides all others, 1 "
                 "hides 2 and 3, 3 hides 2",
      .heading = "status", .width = 0},
@@ -65,6 +65,8 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "share of the contact area on points of the map that were missing and filled", .always = false},
     {.name = "large_contacts", .member = &V::large_contacts, .meaning = "contacts with a > <d>/4",
      .comment = "<d> = 1/sqrt(density of summits); beyond it a contact is no longer small against its distance from the next"},
+    {.name = "wide_contacts", .member = &V::wide_contacts, .meaning = "share of the contacts with a > h/5, h the top layer's thickness",
+     .comment = "bodies with layers: an asperity feels the layers as a point does, to the first order of a/h", .always = false},
     {.name = "beyond_law", .member = &V::beyond_law, .meaning = "contacts past the range in which the law describes a summit",
      .comment = "asperities law = 'fourth_order': penetration beyond 4 F2 kappa/q^2, kappa = sqrt(kappa1 kappa2), q^2 = "
                 "asperity_biharmonic/(kappa1 + kappa2): the contact has reached the trough around the summit; from there its radius stays "

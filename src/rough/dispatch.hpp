@@ -1,16 +1,36 @@
-// Run-time choice of instruction set: one body in source, compiled for the baseline and for AVX2, the better one the machine
-// has is called. AVX2 without FMA on purpose: products and sums are not contracted, so both give the same bits.
+// Run-time choice of instruction set, for everything that has one. RSC_DISPATCH: one body in source, compiled for the baseline and for
+// AVX2; the better one that the machine has is called. There AVX2 goes without FMA on purpose: products and sums are not contracted, so
+// both give the same bits.
 #pragma once
 
 #define RSC_ALWAYS_INLINE [[gnu::always_inline]] inline
+
+namespace rsc {
+
+// The instruction sets that hot loops are compiled for, and the best one that this machine has: asked here alone.
+enum class InstructionSet { baseline, avx2, avx512 };  // avx2 with FMA; avx512 with F, DQ and VL
+
+inline InstructionSet instruction_set() {
+#if defined(__x86_64__) && defined(__GNUC__)
+    static const InstructionSet best = [] {
+        if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return InstructionSet::baseline;
+        const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+        return wide ? InstructionSet::avx512 : InstructionSet::avx2;
+    }();
+    return best;
+#else
+    return InstructionSet::baseline;
+#endif
+}
+
+}  // namespace rsc
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define RSC_DISPATCH(name, body, parameters, arguments)                     \
     [[gnu::target("avx2")]] void name##_avx2 parameters { body arguments; } \
     void name##_baseline parameters { body arguments; }                     \
     void name parameters {                                                  \
-        static const bool avx2 = __builtin_cpu_supports("avx2");            \
-        if (avx2)                                                           \
+        if (rsc::instruction_set() != rsc::InstructionSet::baseline)        \
             name##_avx2 arguments;                                          \
         else                                                                \
             name##_baseline arguments;                                      \

@@ -378,12 +378,31 @@ Shape shape_of(const Case& settings) {
     return make_shape(keys.shape, made);
 }
 
+namespace {
+
+// E* of what touches: of the top layer where body 1 has layers.
+double surface_modulus(const Case::Solids& solids) {
+    double E[2] = {solids.E[0], solids.E[1]}, nu[2] = {solids.nu[0], solids.nu[1]};
+    if (!solids.layer_E.empty()) E[0] = solids.layer_E[0], nu[0] = solids.layer_nu[0];
+    return equivalent_modulus(E, nu);
+}
+
+LayeredBody layers_in(const Case::Solids& solids) {
+    LayeredBody body;
+    for (std::size_t k = 0; k < solids.layer_thickness.size(); ++k, ++body.count)
+        body.layer[k] = {solids.layer_thickness[k], solids.layer_E[k], solids.layer_nu[k]};
+    if (body.count > 0) body.E = solids.E[0], body.nu = solids.nu[0];
+    return body;
+}
+
+}  // namespace
+
 Indenter indenter_of(const Case& settings, const Site& site) {
     const auto& centre = settings.indentation.centre;
     const Domain& d = site.domain;
-    const Indenter indenter{equivalent_modulus(settings.solids.E, settings.solids.nu), shape_of(settings),
-                            centre[0].value_or(d.x0 + 0.5 * d.Lx - site.half_step_x),
-                            centre[1].value_or(d.y0 + 0.5 * d.Ly - site.half_step_y), period_of(settings, site)};
+    Indenter indenter{surface_modulus(settings.solids), shape_of(settings), centre[0].value_or(d.x0 + 0.5 * d.Lx - site.half_step_x),
+                      centre[1].value_or(d.y0 + 0.5 * d.Ly - site.half_step_y), period_of(settings, site)};
+    indenter.layers = layers_in(settings.solids);
     try {
         require_tip_above(site, indenter.shape, indenter.x0, indenter.y0);
     } catch (const Error& error) {

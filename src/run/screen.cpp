@@ -178,6 +178,10 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
              "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is leaving its range.");
     }
+    double widest = 0;
+    for (const LevelValues& l : levels) widest = std::max(widest, l.wide_contacts);
+    tell(count([](const LevelValues& l) { return l.wide_contacts > 0; }),
+         format("contacts with a > h/5, up to %.0f %% of them, h the top layer's thickness - elements have no such limit.", 100 * widest));
     tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
          "contacts pressed beyond what the law knows of a summit (beyond_law in the file).");
     tell_status(LevelStatus::overlapping,

@@ -1,12 +1,23 @@
 #include "contact/interaction/kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "contact/interaction/layers.hpp"
 #include "contact/interaction/love.hpp"
 #include "error.hpp"
 
 namespace rsc {
+
+Substrate::Substrate(double E_star, std::shared_ptr<const SmoothPart> smooth) : E_star_(E_star), smooth_(std::move(smooth)) {
+    if (!smooth_) return;
+    // Close by 1/(pi E* d) prevails, far away both are as 1/d.
+    for (double d = 0.01 * smooth_->scale(); d < 1e4 * smooth_->scale(); d *= 1.01)
+        bulge_ = std::max(bulge_, 0 - near() / d - smooth_->at(d));
+    bulge_ *= 1 + 1e-3;  // between the places asked
+}
 
 double Substrate::near() const { return 1 / (std::numbers::pi * E_star_); }
 
@@ -16,6 +27,8 @@ double Substrate::under_pixel(double x, double y, double dx, double dy) const {
     return sum;
 }
 
+Substrate substrate_of(const Indenter& indenter) { return {indenter.E_star, layers_of(indenter.layers, indenter.E_star)}; }
+
 namespace {
 
 class FreeKernel final : public Kernel {
@@ -23,10 +36,10 @@ public:
     explicit FreeKernel(Substrate substrate) : Kernel(substrate, substrate.near()) {}
     double at(double dx, double dy) const override {
         const double d2 = dx * dx + dy * dy, point = near() / std::sqrt(d2);
-        return smooth() ? point + smooth()->at_square(d2) : point;
+        return smooth() ? point + smooth()->at_square(d2) + shift() : point;
     }
-    double self() const override { return substrate().smooth_at(0); }
-    double shift() const override { return 0; }
+    double self() const override { return substrate().smooth_at(0) + shift(); }
+    double shift() const override { return substrate().bulge(); }
 };
 
 class NoKernel final : public Kernel {

@@ -389,6 +389,11 @@ void MeshPotential::apply(const double* f, double* phi) const {
     for (std::size_t s = strips; s < all; ++s)  // what the copies got
         for (std::size_t k = p.strip_begin[s]; k < p.strip_begin[s] + p.strip_size[s]; ++k) phi[p.point[k]] += near[k] * near_unit;
     p.give_back(std::move(scratch));
+    if (const double shift = p.kernel->shift(); shift > 0 && !p.lattice) {  // a lattice's is in its far field
+        double total = 0;
+        for (std::size_t k = 0; k < p.n; ++k) total += f[k];
+        for (std::size_t k = 0; k < p.n; ++k) phi[k] += shift * total;
+    }
 }
 
 std::size_t MeshPotential::bytes() const {

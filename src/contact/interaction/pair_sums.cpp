@@ -15,7 +15,14 @@ void PairSums::assign(std::size_t n, const double* x, const double* y) {
 void PairSums::scale_and_add(std::size_t n, const double* x, const double* y, const double* f, double* phi) const {
     const double near = kernel_->near();
     for (std::size_t k = 0; k < n; ++k) phi[k] *= near;
-    if (const SmoothPart* smooth = kernel_->smooth()) smooth->table().add(n, x, y, x_.size(), x_.data(), y_.data(), f, phi);
+    const SmoothPart* const smooth = kernel_->smooth();
+    if (!smooth) return;
+    smooth->table().add(n, x, y, x_.size(), x_.data(), y_.data(), f, phi);
+    if (const double shift = kernel_->shift(); shift > 0) {
+        double total = 0;
+        for (std::size_t k = 0; k < x_.size(); ++k) total += f[k];
+        for (std::size_t k = 0; k < n; ++k) phi[k] += shift * total;
+    }
 }
 
 void PairSums::apply(const double* f, double* phi) const {

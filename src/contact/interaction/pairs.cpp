@@ -7,6 +7,7 @@
 
 #include "contact/interaction/pairs_kernel.hpp"
 #include "error.hpp"
+#include "rough/dispatch.hpp"
 
 namespace rsc {
 
@@ -116,10 +117,8 @@ const PairKernels* pair_kernels(const char* instruction_set) {
     if (name == "generic") return pair_kernels_generic();
 #if defined(__x86_64__) || defined(_M_X64)
     if (name == "sse2") return pair_kernels_sse2();
-    if (name == "avx2" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return pair_kernels_avx2();
-    if (name == "avx512" && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("fma"))
-        return pair_kernels_avx512();
+    if (name == "avx2" && rsc::instruction_set() >= InstructionSet::avx2) return pair_kernels_avx2();
+    if (name == "avx512" && rsc::instruction_set() == InstructionSet::avx512) return pair_kernels_avx512();
 #endif
     return nullptr;
 }

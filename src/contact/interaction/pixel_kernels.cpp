@@ -85,11 +85,8 @@ RSC_PIXEL_KERNELS(avx512, [[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]],
 
 const PixelKernels& pixel_kernels() {
 #if defined(__x86_64__) && defined(__GNUC__)
-    static const bool avx512 =
-        __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-    static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    if (avx512) return kernels_avx512;
-    if (avx2) return kernels_avx2;
+    if (instruction_set() == InstructionSet::avx512) return kernels_avx512;
+    if (instruction_set() == InstructionSet::avx2) return kernels_avx2;
 #endif
     return kernels_baseline;
 }

@@ -41,7 +41,7 @@ protected:
     long count_ = 0;
 };
 
-// A free body under pixels of sides dx, dy [length]: Love's kernel, and a smooth part if it has one, between near pixels, and between far ones a
+// A free body under pixels of sides dx, dy [length], everything raised by substrate.bulge() a unit force (Kernel::shift()): Love's kernel, and a smooth part if it has one, between near pixels, and between far ones a
 // hierarchy of boxes, each of which acts through its pressures interpolated to a few points (Chebyshev; W. Fong, E. Darve, J. Comput.
 // Phys. 228, 2009): the work grows with the number of pixels. Results do not depend on the number of threads.
 std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy, double inner_error, double full_error);

@@ -161,7 +161,7 @@ Layout make_layout(const std::vector<Pixel>& pixels, int rows) {
 struct PixelAnswer {
     Substrate substrate;
     double dx, dy;
-    double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy); }
+    double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy) + dx * dy * substrate.bulge(); }
 };
 
 // What interpolation of one number of points needs, for all layouts.

@@ -97,19 +97,24 @@ double SquareTable::moment(double t) const {
 
 void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
                       const double* f, double* to) const {
-    double x[kBlock], y[kBlock], force[kBlock], value[kBlock];
+    // Among the same points a value serves both ways: block j of sources then takes from the targets before it what they take from it.
+    const bool same = xt == xs && yt == ys && n_targets == n_sources;
+    double x[kBlock], y[kBlock], force[kBlock], value[kBlock], back[kBlock];
     for (std::size_t j = 0; j < n_sources; j += kBlock) {
         const std::size_t count = std::min(kBlock, n_sources - j);
         for (std::size_t k = 0; k < kBlock; ++k) {
             const std::size_t from = j + std::min(k, count - 1);
-            x[k] = xs[from], y[k] = ys[from], force[k] = k < count ? f[from] : 0;
+            x[k] = xs[from], y[k] = ys[from], force[k] = k < count ? f[from] : 0, back[k] = 0;
         }
-        for (std::size_t i = 0; i < n_targets; ++i) {
+        for (std::size_t i = 0; i < (same ? j + count : n_targets); ++i) {
             table_values({xt[i], yt[i], inverse_square_, x, y, coefficient_.data(), value});
             double sum = 0;
             for (std::size_t k = 0; k < kBlock; ++k) sum += force[k] * value[k];
             to[i] += sum;
+            if (!same || i >= j) continue;
+            for (std::size_t k = 0; k < kBlock; ++k) back[k] += f[i] * value[k];
         }
+        for (std::size_t k = 0; same && k < count; ++k) to[j + k] += back[k];
     }
 }
 

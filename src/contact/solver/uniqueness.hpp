@@ -11,6 +11,10 @@
 // Where everything repeats, shells and images make the same argument: a mode of the shells' charges has an energy >= 0, and what is left,
 // the neutralising background, lies in the plane and not on the shells, which costs (pi/A)(rho_i + rho_j) of the shift c that G has been
 // raised by. c is larger while shells are narrower than a quarter of the period, the contacts than an eighth.
+//
+// A smooth part s of the kernel (layers) goes with the semidefinite part: every wave of the shells' charges has an energy >= 0 on the layered
+// body, too. What points feel of s beyond what shells do is of the second order of rho/h, h the thickness of the layer: contacts that are
+// not small against it are out of validity.
 #pragma once
 
 #include <vector>
