@@ -33,7 +33,7 @@ def _spectrum(page, axis, result):
     bar.ax.minorticks_off()
     across = (float(result["std"]) + 90) % 180
     axis.axvline(across, color="w", ls="--", lw=1)
-    axis.set(yscale="log", ylim=(edges[0], edges[-1]), title="spectrum by direction; dashed: across the lay")
+    axis.set(yscale="log", ylim=(edges[0], edges[-1]), title="spectrum by direction\n(dashed: across the lay)")
     axis.set_xticks([0, 45, 90, 135])
     label(axis, "x", "direction of the wave vector [degree]")
     label(axis, "y", "wavenumber $k$", result.dimension("plane_wavenumber"))
@@ -73,6 +73,6 @@ def _ratio(page, axis, result):
     upper = curve[first] + (curve[first] - curve[first + 400]) / 400 * first
     axis.plot([0, 100], [upper, upper - sk], color=GREY, ls="--", lw=1)
     page.entry("core Sk", color=GREY, ls="--", lw=1)
-    axis.set(xlim=(0, 100), title=f"Sk {amount(sk, dimension)}, Spk {amount(spk, dimension)}, Svk {amount(svk, dimension)}")
+    axis.set(xlim=(0, 100), title=f"Sk {amount(sk, dimension)}, Spk {amount(spk, dimension)},\nSvk {amount(svk, dimension)}")
     label(axis, "x", "material ratio [%]")
     label(axis, "y", "height about the mean", dimension)
