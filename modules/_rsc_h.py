@@ -54,6 +54,7 @@ rsc_contact_answer(rsc_contact* contact, double* separation, double* force, doub
 rsc_contact_value(rsc_contact* contact, const char* name, double* value)
 rsc_contact_stiffness(rsc_contact* contact, double* stiffness)
 rsc_contact_energy(const rsc_contact* contact, double* energy)
+rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact)
 rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration)
 rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration)
 rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection)
@@ -151,6 +152,7 @@ BRIEF = {
     "rsc_contact_value": 'One quantity of the last level by its name in the result file: "force", "contact_area", "contacts", "candidates", "iterations", "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ...',
     "rsc_contact_stiffness": 'dN/dZ0 of the last level, negative, 0 without contact.',
     "rsc_contact_energy": "Elastic energy of the last level, W = sum W_i + F'BF/2, the work of the asperities and of their interaction; dW/dZ0 = -N, so that a sphere moving on the surface keeps kinetic plus elastic energy.",
+    "rsc_contact_asperities": "The asperities a contact is made of, which the indices of rsc_contact_spots mean: those it was made from or, with law = 'elliptic' or 'fourth_order' on a surface, the summits of the difference between surface and indenter with its tip where it is now.",
     "rsc_contact_spots": 'The contacts of the last level, by increasing index of asperity.',
     "rsc_contact_per_asperity": 'The same for every asperity: 0 where there is no contact.',
     "rsc_contact_deflection": 'The lowering of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq.',

@@ -89,6 +89,7 @@ module rsc
     procedure :: find => asperities_find
     procedure :: make => asperities_make
     procedure :: take => asperities_take
+    procedure :: of_contact => contact_asperities
     procedure :: count => asperities_count
     procedure :: get => asperities_get
     procedure :: curvatures => asperities_curvatures
@@ -733,15 +734,24 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     logical :: same
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: status
+    type(c_ptr) :: own
+    n = self%asperities
+    own = c_null_ptr
+    if (rsc_contact_asperities(own, reading(self%ticket)) == 0) then  ! those of now: a tip that moved may touch others
+      status = rsc_asperities_count(own, n)
+      status = rsc_asperities_destroy(own)
+    end if
     same = .true.
-    if (present(force)) same = same .and. size(force) == self%asperities
-    if (present(radius)) same = same .and. size(radius) == self%asperities
-    if (present(penetration)) same = same .and. size(penetration) == self%asperities
+    if (present(force)) same = same .and. size(force) == n
+    if (present(radius)) same = same .and. size(radius) == n
+    if (present(penetration)) same = same .and. size(penetration) == n
     if (.not. same) then
       call refuse('contact%per_asperity: the size of an array is not the number of asperities', stat, errmsg)
       return
     end if
-    call finish(rsc_contact_per_asperity(reading(self%ticket), self%asperities, force, radius, penetration), stat, errmsg)
+    call finish(rsc_contact_per_asperity(reading(self%ticket), n, force, radius, penetration), stat, errmsg)
   end subroutine
 
   !> Presses many contacts with a force each, shared out among threads (0: all the machine has); the separations, and what press tells of each.

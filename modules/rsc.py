@@ -636,22 +636,23 @@ class Contact(_Object):
     def __init__(self, asperities, E_star, R, x0=0.0, y0=0.0, case=None):
         self._handle, self._lock = ctypes.c_void_p(), _Lock()
         _call("rsc_contact_create", ctypes.byref(self._handle), _given("asperities", asperities), E_star, R, x0, y0, case)
-        self._asperities = len(asperities)
 
     @classmethod
     def from_case(cls, asperities, case=None):
         """A contact with E* and R from the keys of &solids and the tip at indentation%centre, by default above the middle. asperities: an
         Asperities; case: a Case, None for the defaults. Raises ArgumentError for keys that are refused, Error (no memory)."""
-        self = cls._make("rsc_contact_create_from_case", _given("asperities", asperities), case)
-        self._asperities = len(asperities)
-        return self
+        return cls._make("rsc_contact_create_from_case", _given("asperities", asperities), case)
+
+    def asperities(self):
+        """The asperities it is made of, which the indices of spots() mean: those it was made from or, with law = 'elliptic' or
+        'fourth_order' on a surface, the summits of the difference between surface and indenter with the tip where it is now. Raises
+        ArgumentError for a contact of elements, ValueError (closed)."""
+        return Asperities._make("rsc_contact_asperities", self)
 
     def copy(self):
         """A contact that is independent of this one, with its last level, its path and its committed state. Raises Error (no memory), ValueError
         (closed)."""
-        other = super().copy()
-        other._asperities = self._asperities
-        return other
+        return super().copy()
 
     def indent(self, separation):
         """Computes the contact at a separation and returns the force [force]. The answer depends on the separation and the tip alone.
@@ -765,8 +766,9 @@ class Contact(_Object):
     def per_asperity(self):
         """The same for every asperity, Spots without `asperity`: arrays of shape (len(asperities),), 0 where there is no contact. Raises Error
         (no result)."""
-        spots = Spots(None, *np.empty((3, self._asperities)))
-        _call("rsc_contact_per_asperity", self, self._asperities, *spots[1:])
+        n = len(self.asperities())
+        spots = Spots(None, *np.empty((3, n)))
+        _call("rsc_contact_per_asperity", self, n, *spots[1:])
         return spots
 
     def save(self, path):
@@ -778,9 +780,7 @@ class Contact(_Object):
     def restore(cls, asperities, path):
         """The contact of such a file. asperities: those it was saved with; path: of the file. Raises ArgumentError for other asperities or another
         file, Error."""
-        self = cls._make("rsc_contact_restore", _given("asperities", asperities), os.fspath(path))
-        self._asperities = len(asperities)
-        return self
+        return cls._make("rsc_contact_restore", _given("asperities", asperities), os.fspath(path))
 
     def deflection(self, x, y):
         """The lowering of the surface by the contact forces [length], positive down, in the shape of x. x, y: places [length], numbers or

@@ -381,6 +381,12 @@ RSC_API int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness);
  * the contact; energy (out) [force length]. Errors: -1, -2 null; RSC_NO_RESULT, also if it is no finite number. */
 RSC_API int32_t rsc_contact_energy(const rsc_contact* contact, double* energy);
 
+/* The asperities a contact is made of, which the indices of rsc_contact_spots mean: those it was made from or, with law = 'elliptic' or
+ * 'fourth_order' on a surface, the summits of the difference between surface and indenter with its tip where it is now.
+ * asperities (out): the handle, to be destroyed; a contact made from it takes them as they are; contact: the contact. Errors: -1
+ * null address; -2 null, or a contact of elements. */
+RSC_API int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact);
+
 /* The contacts of the last level, by increasing index of asperity.
  * contact: the contact; n: length of each array, at least the number of contacts (rsc_contact_result); the first ones are
  * written; asperity (out, may be null): indices; force (out, may be null) [force]; radius (out, may be null): contact radius a,
@@ -390,8 +396,8 @@ RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t
                                   double* penetration);
 
 /* The same for every asperity: 0 where there is no contact.
- * contact: the contact; n: length of each array, the number of asperities; force, radius, penetration (out, may be null): as
- * above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
+ * contact: the contact; n: length of each array, the number of its asperities (rsc_contact_asperities); force, radius, penetration
+ * (out, may be null): as above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration);
 
 /* The lowering of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a

@@ -166,6 +166,8 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
             require_contact_keys(settings);
             if (!settings.solids.layer_thickness.empty())
                 refuse(7, "a_case", "has layers, and one modulus E* does not say what lies where: rsc_contact_create_from_case takes them");
+            if (settings.indenter.shape != 0)
+                refuse(7, "a_case", "asks for another shape than the sphere of radius R: rsc_contact_create_from_case makes it");
             const auto& on = asperities->ground;
             require_model(*on, settings, 7);
             const rsc::Period period = rsc::period_of(settings, site_of(settings, *on));
@@ -183,7 +185,7 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
             require(asperities, 2, "asperities");
             const rsc::Case& settings = settings_of(a_case);
             require_contact_keys(settings);
-            require_sound(settings, {"solids"});
+            require_sound(settings, {"solids", "indenter"});
             const auto& on = asperities->ground;
             require_model(*on, settings, 3);
             const rsc::Indenter indenter = rsc::indenter_of(settings, site_of(settings, *on));
@@ -353,6 +355,24 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
         spread(force, level.f);
         spread(radius, level.a);
         spread(penetration, level.u);
+    });
+}
+
+int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact) {
+    return guarded(0, [&] {
+        construct(asperities, "asperities", [&] {
+            require(contact, 2, "contact");
+            const rsc::Asperities* touched = contact->contact.asperities();
+            if (!touched) refuse(2, "contact", "has no asperities: it is made of elements");
+            rsc::Ground ground;
+            ground.asperities = *touched;
+            ground.site = contact->on->site;
+            ground.statistics = contact->on->statistics;
+            ground.list = contact->on->list;
+            auto made = std::make_unique<rsc_asperities>();
+            made->ground = std::make_shared<const rsc::Ground>(std::move(ground));
+            return made.release();
+        });
     });
 }
 

@@ -1,0 +1,151 @@
+// Summits where bodies touch, against elements on the same points: on a surface smoother than the sphere is round, on maps with pits and
+// steps, on rounded maps; and tips that move.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/touching.hpp"
+#include "rough/detection.hpp"
+#include "rough/rounding.hpp"
+#include "rough/synthesis.hpp"
+#include "run/prepare.hpp"
+
+using namespace rsc;
+
+namespace {
+
+Case polished(double sigma, const char* model) {
+    Case c;
+    c.run.threads = 1;
+    c.surface.n = 256, c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 32, c.surface.sigma = sigma;
+    c.asperities.law = LawKind::fourth_order;
+    c.solver.model = model[0] == 'e' ? Model::elements : Model::asperities;
+    return c;
+}
+
+Level at(const Case& c, const Ground& ground, double Z0) {
+    return make_contact(ground, indenter_of(c, ground.site), solver_of(c, ground.site))->at_separation(Z0);
+}
+
+// The map as a surface that was measured.
+Surface measured(const HeightMap& map) {
+    Surface surface;
+    surface.map.allocate(map.nx, map.ny, map.nx);
+    surface.map.dx = map.dx, surface.map.dy = map.dy;
+    for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, surface.map.row(j));
+    surface.origin.sigma = 1e-3;
+    return surface;
+}
+
+}  // namespace
+
+TESTS {
+    // R = 2.5 on rms slopes of 0.006 and 0.06: the summits of the surface alone carried half of the load, or nothing.
+    for (const double sigma : {1e-4, 1e-3}) {
+        constexpr double kForce = 0.12;  // one to some contacts, elements on 8 points a wave
+        const Case a = polished(sigma, "asperities"), e = polished(sigma, "elements");
+        const Ground summits = make_ground(a, 1, 1), points = make_ground(e, 1, 1);
+        for (const double Z : {0.0, 0.75}) {
+            const Level model = at(a, summits, Z * sigma), truth = at(e, points, Z * sigma);
+            std::printf("sigma %g, Z0 %g sigma: N %.5g against %.5g, slope ratio %.2f\n", sigma, Z, model.force, truth.force,
+                        model.slope_ratio);
+            if (truth.force > 0) CHECK_RELATIVE(model.force, truth.force, kForce);
+        }
+    }
+
+    // Moved to second order there are as many as of the surface, at its tops no higher than they were.
+    {
+        Case c = polished(1e-2, "asperities");
+        c.solids.R[1] = 20;
+        const Ground ground = make_ground(c, 1, 1);
+        const Indenter tip = indenter_of(c, ground.site);
+        const Asperities moved = moved_summits(ground.asperities, tip);
+        CHECK(moved.size() == ground.asperities.size());
+        for (std::size_t i = 0; i < moved.size(); ++i) CHECK(moved.z[i] <= ground.asperities.z[i]);
+    }
+
+    // A tip that moves on has the summits of its place, as a contact made there.
+    {
+        const Case c = polished(1e-4, "asperities");
+        const Ground ground = make_ground(c, 1, 1);
+        Indenter tip = indenter_of(c, ground.site);
+        const SolverOptions options = solver_of(c, ground.site);
+        AsperityContact moving(ground.asperities, tip, options, ground.search);
+        tip.x0 += 0.11, tip.y0 -= 0.07;
+        moving.move_tip(tip.x0, tip.y0);
+        AsperityContact there(ground.asperities, tip, options, ground.search);
+        CHECK(moving.first_touch() == there.first_touch() && moving.asperities()->size() == there.asperities()->size());
+        const double Z0 = there.first_touch() - 1e-4;
+        CHECK_RELATIVE(moving.at_separation(Z0).force, there.at_separation(Z0).force, 1e-9);
+    }
+
+    // Pits, grooves and a step beside summits: none is found above the points around it, and the load stays that of elements.
+    const Spectrum s{.L = 1, .L_lambda_l = 4, .L_lambda_s = 24, .sigma = 1e-3};
+    HeightMap clean = synthesize(s, 256, Normalise::sample, 3, 1);
+    clean.periodic = false;
+    Case c;
+    c.run.threads = 1;
+    c.solids.R[1] = 20;
+    c.asperities.law = LawKind::fourth_order;
+    const auto forces = [&](const HeightMap& map, LawKind law, double& model, double& truth) {
+        const Surface surface = measured(map);
+        c.asperities.law = law;
+        c.solver.model = Model::asperities;
+        model = at(c, make_ground(surface, c, 1), 1e-3).force;
+        c.solver.model = Model::elements;
+        truth = at(c, make_ground(surface, c, 1), 1e-3).force;
+    };
+    double sound, model, truth;
+    forces(clean, LawKind::fourth_order, sound, truth);
+    CHECK_RELATIVE(sound, truth, 0.08);
+    for (const char* what : {"pits", "grooves", "step"}) {
+        Surface broken = measured(clean);
+        HeightMap& map = broken.map;
+        std::mt19937 random(4);
+        if (what[0] == 'p')  // beside every tenth of the maxima
+            for (int j = 8, n = 0; j < 248; ++j)
+                for (int i = 8; i < 248; ++i)
+                    if (clean(i, j) > clean(i - 1, j) && clean(i, j) > clean(i + 1, j) && clean(i, j) > clean(i, j - 1) &&
+                        clean(i, j) > clean(i, j + 1) && clean(i, j) > 5e-4 && n++ % 10 == 0)
+                        map.row(j)[i + 1] -= 1e-2;
+        if (what[0] == 'g')
+            for (int k = 0; k < 256; ++k) map.row(k)[100] -= 8e-3, map.row(140)[k] -= 8e-3;
+        if (what[0] == 's')
+            for (int j = 0; j < 256; ++j)
+                for (int i = 128; i < 256; ++i) map.row(j)[i] -= 4e-3;
+        const Asperities found = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
+        double above = 0;
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            const int i = static_cast<int>(std::lround(found.x[k] / map.dx)), j = static_cast<int>(std::lround(found.y[k] / map.dy));
+            double highest = -1;
+            for (int dj = -1; dj <= 1; ++dj)
+                for (int di = -1; di <= 1; ++di) highest = std::max(highest, map(i + di, j + dj));
+            above = std::max(above, found.z[k] - highest);
+        }
+        forces(map, LawKind::fourth_order, model, truth);
+        std::printf("%s: N %.4g, elements %.4g; highest above its points by %.2g sigma\n", what, model, truth, above / 1e-3);
+        CHECK(above < 0.1e-3);
+        CHECK_RELATIVE(model, truth, 0.12);
+    }
+
+    // Rounded to a tenth of sigma, a map carries what it did.
+    for (const double part : {0.03, 0.1}) {
+        Surface rounded = measured(clean);
+        HeightMap& map = rounded.map;
+        const double step = part * 1e-3;
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i) map.row(j)[i] = step * std::round(map(i, j) / step);
+        CHECK_RELATIVE(height_step(map), step, 1e-6);
+        CHECK(height_step(clean) == 0);
+        for (const LawKind law : {LawKind::hertz, LawKind::fourth_order}) {
+            double as_it_was, now;
+            forces(clean, law, as_it_was, truth);
+            forces(map, law, now, truth);
+            std::printf("rounded to %g sigma: N %.4g, not rounded %.4g\n", part, now, as_it_was);
+            CHECK_RELATIVE(now, as_it_was, 0.1);
+        }
+    }
+}
