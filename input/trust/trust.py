@@ -7,12 +7,12 @@
     python3 input/trust/trust.py fit         fits the bounds to the first of the surfaces, tells how often they hold on the others, group by
                                              group, and writes src/contact/expected_error_table.hpp
 
-Options: --rsc ./rsc  the program;  --out DIR  where results are kept (output/trust);  --surfaces N  how many (500);  --first K.
+Options: --rsc ./rsc  the program;  --out DIR  where results are kept (output/trust);  --surfaces N  how many (500; 540 with the broad spectra);  --first K.
 Needs numpy, scipy and netCDF4. All surfaces are drawn here from their number, so that a study is the same wherever it runs.
 
 A surface has three levels. Synthetic ones are made by rsc itself; the others are height maps made here on a grid twice as fine as the map
 that asperities are found on, and elements are solved on both. Levels at which N of elements changes by more than
-2 % from one grid to the other are left out, as are those with contacts cut by the border.
+4 % from one grid to the other are left out, as are those with contacts cut by the border.
 """
 
 import argparse
