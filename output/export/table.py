@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""A table of loads from result files of rsc: force, area, separation, stiffness, resistance and contacts, with their errors.
+
+    python3 output/export/table.py RESULT.nc                     every level, as Markdown on a terminal and CSV otherwise
+    python3 output/export/table.py RESULT.nc --at 1,10,100       at these forces (pressures of two flats), in the unit of the file
+    python3 output/export/table.py RESULT.nc --at 0.01 --by separation
+    python3 output/export/table.py STUDY_manifest.nc --at 1      a row for every member and load
+
+Values are means over the realizations that converged; *_stderr is the standard error of the mean, the standard deviation over the root of their
+number; *_expected_error is how far the model may be off, relative, where the file knows it. Needs numpy and netCDF4 (Debian:
+python3-numpy python3-netcdf4).
+"""
+
+import argparse
+import csv
+import os
+import sys
+
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plot"))
+    from plot_python import needs
+
+    needs("numpy", "netCDF4")
+
+import netCDF4
+import numpy as np
+
+NOT_CONVERGED = 4  # of the variable status
+GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity says more than overlapping and not unique
+COLUMNS = ["pressure", "force", "contact_area", "area_fraction", "separation", "stiffness", "resistance", "contacts"]
+EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
+
+
+class Refused(Exception):
+    """There is no such table; the message says why."""
+
+
+class Table:
+    """columns: {name: values over the levels}; units: {name: unit}; load: the column that --at means; status: the gravest of each level."""
+
+    def __init__(self, path):
+        self.path = path
+        with _open(path) as file:
+            variables = file.variables
+            if "force" not in variables or "status" not in variables:
+                raise Refused(f"{path!r} is no result of indentation: it lacks the variable 'force' or 'status'")
+            self.meanings = variables["status"].flag_meanings.split()
+            status = np.atleast_2d(np.ma.filled(variables["status"][:], NOT_CONVERGED)).astype(int)
+            good = status != NOT_CONVERGED
+            self.status = np.take_along_axis(status, GRAVITY[status].argmax(axis=0)[None], 0)[0]
+            self.columns, self.units = {}, {}
+            for name in COLUMNS:
+                if name not in variables:
+                    continue
+                values, many = self._values(variables[name], good)
+                if not np.isfinite(values).any():
+                    continue
+                mean, stderr = _mean(values)
+                self._add(name, mean, getattr(variables[name], "units", "1"))
+                if many:
+                    self._add(name + "_stderr", stderr, self.units[name])
+                if EXPECTED.get(name) in variables:
+                    self._add(name + "_expected_error", _mean(self._values(variables[EXPECTED[name]], good)[0])[0], "1")
+        self.load = "pressure" if "pressure" in self.columns else "force"
+
+    def _values(self, variable, good):
+        """(realization, step), those that did not converge as NaN; and whether there are several realizations."""
+        values = np.ma.filled(np.ma.asarray(variable[:]).astype(float), np.nan)
+        many = values.ndim == 2 and values.shape[0] > 1
+        return np.where(good, values if values.ndim == 2 else np.broadcast_to(values, good.shape), np.nan), many
+
+    def _add(self, name, values, unit):
+        self.columns[name], self.units[name] = values, unit
+
+    def loading(self, by):
+        """The levels of the first loading, by increasing load: those on which every interpolation is unique."""
+        load, depth = self.columns[self.load], -self.columns["separation"]
+        levels = [k for k in range(load.size) if load[k] > 0 and np.isfinite(depth[k])]
+        if levels and load[levels[-1]] < load[levels[0]]:
+            levels.reverse()
+        kept = []
+        for k in levels:
+            if not kept or load[k] > load[kept[-1]] and (by != "separation" or depth[k] > depth[kept[-1]]):
+                kept.append(k)
+        if len(kept) < 2:
+            raise Refused(f"{self.path!r} has fewer than two levels with contact: nothing can be interpolated")
+        return kept
+
+    def at(self, wanted, by=None):
+        """The table at these values of the load, or of the separation, as (columns, status). Between levels positive quantities follow a power
+        law of the load (of the separation: an exponential), others a straight line in its logarithm; so nothing leaves the range of its two
+        neighbours, and what increases from level to level does so between them."""
+        by = by or self.load
+        levels = self.loading(by)
+        known = self.columns[by][levels]
+        ends = sorted((known[0], known[-1]))
+        for value in wanted:  # a prescribed load is reached within the solver's tolerance only
+            if not ends[0] - 1e-4 * abs(ends[0]) <= value <= ends[1] + 1e-4 * abs(ends[1]):
+                raise Refused(f"--at {value:g}: {self.path!r} has {by} from {ends[0]:.6g} to {ends[1]:.6g} {self.units[by]}; nothing is extrapolated")
+        wanted = np.asarray(wanted, float)
+        x, at = (-known, -wanted) if by == "separation" else (np.log(known), np.log(wanted))
+        right = np.clip(np.searchsorted(x, at), 1, x.size - 1)
+        share = np.clip((at - x[right - 1]) / (x[right] - x[right - 1]), 0.0, 1.0)
+        columns = {}
+        for name, values in self.columns.items():
+            a, b = values[levels][right - 1], values[levels][right]
+            power = (a > 0) & (b > 0)
+            safe_a, safe_b = np.where(power, a, 1.0), np.where(power, b, 1.0)
+            between = np.where(power, safe_a * (safe_b / safe_a) ** share, a + share * (b - a))
+            columns[name] = np.where(share == 0, a, np.where(share == 1, b, between))
+        columns[by] = wanted
+        status = np.array([self.status[levels][r - 1 : r + 1] for r in right])
+        graver = np.where(GRAVITY[status[:, 0]] > GRAVITY[status[:, 1]], status[:, 0], status[:, 1])
+        return columns, np.where(share == 0, status[:, 0], np.where(share == 1, status[:, 1], graver))
+
+
+def _open(path):
+    try:
+        return netCDF4.Dataset(path)
+    except OSError as error:
+        raise Refused(f"cannot read {path!r}: {error.strerror or error}") from None
+
+
+def _mean(values):
+    """Mean and its standard error over the first axis, NaN left out; of fewer than two values the error is NaN."""
+    there = np.isfinite(values)
+    count = there.sum(axis=0)
+    mean = np.where(there, values, 0.0).sum(axis=0) / np.where(count, count, np.nan)
+    squares = np.where(there, (values - mean) ** 2, 0.0).sum(axis=0)
+    return mean, np.sqrt(squares / np.where(count > 1, count - 1, np.nan) / np.where(count, count, np.nan))
+
+
+def members(path):
+    """[(path, {key: value as text})] of a manifest of a study; None for another file."""
+    with _open(path) as file:
+        if "member" not in file.dimensions or "file" not in file.variables:
+            return None
+        texts = lambda variable: [str(t).strip("\0 ") for t in np.atleast_1d(netCDF4.chartostring(variable[:]))]
+        keys = {v.key: texts(v) if v.dtype.kind == "S" else [f"{x:.9g}" for x in np.atleast_1d(v[:])] for v in file.variables.values() if hasattr(v, "key")}
+        return [(os.path.join(os.path.dirname(path), name), {key: values[k] for key, values in keys.items()}) for k, name in enumerate(texts(file.variables["file"]))]
+
+
+def rows(paths, at=None, by=None):
+    """(header, rows of texts) of the files, members of studies in their place; a first column names the file where there are several."""
+    found = []
+    for path in paths:
+        found += members(path) or [(path, {})]
+    header, lines = {}, []
+    for path, keys in found:
+        table = Table(path)
+        columns, status = table.at(at, by) if at else (table.columns, table.status)
+        fixed = ({"file": os.path.basename(path)} if len(found) > 1 else {}) | keys
+        names = {name: f"{name} [{table.units[name]}]" if table.units[name] != "1" else name for name in columns}
+        header |= {name: None for name in fixed} | {name: None for name in names.values()}
+        lines += [fixed | {names[n]: f"{round(v[k], 2) if n == 'contacts' else v[k]:.6g}" if np.isfinite(v[k]) else "" for n, v in columns.items()} | {"status": table.meanings[status[k]]} for k in range(len(status))]
+    header = [*header, "status"]
+    return header, [[line.get(name, "") for name in header] for line in lines]
+
+
+def markdown(header, lines):
+    widths = [max(map(len, column)) for column in zip(header, *lines)]
+    return "\n".join("| " + " | ".join(text.rjust(width) for text, width in zip(line, widths)) + " |" for line in [header, ["-" * (w - 1) + ":" for w in widths], *lines]) + "\n"
+
+
+def numbers(text):
+    try:
+        return [float(word) for word in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: numbers with commas between are expected") from None
+
+
+def main(words=None):
+    parser = argparse.ArgumentParser(description="A table of loads from result files of rsc, with standard errors and expected errors.")
+    parser.add_argument("result", nargs="+", help="result files (NetCDF), or the manifest of a study (..._manifest.nc)")
+    parser.add_argument("--at", type=numbers, metavar="N,N,...", help="at these loads, between levels by interpolation (default: every level)")
+    parser.add_argument("--by", choices=["force", "pressure", "separation"], help="what --at gives (default: force; of two flats pressure)")
+    parser.add_argument("--format", choices=["csv", "markdown"], help="default: markdown on a terminal, csv elsewhere")
+    parser.add_argument("-o", "--output", metavar="FILE", help="file to write (default: standard output); markdown if it ends in .md")
+    arguments = parser.parse_args(words)
+    try:
+        header, lines = rows(arguments.result, arguments.at, arguments.by)
+        kind = arguments.format or ("markdown" if (arguments.output or "").endswith(".md") or not arguments.output and sys.stdout.isatty() else "csv")
+        out = open(arguments.output, "w", encoding="utf-8", newline="") if arguments.output else sys.stdout
+        if kind == "markdown":
+            out.write(markdown(header, lines))
+        else:
+            csv.writer(out, lineterminator="\n").writerows([header, *lines])
+        if arguments.output:
+            out.close()
+            print(arguments.output)
+    except Refused as reason:
+        sys.exit(f"table.py: {reason}")
+    except KeyError as name:
+        sys.exit(f"table.py: --by {name}: the file has no such variable")
+    except OSError as error:
+        sys.exit(f"table.py: cannot write: {error}")
+
+
+if __name__ == "__main__":
+    main()

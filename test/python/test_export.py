@@ -1,0 +1,81 @@
+"""Tables of results: exact at the levels, a power law kept between them, nothing beyond them; standard errors by their definition.
+
+usage: test_export.py FOLDER_OF_EXPORT
+"""
+import contextlib
+import csv
+import io
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, sys.argv.pop(1))
+import table  # noqa: E402
+from result_files import write_result  # noqa: E402
+
+FORCE = np.array([1.0, 4.0, 20.0, 100.0])
+MEANINGS = {("status", "flag_meanings"): "converged out_of_validity overlapping not_unique not_converged"}
+
+
+def result(folder, name="power", status=(0, 0, 2, 1), force=FORCE, area=None):
+    """A = 0.3 N^0.9, separation 0.01 - 0.002 ln N, which changes its sign."""
+    return write_result(folder, name, {}, {
+        "force": ("step", force, "N"), "contact_area": ("realization step", np.atleast_2d(0.3 * force**0.9 if area is None else area), "mm2"),
+        "separation": ("step", 0.01 - 0.003 * np.log(force), "mm"), "status": ("realization step", np.atleast_2d(status)),
+        "force_error_expected": ("realization step", np.full(np.atleast_2d(status).shape, 0.07))}, MEANINGS)
+
+
+class Tables(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def test_exact_at_levels_and_a_power_law_between(self):
+        read = table.Table(result(self.folder))
+        columns, status = read.at(FORCE)
+        for name, values in read.columns.items():
+            np.testing.assert_array_equal(columns[name], values, name)
+        np.testing.assert_array_equal(status, [0, 0, 2, 1])
+        between = np.array([2.0, 10.0, 50.0])
+        columns, status = read.at(between)
+        np.testing.assert_allclose(columns["contact_area"], 0.3 * between**0.9, rtol=1e-12)
+        np.testing.assert_array_equal(status, [0, 2, 1])
+        self.assertTrue(np.all((columns["separation"] < read.columns["separation"][:-1]) & (columns["separation"] > read.columns["separation"][1:])))
+        columns, _ = read.at([0.01], "separation")
+        self.assertAlmostEqual(columns["force"][0], 1.0, 12)
+
+    def test_refuses_beyond_the_levels(self):
+        path = result(self.folder)
+        for words in (["--at", "101"], ["--at", "0.5"], ["--at", "1", "--by", "separation"], ["--at", "1", "--by", "pressure"]):
+            with self.assertRaises(SystemExit) as ended:
+                table.main([path, *words])
+            self.assertIn(words[1] if words[-1] != "pressure" else "pressure", str(ended.exception))
+
+    def test_the_way_back_is_left_out(self):
+        read = table.Table(result(self.folder, "back", (0,) * 5, np.append(FORCE, 20.0), np.append(0.3 * FORCE**0.9, 9.0)))
+        self.assertAlmostEqual(read.at([20.0])[0]["contact_area"][0], 0.3 * 20**0.9, 12)
+
+    def test_standard_error_over_the_realizations_that_converged(self):
+        area = np.random.default_rng(3).uniform(1, 2, (6, 4))
+        status = np.zeros((6, 4))
+        status[2, 1] = 4
+        read = table.Table(result(self.folder, "many", status, area=area))
+        np.testing.assert_allclose(read.columns["contact_area_stderr"][0], area[:, 0].std(ddof=1) / np.sqrt(6), rtol=1e-12)
+        there = np.delete(area[:, 1], 2)
+        np.testing.assert_allclose([read.columns["contact_area"][1], read.columns["contact_area_stderr"][1]], [there.mean(), there.std(ddof=1) / np.sqrt(5)], rtol=1e-12)
+
+    def test_what_is_printed(self):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            table.main([result(self.folder, "a"), result(self.folder, "b"), "--at", "4,20", "--format", "csv"])
+        lines = list(csv.DictReader(said.getvalue().splitlines()))
+        self.assertEqual([(line["file"], float(line["force [N]"]), float(line["force_expected_error"]), line["status"]) for line in lines],
+                         [(name, force, 0.07, status) for name in ("a.nc", "b.nc") for force, status in ((4.0, "converged"), (20.0, "overlapping"))])
+        self.assertEqual(table.markdown(["a", "b"], [["1", "22"]]).splitlines()[2], "| 1 | 22 |")
+
+
+if __name__ == "__main__":
+    unittest.main()
