@@ -50,7 +50,7 @@ std::optional<GridError> OtherGrid::error(const LevelValues& level) {
         if (error.kind() != Failure::bad_input) throw;
         return {};
     }
-    if (other.status == LevelStatus::not_converged) return {};
+    if (other.status == LevelStatus::not_converged || level.contacts == 0) return {};
     const double share = coarser_ ? 0.5 : 1.0;
     const auto change = [&](double here, double there) {
         if (here == there) return 0.0;

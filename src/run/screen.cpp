@@ -155,7 +155,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     if (!elements) {
         tell(
             count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
-            "the surface touches beside the summits that are looked at: N is not 0; see solver%model = 'elements', or law = 'fourth_order'.");
+            "the surface may touch beside the summits that are looked at, and N not be 0; see solver%model = 'elements', or law = 'fourth_order'.");
         const bool list = job.settings.surface.source == Source::asperities;
         double steepest = 0;
         for (const LevelValues& l : levels) steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);
