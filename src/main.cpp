@@ -78,7 +78,8 @@ rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& comma
 
 // 0: done, 1: some level did not converge.
 int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
-    const rsc::RunOptions how = how_to_run(options, command);
+    rsc::RunOptions how = how_to_run(options, command);
+    if (read.study) how.compare_automatically = false;  // a member is the same alone and among the others
     const std::size_t threads = threads_of(read.settings);
     rsc::CampaignWork work = rsc::make_work(rsc::members_of(read), how, threads);
     const std::unique_ptr<rsc::Team> team = make_team(job, work, read, threads);

@@ -33,7 +33,7 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
 def band(page, axis, x, low, high, colour):
     """The scatter over realizations, where it is wide enough to be seen."""
     low = np.where(low > 0, low, np.nan)
-    if np.nanmax(high / low, initial=1) > 1.06:
+    if np.isfinite(low[1:] + low[:-1]).any() and np.nanmax(high / low, initial=1) > 1.06:
         axis.fill_between(x, low, high, color=colour, alpha=0.25, lw=0, gid="scatter")
         page.entry("two thirds of the realizations", color=colour, alpha=0.25, lw=5)
 

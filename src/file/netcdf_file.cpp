@@ -54,7 +54,11 @@ std::vector<char> make_empty(const std::string& path, int mode) {
         }
         std::vector<char> bytes(1 << 16);
         int status = NC_NOERR, ncid = -1;
-        const bool room = ::write(fd, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()) && ::ftruncate(fd, 0) == 0;
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size()), size = static_cast<ssize_t>(bytes.size());
+        // What stopped a write in the middle, the next one tells.
+        const bool whole =
+            written == size || (written >= 0 && ::write(fd, bytes.data(), static_cast<std::size_t>(size - written)) == size - written);
+        const bool room = whole && ::ftruncate(fd, 0) == 0 && ::lseek(fd, 0, SEEK_SET) == 0;
         error = room ? 0 : errno;
         if (room) {
             status = nc_create(name.c_str(), mode, &ncid);

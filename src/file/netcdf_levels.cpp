@@ -158,7 +158,7 @@ void ResultTable::surfaces() {
     for (const auto& [name, of] : components)
         add_absent(name, dims, name[1] - '0' + name[2] - '0' == 2 ? "1" : unit(-2),
                    std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
-                   of_surfaces([&](const auto& s) { return s.tensor.*of; }), origin);
+                   of_surfaces([of = of](const auto& s) { return s.tensor.*of; }), origin);
     add_absent("m2_grid", dims, "1", "second profile moment from finite differences", of_surfaces([](const auto& s) { return s.m2_grid; }),
                "its distance from m2 says how well the grid resolves the shortest waves");
     add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",

@@ -1,6 +1,8 @@
 #include "file/output_path.hpp"
 
+#include <fcntl.h>
 #include <netcdf.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -47,6 +49,14 @@ void require_memory(const std::string& path) {
     std::free(probe);
 }
 
+// A writer holds its lock a moment longer than its file has no name yet, and HDF5 opens no file that another process has locked.
+void wait_for_writer(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return;
+    for (int k = 0; k < 200 && ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++k) ::usleep(10000);
+    ::close(fd);
+}
+
 }  // namespace
 
 bool ResultHead::this_version() const { return source.starts_with("rsc " RSC_VERSION ","); }
@@ -58,6 +68,7 @@ std::optional<ResultHead> head_of_result(const std::string& path) {
     if (!fs::is_regular_file(path, error) || !begins_as_netcdf(path)) return std::nullopt;
     require_memory(path);
     require_sound(path);
+    wait_for_writer(path);
     if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {
         constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: a damaged file may announce anything

@@ -98,7 +98,7 @@ Moments regime_moments(const Result& result) {
         mean.m4 += s.m4;
     }
     const auto n = static_cast<double>(surfaces.size());
-    return {mean.m0 / n, mean.m2 / n, mean.m4 / n};  // NaN for no surface, and when one lacks them
+    return {mean.m0 / n, mean.m2 / n, mean.m4 / n, {}, {}};  // NaN for no surface, and when one lacks them
 }
 
 }  // namespace rsc

@@ -81,7 +81,15 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
         using Value = std::remove_reference_t<decltype(sums.surface.front().*member)>;
         for (std::size_t k = 0; k < values.size(); ++k) sums.surface[k].*member = static_cast<Value>(values[k]);
     };
+    const auto read_moment = [&](const char* name, double MomentTensor::*of) {
+        const std::vector<double> values = file.values(name, {sums.surface.size()});
+        for (std::size_t k = 0; k < values.size(); ++k) sums.surface[k].tensor.*of = values[k];
+    };
     read("sigma", &SurfaceStatistics::sigma);
+    read_moment("m20", &MomentTensor::m20), read_moment("m11", &MomentTensor::m11), read_moment("m02", &MomentTensor::m02);
+    read_moment("m40", &MomentTensor::m40), read_moment("m31", &MomentTensor::m31), read_moment("m22", &MomentTensor::m22);
+    read_moment("m13", &MomentTensor::m13), read_moment("m04", &MomentTensor::m04);
+    if (file.find("skewness")) read("skewness", &SurfaceStatistics::skewness), read("kurtosis", &SurfaceStatistics::kurtosis);
     read("m2", &SurfaceStatistics::m2);
     read("m4", &SurfaceStatistics::m4);
     read("m2_grid", &SurfaceStatistics::m2_grid);

@@ -26,7 +26,12 @@ void require_sound(const std::string& path) {
     if (size < length) return;
     const std::string start = line.substr(0, line.size() - digits);
     in.seekg(size - length);
-    if (!in.read(line.data(), length) || !line.starts_with(start)) return;
+    if (!in.read(line.data(), length)) return;
+    if (!line.starts_with(start)) {
+        if (line.find(start) != std::string::npos)
+            throw Error(Failure::bad_input, path + ": is cut off: its last line, the checksum, is not whole");
+        return;
+    }
     std::vector<char> buffer(1 << 20);
     uLong crc = 0;
     in.seekg(0);

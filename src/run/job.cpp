@@ -131,8 +131,7 @@ Job prepare(const Case& settings) {
         const HeightMap& map = *job.given_heights;
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
-                job.points_touch =
-                    std::max(job.points_touch, job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
+                job.points_touch = std::max(job.points_touch, job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
     }
 
     const auto& indentation = settings.indentation;

@@ -13,7 +13,8 @@ namespace {
 // A map of more points than this is not solved on a finer grid: that would take as long as the rest of a run.
 constexpr double kMostPoints = 1 << 20;
 
-// Expected error of N of contacts of a pixel, which falls as the third power of a contact's radius in pixels (measured).
+// Expected error of N of contacts of a pixel, which is taken to fall as the third power of a contact's radius in pixels: a
+// floor for contacts of few pixels, chosen by judgement.
 constexpr double kOnePixel = 2;
 
 // Fewer points in the shortest wave than this cannot be halved: a grid carries waves of more than two.

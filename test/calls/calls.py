@@ -186,6 +186,8 @@ def by_python(calls, arrays):
             return kinds[kind](*v)
         if verb == "copy":
             return v[0].copy()
+        if name == "contact_asperities":
+            return v[0].asperities()
         if name == "surface_take":
             return rsc.Surface.take(np.array(v[7]).reshape(v[1], v[0]), v[2], v[3], v[4], v[5], v[6])
         return getattr(kinds[kind], {"create_from_case": "from_case"}.get(verb, verb))(*v)
@@ -410,7 +412,7 @@ def in_fortran(calls, arrays):
                 printed = len(puts)
                 arguments.append(f"{dummy}={output(dummy, c, a)}")
                 single.append((arguments[-1], puts[printed:], list(before)))
-        target = FREE.get(name) or f"{call(words[0])}%{name.split('_', 1)[1]}"
+        target = FREE.get(name) or f"{call(words[0])}%{'of_contact' if name == 'contact_asperities' else name.split('_', 1)[1]}"
         tail = [] if name == "version" else ["stat=stat", "errmsg=msg"]
         if result:
             a = next((x for x in f.arguments if x.role in ("out", "buffer", "array") and x.name != "length"), None)

@@ -6,6 +6,7 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
+#include "contact/expected_error.hpp"
 #include "contact/ranking.hpp"
 #include "contact/solver/newton.hpp"
 #include "contact/start.hpp"
@@ -253,7 +254,9 @@ void counts_are_counts() {
         CHECK(large > 0 && large < static_cast<long>(level.a.size()) && level.large_contacts == large);
         CHECK(level.overlapping_pairs == pairs);
         if (law != LawKind::fourth_order) CHECK(pairs > 0);
-        CHECK(level.status >= (pairs > 0 ? LevelStatus::overlapping : LevelStatus::out_of_validity));
+        CHECK(level.status == (level.force_error_expected > kMuchError ? LevelStatus::out_of_validity
+                               : pairs > 0                             ? LevelStatus::overlapping
+                                                                       : LevelStatus::converged));
         CHECK((level.beyond_law > 0) == (law == LawKind::fourth_order));
     }
     // Alone on a flat: q a = pi at u = 2 A = 4/(R q^2) of a round summit; just before it the law holds, just after it is told.

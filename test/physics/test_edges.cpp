@@ -244,7 +244,7 @@ void radii_and_tolerances() {
 // Loads from that of a touch to far beyond.
 void forces() {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 15);
-    for (double N : {1e-20, 1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
+    for (double N : {1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
         AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
         const Level level = contact.at_force(N);
         sane(level, "force");
@@ -254,7 +254,7 @@ void forces() {
         CHECK_CLOSE(level.force, N, 1e-10 * N + 4 * ulp * std::abs(contact.stiffness()) + kE * 0.1 * std::pow(4 * ulp, 1.5));
     }
     AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
-    for (double N : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(contact.at_force(N), Error);
+    for (double N : {0.0, -1.0, 1e-20, std::nan(""), kFlat}) CHECK_THROWS(contact.at_force(N), Error);
     for (double Z0 : {std::nan(""), kFlat, -kFlat}) CHECK_THROWS(contact.at_separation(Z0), Error);
     for (double E : {0.0, -1.0, std::nan(""), kFlat}) CHECK_THROWS(AsperityContact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
     for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(AsperityContact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);

@@ -224,13 +224,15 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
             }
         std::sort(all.begin(), all.end());
         double f = 0, mx = 0, my = 0, alone = 0, hard = 0, border = 0;
+        bool on_edge = false;
         std::size_t peak = first;
         for (const std::size_t k : all) {
             if (t.p[k] > t.p[peak]) peak = k;
             hard += t.p[k] >= H;
-            for (int side = 0; side < 4 && t.p[k] < H; ++side) {
+            for (int side = 0; side < 4; ++side) {
                 const int to = t.neighbour(k, side);
-                border += to < 0 || !(t.p[at(to)] > 0);
+                border += t.p[k] < H && to >= 0 && !(t.p[at(to)] > 0);  // where the map ends, the contact need not
+                on_edge = on_edge || to < 0;
             }
         }
         for (const std::size_t k : all) {
@@ -250,7 +252,7 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
             x = inside(x, t.map.x0, t.tip.period.x), y = inside(y, t.map.y0, t.tip.period.y);
         } else {
             const Rectangle& r = t.options.surface;
-            edge += std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y}) < std::max(t.options.mean_spacing, a);
+            edge += on_edge || std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y}) < std::max(t.options.mean_spacing, a);
         }
         CHECK(level.asperity[c] == static_cast<int>(peak));
         SAME(f[c], f, force), SAME(x[c], x, 1), SAME(y[c], y, 1), SAME(a[c], a, 1), SAME(u[c], alone, sigma);

@@ -56,7 +56,7 @@ void check_file(const Scene& scene, const std::string& path, const Case& setting
     if (check::failures > before) std::printf("%s: %d failures\n", scene.name.c_str(), check::failures - before);
 }
 
-const RunOptions kOptions{.command = "rsc the_case.nml", .inputs = {}};
+const RunOptions kOptions{.command = "rsc the_case.nml", .inputs = {}, .report = {}};
 
 void run_and_check(const Scene& scene, const Folder& folder) {
     const std::string path = folder / (scene.name + ".nc");
@@ -98,7 +98,8 @@ void put_together(const Scene& scene, const Folder& folder) {
         CHECK(run_case(part, kOptions) == 0);
     }
     const RunSummary summary = merge_campaigns(parts, merged, kOptions);
-    CHECK(summary.levels == whole.run.realizations * static_cast<long>(whole.indentation.levels.size()) && summary.failed == 0);
+    const auto levels = static_cast<std::size_t>(whole.run.realizations) * whole.indentation.levels.size() + whole.compare.levels.size();
+    CHECK(summary.levels == static_cast<long>(levels) && summary.failed == 0);
     check_file({scene.name + " merged", ""}, merged, whole);
 
     whole.output.file = resumed;

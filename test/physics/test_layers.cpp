@@ -321,7 +321,8 @@ void methods() {
         same(contact, level, direct, truth, 1e-7);
     }
     options.method = Method::direct;
-    const Level deep = AsperityContact(asperities, layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5), options).at_separation(0.012);
+    const Level deep =
+        AsperityContact(asperities, layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5), options).at_separation(0.012);
     CHECK(deep.wide_contacts > 0 && deep.wide_contacts <= 1 && deep.status != LevelStatus::converged);
     // The same table for the same body, as long as it is in use.
     CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));

@@ -37,6 +37,7 @@ struct Curve {
 Curve press(const HeightMap& map, const char* law, double sigma) {
     Case settings;
     set_key(settings, "asperities%law", std::string("'") + law + "'");
+    set_key(settings, "indentation%centre", "0.5, 0.5");
     Surface surface;
     surface.map.allocate(map.nx, map.ny, map.stride);
     surface.map.dx = map.dx, surface.map.dy = map.dy, surface.map.x0 = map.x0, surface.map.y0 = map.y0;
@@ -193,8 +194,8 @@ void twins_of_an_oblong_map() {
     CHECK_RELATIVE(*twins.surface.sigma, job.measured->parameters.sq, 1e-12);
     CHECK_RELATIVE(*twins.indentation.centre[0], 0.3, 1e-12);
     CHECK_RELATIVE(*twins.indentation.centre[1], 0.1 + 0.25, 1e-12);
-    // Rings end at the Nyquist wavenumber, pi/dx: as many points as the longer side has.
-    CHECK(twins.surface.n == 128 && twins.run.realizations == 100);
+    // Rings end at the Nyquist wavenumber, pi/dx: two points more than the longer side has.
+    CHECK(twins.surface.n == 130 && twins.run.realizations == 100);
     // A sigma that was given is a length that the levels are in; the twins' own is their rms height.
     set_key(settings, "surface%sigma", "0.02");
     set_key(settings, "indentation%levels", "3, 1.5");
@@ -218,6 +219,7 @@ void filled_points() {
     set_key(settings, "surface%file", "'" + file + "'");
     CHECK_THROWS(prepare(settings), Error);
     set_key(settings, "surface%missing", "'fill'");
+    set_key(settings, "solver%model", "'asperities'");
     const Job job = prepare(settings);
     CHECK(job.measured && job.measured->missing > 1200 && job.measured->missing < 1300);
     const Asperities& a = job.given->asperities;

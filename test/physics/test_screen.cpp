@@ -87,7 +87,8 @@ void levels(const Folder& folder) {
         CHECK(screen.failed == 0 && screen.messages.empty() && screen.says(("result: " + path).c_str()));
         seen += screen.text;
     }
-    for (const char* words : {"A title", "[um]", "sphere R = ", "two flats", "separation below -3 sigma", "overlapping", "asperities ("})
+    for (const char* words :
+         {"A title", "[um]", "sphere R = ", "two flats", "separation below -3 sigma", "out of validity", "asperities ("})
         CHECK(seen.find(words) != std::string::npos);
     // Levels that do not converge are told, on the screen and on standard error.
     const Screen few = run("&surface n=64 L_lambda_l=2 L_lambda_s=16 / &indentation levels=0.5,0 / &solver max_iterations=1 /", path);

@@ -41,7 +41,7 @@ CASES = {
     "forced": SMALL + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
     "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
-TO_SI = {"um": 1e-6, "mm": 1e-3, "mN": 1e-3, "N": 1.0, "ohm": 1.0, "radian": 1.0}
+TO_SI = {"um": 1e-6, "mm": 1e-3, "mN": 1e-3, "N": 1.0, "ohm": 1.0, "radian": 1.0, "degree": np.pi / 180}
 
 
 def path(name):

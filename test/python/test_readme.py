@@ -17,7 +17,7 @@ def examples(text):
     lines = text.split("\n")
     k = 0
     while k < len(lines):
-        language = next((name for name, start in LANGUAGES if re.match("    " + start, lines[k], re.I)), None)
+        language = next((name for name, start in LANGUAGES if re.match(f"    (?:{start})", lines[k], re.I)), None)
         if language is None:
             k += 1
             continue

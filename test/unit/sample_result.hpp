@@ -78,7 +78,7 @@ inline Result result(int realizations) {
     const Case c = make_case(realizations);
     Indenter indenter;
     indenter.E_star = kEStar, indenter.shape = kSphere, indenter.x0 = 0.5, indenter.y0 = 0.45;
-    const Moments theory{kSigma * kSigma, 0.02, 0.543169 / (kRadius * kRadius)};
+    const Moments theory{kSigma * kSigma, 0.02, 0.543169 / (kRadius * kRadius), {}, {}};
     const ObserveOptions options = observe_options(c, {0, 0, 1, 1}, indenter, kSigma, std::sqrt(theory.m4));
     Accumulators sums(options, kSteps);
     std::vector<Level> last;

@@ -44,6 +44,8 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, con
     double Z = 0, N = 0, A = 0, S = 0, W = 0, x = 0, y = 0, residual = 0, value = 0;
     std::int32_t status = -1;
     std::int64_t n = 0, candidates = 0, iterations = 0, pairs = 0, large = 0, beyond = 0, edge = 0;
+    // How far elements may be off themselves takes finer grids, which the calls do not solve.
+    const bool elements = !file.has("asperity_x");
     for (const std::string& name : names) {
         const bool vector = name.ends_with("_x") || name.ends_with("_y");
         const std::string variable = vector ? name.substr(0, name.size() - 2) : name;
@@ -51,6 +53,11 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, con
         const Values of_file = file.values(variable);
         const double wanted = vector ? of_file[2 * s + (name.ends_with("_y") ? 1 : 0)] : of_file[s];
         if (wanted > 1e36) continue;  // absent, as the resistance without contact
+        if (elements && name.ends_with("_error_expected")) {
+            CHECK(rsc_contact_value(contact, name.c_str(), &value) == RSC_NO_RESULT);
+            continue;
+        }
+        if (elements && name == "status" && wanted == 1) continue;
         OK(rsc_contact_value(contact, name.c_str(), &value));
         if (value != wanted) std::printf("%s: %.17g in the file, %.17g by name\n", name.c_str(), wanted, value);
         CHECK(value == wanted);
@@ -58,14 +65,15 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, con
     }
     OK(rsc_contact_answer(contact, &Z, &N, &S, &A, &W, &x, &y, &status, &n, &pairs, &large, &beyond, &edge));
     const auto of = [&](const char* name) { return file.has(name) ? file.values(name)[s] : 0; };
-    CHECK(Z == of("separation") && N == of("force") && A == of("contact_area") && status == of("status"));
+    const auto has_status = [&] { return status == of("status") || (elements && status == 0 && of("status") == 1); };
+    CHECK(Z == of("separation") && N == of("force") && A == of("contact_area") && has_status());
     CHECK(!file.has("stiffness") || (S == of("stiffness") && W == of("energy")));
     CHECK(static_cast<double>(n) == of("contacts") && static_cast<double>(pairs) == of("overlapping_pairs"));
     CHECK(!file.has("large_contacts") ||
           (static_cast<double>(large) == of("large_contacts") && static_cast<double>(edge) == of("edge_contacts") &&
            static_cast<double>(beyond) == of("beyond_law")));
     OK(rsc_contact_level(contact, &status, &candidates, &iterations, &pairs, &residual));
-    CHECK(status == of("status") && static_cast<double>(pairs) == of("overlapping_pairs") && residual == of("residual"));
+    CHECK(has_status() && static_cast<double>(pairs) == of("overlapping_pairs") && residual == of("residual"));
     CHECK(static_cast<double>(candidates) == of("candidates") && static_cast<double>(iterations) == of("iterations"));
     // Spots: the file's contacts of this level, counted from 1 there.
     const auto first = static_cast<std::size_t>(of("contact_start")) - 1, size = static_cast<std::size_t>(n);
@@ -85,10 +93,13 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, con
     same("contact_asperity", part("contact_asperity"), from_1);
 }
 
-void asperities_by_calls(const Reader& file, const rsc_asperities* asperities) {
+// The asperities in the file are those of the contact.
+void asperities_by_calls(const Reader& file, const rsc_contact* contact) {
+    rsc_asperities* asperities = nullptr;
+    if (!file.has("asperity_x")) return CHECK(rsc_contact_asperities(&asperities, contact) == -2);  // elements
     std::int64_t n = 0;
+    OK(rsc_contact_asperities(&asperities, contact));
     OK(rsc_asperities_count(asperities, &n));
-    if (!file.has("asperity_x")) return CHECK(n == 0);
     Values a(static_cast<std::size_t>(n)), b(a), c(a), d(a);
     OK(rsc_asperities_get(asperities, n, a.data(), b.data(), c.data(), d.data()));
     same("asperity_x", file.values("asperity_x"), a);
@@ -99,6 +110,7 @@ void asperities_by_calls(const Reader& file, const rsc_asperities* asperities) {
     same("asperity_kappa1", file.values("asperity_kappa1"), a);
     same("asperity_kappa2", file.values("asperity_kappa2"), b);
     same("asperity_angle", file.values("asperity_angle"), c);
+    OK(rsc_asperities_destroy(&asperities));
 }
 
 void surface_by_calls(const Reader& file, const rsc_case* a_case) {
@@ -168,7 +180,7 @@ void every_value(const Folder& folder, const Run& run) {
     const Reader file(path);
     OK(rsc_asperities_make(&a, c, 1));
     OK(rsc_contact_create_from_case(&k, a, c));
-    asperities_by_calls(file, a);
+    asperities_by_calls(file, k);
     if (file.has("height")) surface_by_calls(file, c);
     double x = 0, y = 0, value = 0;
     OK(rsc_contact_tip(k, &x, &y));
@@ -215,14 +227,14 @@ TESTS {
     const Run runs[] = {
         {"off centre, with resistivity",
          surface + solids +
-             "  resistivity=1e-5, 3e-5 / &asperities law='fourth_order' / &indentation levels=2.5, 1, -1  centre=0.625, 0.875 / "
+             "  resistivity=1e-5, 3e-5 / &asperities law='fourth_order' / &indentation levels=2.5, 1, -2.9  centre=0.625, 0.875 / "
              "&output contacts='all', heights=.true. /"},
         {"by force",
          surface + solids + " / &asperities law='elliptic' / &indentation control='force', levels=0.5, 2, 8  centre=0.7, 0.8 / " + output,
          true},
-        {"a measured map",
-         "&surface source='heights', file='" + (folder / "map.gwy") + "', detrend='mean' / " + solids +
-             " / &indentation unit='length', levels=2e-3, 1e-3, 0  centre=0.2, 0.3 / &output contacts='all', heights=.true. /"},
+        {"a measured map", "&surface source='heights', file='" + (folder / "map.gwy") + "', detrend='mean' / " + solids +
+                               " / &solver model='asperities' / &indentation unit='length', levels=2e-3, 1e-3, 0  centre=0.2, 0.3 / "
+                               "&output contacts='all', heights=.true. /"},
         {"no interaction, at the border",
          surface + solids + " / &solver interaction='none' / &indentation levels=1, 0  centre=0.125, 1.25 / " + output},
         {"yielding", surface + solids + "  hardness=100.0 / &indentation levels=2, 0.5, 1  centre=0.7, 0.8 / " + output},

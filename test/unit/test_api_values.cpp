@@ -174,7 +174,8 @@ void places() {
     OK(rsc_contact_create_from_case(&contact, on, nullptr));
     OK(rsc_contact_tip(contact, &x0, &y0));
     const double Lx = map.nx * map.dx, Ly = map.ny * map.dy;
-    CHECK(x0 == map.x0 + 0.5 * Lx && y0 == map.y0 + 0.5 * Ly);
+    CHECK_CLOSE(x0, map.x0 + 0.5 * (map.nx - 1) * map.dx, 1e-14 * Lx);  // the middle of the points
+    CHECK_CLOSE(y0, map.y0 + 0.5 * (map.ny - 1) * map.dy, 1e-14 * Ly);
     reach(contact, map.x0, map.x0 + Lx, map.y0, map.y0 + Ly);
     OK(rsc_contact_copy(&copy, contact));
     reach(copy, map.x0, map.x0 + Lx, map.y0, map.y0 + Ly);

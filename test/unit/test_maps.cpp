@@ -242,7 +242,7 @@ void sdf() {
     REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "t.sdf: Yscale = 0: must be positive");
     wrong = map, wrong.dx = -2e-6;
     REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))), "t.sdf: Xscale = -2e-06: must be positive");
-    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 5, 0.0, i16))), "t.sdf: Zscale = 0: must be finite and not 0");
+    REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 5, 0.0, i16))), "t.sdf: Zscale = 0: must be positive");
     REFUSED(in_micrometres(write("t.sdf", sdf_binary(map, 9, 1e-9, i16))), "t.sdf: DataType = 9: 0 to 7 was expected");
     std::string packed = binary;
     packed[78] = 1;

@@ -103,6 +103,7 @@ void texts() {
 // Why a value is refused; empty if it is taken and given back.
 std::string refusal(const std::string& name, const std::string& value) {
     Case c;
+    if (name.starts_with("indenter%radii(")) c.indenter.radii[0] = c.indenter.radii[1] = 1.0;  // they are given both
     try {
         set_key(c, name, value);
     } catch (const Error& error) {

@@ -193,7 +193,15 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             for (const Moments1& m : moments[i]) v.push_back(m.*member);
             // A difference of powers loses digits where the values hardly spread; skewness may be 0.
             const bool ratio = member == &Moments1::skewness, deviation = member == &Moments1::deviation;
-            f.attribute(of[i], name, v, 1e-6, ratio ? 1e-9 : deviation ? 1e-7 * moments[i][0].mean : 0);
+            const bool fourth = member == &Moments1::kurtosis;
+            double spread = 0;  // of the mean over the deviation
+            for (const Moments1& m : moments[i])
+                if (m.deviation > 0) spread = std::max(spread, m.mean / m.deviation);
+            f.attribute(of[i], name, v, 1e-6,
+                        ratio       ? 1e-9
+                        : deviation ? 1e-7 * moments[i][0].mean
+                        : fourth    ? 1e-15 * std::pow(spread, 4)
+                                    : 0);
         };
         put("mean", &Moments1::mean), put("standard_deviation", &Moments1::deviation);
         put("skewness", &Moments1::skewness), put("kurtosis", &Moments1::kurtosis);

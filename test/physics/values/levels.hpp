@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "case/read_case.hpp"
+#include "contact/expected_error.hpp"
 #include "contact/law/law.hpp"
 #include "contact/spots.hpp"
+#include "contact/touching.hpp"
 #include "physics/values/truth.hpp"
+#include "run/resolution.hpp"
 #include "run/run_options.hpp"
 #include "version.h"
 
@@ -51,7 +54,7 @@ inline void separations(CheckedFile& f, const Truth& t) {
     double unit = 1;
     if (keys.control == Control::separation && keys.unit == LevelUnit::sigma) unit = t.sigma;
     if (keys.control == Control::pressure) unit = t.Lx * t.Ly;
-    if (keys.control == Control::pressure && keys.unit == LevelUnit::relative) unit *= t.E * std::sqrt(2 * t.regime.m2);
+    if (keys.control == Control::pressure && keys.unit == LevelUnit::relative) unit *= t.E * std::sqrt(2 * t.m2_made);
     for (double& a : asked) a *= unit;
     const std::vector<std::string> shape = f.reader().dimensions("separation");
     CHECK(shape.size() == (keys.control == Control::separation ? 1 : 2) && f.reader().dimensions("separation_sigma") == shape);
@@ -154,11 +157,26 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
         if (cell < 0) return;
         out.area[at(cell)] += area, out.force[at(cell)] += force;
     };
+    // Pixels begin at their points; each cell has what lies in it, the last one also what sticks out.
+    const auto share = [](double from, double length, long i, long n) {
+        const double low = i == 0 ? from : std::max(from, static_cast<double>(i));
+        const double high = i == n - 1 ? from + length : std::min(from + length, static_cast<double>(i + 1));
+        return std::max(0.0, high - low) / length;
+    };
+    const auto spread = [&](double x, double y, double area, double force) {
+        if (cells.cell(x, y) < 0) return;
+        const double u = (x - cells.x0) / cells.side, v = (y - cells.y0) / cells.side, w = c.dx / cells.side, h = c.dy / cells.side;
+        for (long j = 0; j < cells.ny; ++j)
+            for (long i = 0; i < cells.nx; ++i) {
+                const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
+                out.area[at(j * cells.nx + i)] += part * area, out.force[at(j * cells.nx + i)] += part * force;
+            }
+    };
     Vector count(c.spots.size());
     for (const Pixel2& q : c.pixels) count[q.contact] += 1;
-    for (const Pixel2& q : c.pixels) put(q.x, q.y, c.spots[q.contact].area / count[q.contact], q.p * c.pixel);
+    for (const Pixel2& q : c.pixels) spread(q.x, q.y, c.spots[q.contact].area / count[q.contact], q.p * c.pixel);
     for (const Spot2& p : c.spots) {
-        if (c.pixels.empty()) put(p.x, p.y, p.area, p.f);
+        if (c.pixels.empty()) put(p.x, p.y, p.own, p.f);
         out.outside += cells.cell(p.x, p.y) < 0;
     }
     for (double a : out.area) out.crowded += a > pi / 16 * cells.side * cells.side;
@@ -260,7 +278,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         double n = 0;
         for (const Spot2& p : spots(k, s)) {
             const double inside = std::min({p.x - t.x0, t.x0 + t.Lx - p.x, p.y - t.y0, t.y0 + t.Ly - p.y});
-            n += !t.periodic && inside < (t.elements ? std::max(t.spacing, p.radius()) : t.spacing);
+            n += !t.periodic && (p.cut || inside < std::max(t.spacing, p.radius()));
         }
         return n;
     });
@@ -280,11 +298,15 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("status", t.rows([&](std::size_t k, std::size_t s) -> double {
         const std::size_t i = k * t.steps + s;
         const double given = static_cast<double>(level(k, s).status);
-        if (given >= 3) return given;  // how the solver ended
-        if (t.elements) return edges[i] > 0 ? 1 : 0;
-        if (pairs[i] > 0) return 2;
+        if (given >= 3) return given;                              // how the solver ended
+        const double expected = level(k, s).force_error_expected;  // input/trust; unit/test_resolution
+        if (t.elements) return edges[i] > 0 || expected > kUnresolved ? 1 : 0;
+        if (!(N[i] > 0)) return given;  // what touches beside the summits: physics/test_touching
         const bool deep = level(k, s).separation<-3 * t.sigma, full = A[i]> nominal[i] * (1 + 1e-9);
-        return large[i] > 0 || beyond[i] > 0 || edges[i] > 0 || deep || full ? 1 : 0;
+        const bool far_off = std::isnan(expected) ? large[i] > 0 || beyond[i] > 0 : expected > kMuchError;
+        const bool others_touch = (t.hertz || t.list) && level(k, s).slope_ratio > kMostSlopeRatio;
+        if (far_off || edges[i] > 0 || deep || full || others_touch) return 1;
+        return pairs[i] > 0 ? 2 : 0;
     }));
 
     // Yielding: at the hardness, and as deep as ever.

@@ -234,10 +234,19 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
 inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& path) {
     const auto& keys = t.c.compare.levels;
     if (keys.empty()) return CHECK(!f.has("compare_step"));
-    Surface surface = make_element_surface(t.c, t.c.run.first_realization, 1);
-    const auto elements = make_element_contact(surface.map, t.job.indenter, t.job.solver);
-    const Grid g(surface.map);
-    Vector step, Z, N, A, pixels, n, residual, error_N, error_A, error_n;
+    Surface surface;
+    std::unique_ptr<Contact> elements;
+    double finer = 1;  // the grid of a made surface is refined on the way
+    const auto refine = [&] {
+        Case c = t.c;
+        c.elements.points_per_wave *= finer;
+        elements.reset();
+        surface = make_element_surface(c, t.c.run.first_realization, 1);
+        elements = make_element_contact(surface.map, t.job.indenter, t.job.solver);
+    };
+    refine();
+    const Vector columns = f.values("compare_columns");
+    Vector step, Z, N, A, pixels, n, residual, error_Z, error_N, error_A, error_n;
     Level last;
     Contacts2 c;
     const bool by_force = t.c.indentation.control == Control::force;
@@ -255,13 +264,16 @@ inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& 
             s = at(std::lround(path[i].back()));
         }
         const Level& level = t.r[0].levels[s];
-        last = elements->at_separation(level.separation);
-        c = of_pixels(last, g.nx, g.ny, t.periodic, t.c.solids.hardness);
+        while (surface.map.nx < columns.at(i)) finer *= 2, refine();
+        CHECK(surface.map.nx == columns[i] && (finer == 1 || t.synthetic));
+        last = by_force ? elements->at_force(level.force) : elements->at_separation(level.separation);
+        c = of_pixels(last, surface.map.nx, surface.map.ny, t.periodic, t.c.solids.hardness);
         double force = 0, area = 0;
         for (const Spot2& p : c.spots) force += p.f, area += p.area;
         const double count = number(c.spots.size());
-        step.push_back(number(s) + 1), Z.push_back(level.separation), N.push_back(force), A.push_back(area);
+        step.push_back(number(s) + 1), Z.push_back(last.separation), N.push_back(force), A.push_back(area);
         pixels.push_back(number(c.pixels.size()) * c.pixel), n.push_back(count), residual.push_back(last.residual);
+        error_Z.push_back(level.separation - last.separation);
         error_N.push_back(force > 0 ? f.values("force")[s] / force - 1 : kNone);
         error_A.push_back(area > 0 ? f.values("contact_area")[s] / area - 1 : kNone);
         error_n.push_back(count > 0 ? f.values("contacts")[s] / count - 1 : kNone);
@@ -269,11 +281,17 @@ inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& 
     f.same("compare_step", step), f.attribute("compare_step", "start_index", {1});
     f.same("compare_separation", Z), f.same("compare_force", N, kRounding), f.same("compare_contact_area", A, kRounding);
     f.same("compare_contact_area_pixels", pixels, kRounding), f.same("compare_contacts", n), f.same("compare_residual", residual);
-    f.same("force_error", error_N, 0, 1e-10), f.same("area_error", error_A, 0, 1e-10), f.same("contacts_error", error_n, 0, 1e-12);
+    if (by_force)
+        f.same("separation_error", error_Z, 0, 1e-12 * t.sigma);
+    else
+        f.same("force_error", error_N, 0, 1e-10);
+    CHECK(f.has("force_error") == !by_force && f.has("separation_error") == by_force);
+    f.same("area_error", error_A, 0, 1e-10), f.same("contacts_error", error_n, 0, 1e-12);
     Vector x, y, p;
     for (const Pixel2& q : c.pixels) x.push_back(q.x), y.push_back(q.y), p.push_back(q.p);
     f.same("compare_pixel_x", x, 0, 1e-12 * t.Lx), f.same("compare_pixel_y", y, 0, 1e-12 * t.Ly), f.same("compare_pixel_pressure", p);
-    f.attribute("compare_pixel_x", "pixel_size", {g.dx}, kRounding), f.attribute("compare_pixel_y", "pixel_size", {g.dy}, kRounding);
+    f.attribute("compare_pixel_x", "pixel_size", {surface.map.dx}, kRounding);
+    f.attribute("compare_pixel_y", "pixel_size", {surface.map.dy}, kRounding);
 }
 
 }  // namespace values

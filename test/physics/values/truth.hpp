@@ -134,7 +134,8 @@ inline Moments4 closed_forms(const Case& c) {
 struct Spot2 {
     double x = 0, y = 0, f = 0, area = 0;
     std::int32_t index = 0;
-    bool yields = false;
+    bool yields = false, cut = false;  // cut: with a pixel where the map ends
+    double own = 0;                    // of the map: what spots before it do not cover
     double radius() const { return std::sqrt(area / pi); }
     double pressure() const { return f / area; }
 };
@@ -146,13 +147,14 @@ struct Contacts2 {
     std::vector<Spot2> spots;
     std::vector<Pixel2> pixels;  // of elements
     double pixel = 0;            // their area
+    double dx = 0, dy = 0;       // and sides
 };
 
 // Connected sets of pixels, with the areas of pixel_spots.hpp; numbered as the level numbers them.
 inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, double H) {
     const LevelPixels& q = level.pixels;
     Contacts2 out;
-    out.pixel = q.dx * q.dy;
+    out.pixel = q.dx * q.dy, out.dx = q.dx, out.dy = q.dy;
     std::vector<long> place(at(nx * ny), -1), own(q.index.size(), -1);
     for (std::size_t k = 0; k < q.index.size(); ++k) place[at(q.index[k])] = static_cast<long>(k);
     const auto neighbours = [&](std::size_t k) {
@@ -164,6 +166,11 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
             if (u >= 0 && u < nx && v >= 0 && v < ny && place[at(v * nx + u)] >= 0) found.push_back(place[at(v * nx + u)]);
         }
         return found;
+    };
+    // Sides where the map itself ends: no border of the contact.
+    const auto beyond = [&](std::size_t k) {
+        const long i = q.index[k] % nx, j = q.index[k] / nx;
+        return periodic ? 0.0 : static_cast<double>((i == 0) + (i == nx - 1) + (j == 0) + (j == ny - 1));
     };
     std::map<long, std::int32_t> library;  // my number to the level's
     long sets = 0;
@@ -190,7 +197,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         Sum& s = sums[at(q.contact[k])];
         const bool hard = q.pressure[k] >= H;
         s.n += 1, s.hard += hard;
-        if (!hard) s.sides += 4 - number(neighbours(k).size());
+        if (!hard) s.sides += 4 - number(neighbours(k).size()) - beyond(k);
+        out.spots[at(q.contact[k])].cut = out.spots[at(q.contact[k])].cut || beyond(k) > 0;
         if (q.pressure[k] > s.peak) s.peak = q.pressure[k], s.i = q.index[k] % nx, s.j = q.index[k] / nx;
         out.spots[at(q.contact[k])].f += q.pressure[k] * out.pixel;
         out.spots[at(q.contact[k])].yields = out.spots[at(q.contact[k])].yields || hard;
@@ -231,6 +239,7 @@ struct Truth {
     double spacing = 0;                // <d>; 0: not known
     bool periodic, elements, synthetic, list, hertz;
     Moments4 theory, regime;  // regime: what the regimes are drawn with
+    double m2_made = kNone;   // what flats are compared with: of the surfaces made
     std::vector<std::vector<Contacts2>> contacts;
     std::size_t steps = 0, M = 0;
 
@@ -253,7 +262,10 @@ struct Truth {
         }
         E = 1 / ((1 - c.solids.nu[0] * c.solids.nu[0]) / c.solids.E[0] + (1 - c.solids.nu[1] * c.solids.nu[1]) / c.solids.E[1]);
         R = 1 / (1 / c.solids.R[0] + 1 / c.solids.R[1]);
-        tip_x = c.indentation.centre[0].value_or(x0 + Lx / 2), tip_y = c.indentation.centre[1].value_or(y0 + Ly / 2);
+        // In the middle: of a map's points, of what was made.
+        const bool map = c.surface.source == Source::heights;
+        tip_x = c.indentation.centre[0].value_or(x0 + (Lx - (map ? heights[0].dx : 0)) / 2);
+        tip_y = c.indentation.centre[1].value_or(y0 + (Ly - (map ? heights[0].dy : 0)) / 2);
         if (synthetic && c.surface.source == Source::synthetic) theory = closed_forms(c);
         if (c.surface.source == Source::spectrum) theory = {job.theory->m0, job.theory->m2, job.theory->m4};  // unit/test_spectrum
         if (c.surface.sigma)
@@ -275,6 +287,11 @@ struct Truth {
                 regime.m0 += m.m0 / number(M), regime.m2 += m.m2 / number(M), regime.m4 += m.m4 / number(M);
             }
         }
+        m2_made = regime.m2;
+        if (synthetic && periodic) {
+            m2_made = 0;
+            for (const Grid& g : heights) m2_made += g.modes().m2 / number(M);
+        }
         for (std::size_t k = 0; k < M; ++k) {
             contacts.emplace_back();
             for (const Level& l : r[k].levels) contacts.back().push_back(contacts_of(l, k));
@@ -288,8 +305,10 @@ struct Truth {
     Contacts2 contacts_of(const Level& l, std::size_t k) const {
         if (elements) return of_pixels(l, heights[k].nx, heights[k].ny, periodic, c.solids.hardness);
         Contacts2 out;
-        for (std::size_t i = 0; i < l.f.size(); ++i)
+        for (std::size_t i = 0; i < l.f.size(); ++i) {
             out.spots.push_back({l.x[i], l.y[i], l.f[i], pi * l.a[i] * l.a[i], l.asperity[i], !l.yields.empty() && l.yields[i] != 0});
+            out.spots.back().own = l.own_area.empty() ? out.spots.back().area : l.own_area[i];
+        }
         return out;
     }
     double top(double x, double y) const {  // height of the sphere, negative, above its tip's level
