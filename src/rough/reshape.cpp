@@ -23,17 +23,6 @@ constexpr int kMostRounds = 60;
 // Reached: half of what is promised of one surface.
 constexpr double kNearSkewness = 0.01, kNearKurtosis = 0.025;
 
-// The next even number whose transforms are fast.
-int fast_size(double least) {
-    int n = std::max(32, static_cast<int>(std::ceil(least)));
-    for (n += n % 2;; n += 2) {
-        int rest = n;
-        for (int factor : {2, 3, 5, 7})
-            while (rest % factor == 0) rest /= factor;
-        if (rest == 1) return n;
-    }
-}
-
 class Reshaping {
 public:
     Reshaping(const Spectrum& spectrum, Complex* columns, std::ptrdiff_t stride, int n)
@@ -42,7 +31,7 @@ public:
           columns_(columns),
           stride_(stride),
           n_(n),
-          m_(fast_size(kPointsPerWave * std::max(band_.highest_kx, band_.highest_ky))),
+          m_(fast_size(std::max(32.0, kPointsPerWave * std::max(band_.highest_kx, band_.highest_ky)))),
           row_(m_ / 2 + 1),
           points_(static_cast<std::size_t>(m_) * static_cast<std::size_t>(m_)) {
         const std::size_t doubles = 2 * static_cast<std::size_t>(row_) * static_cast<std::size_t>(m_);
@@ -179,6 +168,16 @@ private:
 };
 
 }  // namespace
+
+int fast_size(double least) {
+    int n = static_cast<int>(std::ceil(least));
+    for (n += n % 2;; n += 2) {
+        int rest = n;
+        for (int factor : {2, 3, 5, 7})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
 
 HeightShape reshape_heights(const Spectrum& spectrum, Complex* columns, std::ptrdiff_t stride, int n) {
     return Reshaping(spectrum, columns, stride, n).run();

@@ -8,6 +8,9 @@
 
 namespace rsc {
 
+// The next even number from `least` on whose Fourier transforms are fast.
+int fast_size(double least);
+
 // Changes the phases of a surface's modes, and no amplitude, until its heights have the distribution that the spectrum asks for: heights
 // take their ranks' values in the wanted distribution, modes get their amplitudes back, and so on (Schreiber and Schmitz, Phys. Rev. Lett.
 // 77, 1996, 635: iterated amplitude adjustment). The wanted skewness and kurtosis are reached by asking for as much more of them as the

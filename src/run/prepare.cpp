@@ -20,6 +20,7 @@
 #include "rough/detection.hpp"
 #include "rough/magnitude.hpp"
 #include "rough/missing.hpp"
+#include "rough/reshape.hpp"
 #include "rough/rounding.hpp"
 #include "rough/synthesis.hpp"
 
@@ -149,14 +150,7 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
 }
 
 int element_points(const Case& settings, const Spectrum& spectrum) {
-    // The next even number whose transforms are fast.
-    int n = static_cast<int>(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum)));
-    for (n += n % 2;; n += 2) {
-        int rest = n;
-        for (int factor : {2, 3, 5, 7})
-            while (rest % factor == 0) rest /= factor;
-        if (rest == 1) return n;
-    }
+    return fast_size(settings.elements.points_per_wave * shortest_wave(spectrum));
 }
 
 void require_element_memory(const Case& settings, const Spectrum& spectrum) {
