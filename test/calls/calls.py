@@ -84,12 +84,17 @@ class Rows(collections.defaultdict):
         self[k, what] = " ".join(bits(v) for v in (values if isinstance(values, (list, tuple)) else [values]))
 
 
+accepts_null = []  # what does not refuse NULL, and names no argument then
+
+
 # ---- C -------------------------------------------------------------------------------------------------------------------------
 C_TYPES = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 
 
 def by_c(calls, arrays, lengths):
     """lengths: filled with the n of every call that has one."""
+    sometimes_none = {(name, a.name) for name, words, _, _ in calls for a, w in zip(inputs_of(FUNCTIONS[name]), words) if w == "None"}
+    without_null = set()
     library, objects, counts, rows = ctypes.CDLL(os.environ["RSC_LIBRARY"]), {}, {}, Rows()
 
     def number(function, handle, before=0):
@@ -146,6 +151,15 @@ def by_c(calls, arrays, lengths):
                 outputs.append((a, (C_TYPES[a.type] * n)() if a.role == "array" else C_TYPES[a.type]()))
                 passed.append(outputs[-1][1] if a.role == "array" else ctypes.byref(outputs[-1][1]))
         status = getattr(library, f.name)(*passed)
+        if status == 0 and name not in without_null:
+            without_null.add(name)
+            passed = [ctypes.byref(ctypes.c_void_p()) if a.role == "new" else p for a, p in zip(f.arguments, passed)]
+            for position, a in enumerate(f.arguments):
+                optional = (name, a.name) in sometimes_none or (a.role == "handle" and a.kind == "case" and f.kind != "case")
+                if a.role in ("new", "handle", "handles", "text", "in", "buffer") and not optional:
+                    told = getattr(library, f.name)(*passed[:position], None, *passed[position + 1 :])
+                    if told != -position - 1:
+                        accepts_null.append(f"{f.name}: NULL for {a.name} is answered by {told}")
         for a, w in zip(inputs_of(f), words):
             if f.kind == "contact" and f.makes and a.role == "handle" and a.kind != "case":
                 counts[words[0]] = number("rsc_asperities_count", objects[w]) if a.kind == "asperities" else counts[w]
@@ -569,6 +583,7 @@ def main():
         with open("calls.nml", "w", encoding="utf-8") as out:
             out.write(CASE)
         reference = by_c(calls, arrays, {})
+        wrong += accepts_null
         for k, (name, words, status, word) in enumerate(calls):
             found = reference.get((k, "code"), "0 ")
             if int(found.split()[0]) != status or word not in found:

@@ -8,7 +8,6 @@ program test_api
 
   call options_by_name()
   call one_asperity()
-  call misuse()
   call lifetimes()
   print '(i0,a,i0,a)', checks, ' checks, ', failures, ' failed'
   if (failures > 0) error stop 'test_api'
@@ -94,45 +93,6 @@ contains
     call close_to(penetration(1), u, 1e-12_dp, 'penetration')
     call close_to(radius(1)**2, 0.3_dp * u, 1e-12_dp, 'radius')
     call check(abs(contact%value('nothing', stat)) <= 0 .and. stat < 0, 'value of no name')
-  end subroutine
-
-  subroutine misuse()
-    type(rsc_asperities) :: asperities
-    type(rsc_contact) :: contact
-    type(rsc_surface) :: surface
-    real(dp) :: one(1), two(2), square(1, 1), N
-    integer :: stat
-    character(100) :: errmsg
-    one = 1
-    two = [1.0_dp, 2.0_dp]
-    N = asperities%count(stat)
-    call check(stat < 0, 'nothing taken yet')
-    call contact%indent(0.0_dp, stat=stat, errmsg=errmsg)
-    call check(stat < 0 .and. index(errmsg, 'contact') > 0, 'nothing created yet')
-    call contact%create(asperities, 1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, stat=stat)
-    call check(stat < 0, 'no asperities')
-    call surface%heights(square, stat)
-    call check(stat < 0, 'no surface')
-    call asperities%take(two, two, two, one, stat=stat, errmsg=errmsg)
-    call check(stat < 0 .and. index(errmsg, 'size') > 0, 'sizes')
-    call asperities%take([1.0_dp, 1.0_dp], [1.0_dp, 1.0_dp], two, two, stat=stat, errmsg=errmsg)
-    call check(stat < 0 .and. index(errmsg, 'same place') > 0, 'coincident points')
-    call asperities%take(two, two, two, two, kappa1=two, stat=stat)
-    call check(stat < 0, 'curvatures go together')
-    call asperities%take(one, one, one, -one, stat=stat)
-    call check(stat < 0, 'negative radius')
-    call asperities%take(one, one, one, one)
-    call contact%create(asperities, -1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, stat=stat)
-    call check(stat < 0, 'negative modulus')
-    call contact%create(asperities, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp)
-    N = contact%force(stat)
-    call check(stat == rsc_no_result, 'no result yet')
-    call contact%indent(0.5_dp, N, stat)
-    call check(stat == 0 .and. N > 0, 'works after failures')
-    call contact%per_asperity(force=two, stat=stat, errmsg=errmsg)
-    call check(stat < 0 .and. index(errmsg, 'size') > 0, 'array too long')
-    call contact%deflection(two, two, one, stat)
-    call check(stat < 0, 'arrays of several sizes')
   end subroutine
 
   ! Many objects made, made again, and left: a leak or a double release shows under valgrind or AddressSanitizer.
