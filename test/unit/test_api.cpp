@@ -36,10 +36,6 @@ std::string message() {
     return text([](char* b, std::int64_t n, std::int64_t* l) { return rsc_message(b, n, l); });
 }
 
-std::string get(const rsc_case* c, const std::string& name) {
-    return text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_get(c, name.c_str(), b, n, l); });
-}
-
 rsc_asperities* take(const rsc::Asperities& a) {
     rsc_asperities* handle = nullptr;
     OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(a.size()), a.x.data(), a.y.data(), a.z.data(), a.radius.data(), nullptr,
@@ -52,49 +48,6 @@ rsc_case* tight() {
     OK(rsc_case_create(&c));
     OK(rsc_case_set(c, "solver%tolerance", "1e-11"));
     return c;
-}
-
-// Every key by name: what is read is what was written, for its default and for another value.
-void test_options() {
-    rsc_case *c = nullptr, *d = nullptr;
-    OK(rsc_case_create(&c));
-    std::int64_t count = 0;
-    OK(rsc_key_count(&count));
-    CHECK(count == static_cast<std::int64_t>(rsc::registry().size()) && count > 40);
-    for (std::int64_t k = 0; k < count; ++k) {
-        const std::string name = text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_key_name(k, b, n, l); });
-        const rsc::Key& key = rsc::registry()[static_cast<std::size_t>(k)];
-        CHECK(name == std::string(key.group) + "%" + key.name && get(c, name) == rsc::get_key(rsc::Case{}, name));
-    }
-    OK(rsc_case_destroy(&c));
-
-    // A case as text, there and back.
-    OK(rsc_case_create(&c));
-    OK(rsc_case_set(c, "Surface%Sigma", "0.02"));
-    OK(rsc_case_set(c, "solids%e(1)", "1d5"));
-    const std::string all = text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(c, b, n, l); });
-    OK(rsc_case_create(&d));
-    OK(rsc_case_read(d, all.c_str()));
-    CHECK(get(d, "surface%sigma") == "0.02");
-    CHECK(text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(d, b, n, l); }) == all);
-
-    // A refusal leaves the case as it was, and says why.
-    CHECK(rsc_case_set(c, "surface%simga", "1") == -2);
-    CHECK(message().find("sigma") != std::string::npos);
-    CHECK(rsc_case_set(c, "surface%sigma", "-1") == -3);
-    CHECK(rsc_case_read(d, "&surface sigma = -1, n = 'x' /") == -2);
-    CHECK(message().find("sigma") != std::string::npos && message().find("n:") != std::string::npos);
-    CHECK(rsc_case_read(d, "&surface sigma = 0.5 / &study surface%sigma = 1, 2 /") == -2);
-    CHECK(text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(d, b, n, l); }) == all);
-    rsc_case* e = nullptr;
-    OK(rsc_case_copy(&e, d));
-    OK(rsc_case_set(d, "surface%sigma", "0.5"));
-    CHECK(get(e, "surface%sigma") == "0.02");
-    OK(rsc_case_destroy(&c));
-    OK(rsc_case_destroy(&d));
-    OK(rsc_case_destroy(&e));
-    OK(rsc_case_destroy(&e));  // released twice
-    CHECK(e == nullptr);
 }
 
 // One asperity is Hertz: force, area, stiffness, energy and the deflection around it in closed form.
@@ -307,130 +260,11 @@ void test_periodic() {
     OK(rsc_case_destroy(&a_case));
 }
 
-// The paper's method through the interface: same answer, its own stiffness and energy.
-void test_methods() {
-    rsc_asperities* a = take(random_asperities(300, 0.02, 0.01, 3e-3, 0.3, 6));
-    rsc_case* options = tight();
-    rsc_contact *c = nullptr, *d = nullptr;
-    OK(rsc_contact_create(&c, a, 9e4, 20, 0.5, 0.5, options));
-    OK(rsc_case_set(options, "solver%method", "'dgesv'"));
-    OK(rsc_contact_create(&d, a, 9e4, 20, 0.5, 0.5, options));
-    double value[2][3] = {};
-    for (rsc_contact* contact : {c, d}) {
-        double* v = value[contact == d];
-        OK(rsc_contact_indent(contact, 0.005, &v[0]));
-        OK(rsc_contact_stiffness(contact, &v[1]));
-        OK(rsc_contact_energy(contact, &v[2]));
-    }
-    for (int i = 0; i < 3; ++i) CHECK_RELATIVE(value[1][i], value[0][i], 1e-9);
-    OK(rsc_contact_destroy(&d));
-    // Too few iterations: told, and the iterate is there.
-    OK(rsc_case_set(options, "solver%method", "'direct'"));
-    OK(rsc_case_set(options, "solver%max_iterations", "1"));
-    OK(rsc_contact_create(&d, a, 9e4, 20, 0.5, 0.5, options));
-    double N = -1;
-    CHECK(rsc_contact_indent(d, 0.005, &N) == RSC_NOT_CONVERGED);
-    CHECK(N > 0);
-    std::int32_t status = 0;
-    OK(rsc_contact_level(d, &status, nullptr, nullptr, nullptr, nullptr));
-    CHECK(status == RSC_LEVEL_NOT_CONVERGED);
-    OK(rsc_contact_destroy(&c));
-    OK(rsc_contact_destroy(&d));
-    OK(rsc_case_destroy(&options));
-    OK(rsc_asperities_destroy(&a));
-}
-
-void test_surfaces() {
-    rsc_case* c = nullptr;
-    OK(rsc_case_create(&c));
-    for (const auto& [key, value] : std::vector<std::array<const char*, 2>>{{"surface%n", "256"},
-                                                                            {"surface%L", "2.0"},
-                                                                            {"surface%L_lambda_l", "4"},
-                                                                            {"surface%L_lambda_s", "32"},
-                                                                            {"surface%sigma", "0.03"}})
-        OK(rsc_case_set(c, key, value));
-    rsc_surface *s = nullptr, *t = nullptr;
-    OK(rsc_surface_synthesize(&s, c, 3));
-    std::int64_t nx = 0, ny = 0;
-    double dx = 0, dy = 0, x0 = 1, y0 = 1, m0 = 0, m2 = 0, m4 = 0;
-    std::int32_t periodic = 0;
-    OK(rsc_surface_grid(s, &nx, &ny, &dx, &dy, &x0, &y0, &periodic));
-    CHECK(nx == 256 && ny == 256 && dx == 2.0 / 256 && dy == dx && x0 == 0 && y0 == 0 && periodic == 1);
-    OK(rsc_surface_moments(s, &m0, &m2, &m4));
-    CHECK_RELATIVE(std::sqrt(m0), 0.03, 1e-12);
-    CHECK(m2 > 0 && m4 > 0);
-    std::vector<double> z(256 * 256), zt(256 * 256);
-    OK(rsc_surface_heights(s, 256 * 256, z.data()));
-
-    // The same heights taken back give the same summits; making them at once as well.
-    OK(rsc_surface_take(&t, nx, ny, dx, dy, 0, 0, 1, z.data()));
-    rsc_asperities* a[3] = {};
-    OK(rsc_asperities_find(&a[0], s, c));
-    OK(rsc_asperities_find(&a[1], t, nullptr));
-    OK(rsc_asperities_make(&a[2], c, 3));
-    std::int64_t n = 0;
-    OK(rsc_asperities_count(a[0], &n));
-    CHECK(n > 100);
-    std::vector<std::array<std::vector<double>, 4>> got(3);
-    for (int k = 0; k < 3; ++k) {
-        std::int64_t m = 0;
-        OK(rsc_asperities_count(a[k], &m));
-        CHECK(m == n);
-        for (auto& v : got[static_cast<std::size_t>(k)]) v.resize(static_cast<std::size_t>(n));
-        auto& g = got[static_cast<std::size_t>(k)];
-        OK(rsc_asperities_get(a[k], m, g[0].data(), g[1].data(), g[2].data(), g[3].data()));
-        CHECK(g == got[0]);
-    }
-    std::vector<double> k1(static_cast<std::size_t>(n)), k2(k1), angle(k1);
-    OK(rsc_asperities_curvatures(a[1], n, k1.data(), k2.data(), angle.data()));
-    double largest = 0;
-    for (std::size_t i = 0; i < k1.size(); ++i) {
-        CHECK(k1[i] >= k2[i] && k2[i] > 0);
-        largest = check::worse(largest, std::abs(got[1][3][i] * std::sqrt(k1[i] * k2[i]) - 1));
-    }
-    CHECK_CLOSE(largest, 0, 1e-7);  // r = 1/kappa_g
-
-    // Copies: of a surface independent of it, of asperities the same ones.
-    rsc_surface* copy = nullptr;
-    OK(rsc_surface_copy(&copy, s));
-    OK(rsc_surface_detrend(s, "plane", nullptr));
-    OK(rsc_surface_heights(copy, 256 * 256, zt.data()));
-    CHECK(zt == z);
-    OK(rsc_surface_destroy(&copy));
-    rsc_asperities* same = nullptr;
-    OK(rsc_asperities_copy(&same, a[0]));
-    OK(rsc_asperities_get(same, n, k1.data(), nullptr, nullptr, nullptr));
-    CHECK(k1 == got[0][0]);
-    OK(rsc_asperities_destroy(&same));
-
-    // A contact straight from the case: E* and R of its solids, the tip above the middle.
-    rsc_contact *k = nullptr, *l = nullptr;
-    OK(rsc_contact_create_from_case(&k, a[0], c));
-    double x = 0, y = 0, N = 0, M = 0;
-    OK(rsc_contact_tip(k, &x, &y));
-    CHECK(x == 1.0 && y == 1.0);
-    OK(rsc_contact_create(&l, a[2], 78e3 / (1 - 0.42 * 0.42), 2.5, 1.0, 1.0, c));
-    OK(rsc_contact_indent(k, 0.05, &N));
-    OK(rsc_contact_indent(l, 0.05, &M));
-    CHECK(N > 0);
-    CHECK_RELATIVE(N, M, 1e-12);
-
-    OK(rsc_contact_destroy(&k));
-    OK(rsc_contact_destroy(&l));
-    for (auto& handle : a) OK(rsc_asperities_destroy(&handle));
-    OK(rsc_surface_destroy(&s));
-    OK(rsc_surface_destroy(&t));
-    OK(rsc_case_destroy(&c));
-}
-
 }  // namespace
 
 TESTS {
     CHECK(message().empty());
-    test_options();
     test_single();
     test_many();
     test_periodic();
-    test_methods();
-    test_surfaces();
 }

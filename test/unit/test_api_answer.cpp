@@ -33,27 +33,6 @@ double value(rsc_contact* k, const char* name) {
 constexpr const char* kRough =
     "&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solver tolerance=1e-11 / &indentation centre=0.43, 0.56 / &solids R=1.0,Infinity /";
 
-// (rho_1 + rho_2) over the conductance length, in a copy, too; infinite where nothing touches.
-void test_resistance() {
-    rsc_contact *k = contact("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solids resistivity=2e-5, 3e-5 /"), *copy = nullptr;
-    OK(rsc_contact_copy(&copy, k));
-    for (rsc_contact* c : {k, copy}) {
-        OK(rsc_contact_indent(c, 0.01, nullptr));
-        CHECK_RELATIVE(value(c, "resistance") * value(c, "conductance_length"), 5e-5, 1e-14);
-        double v = 7;
-        OK(rsc_contact_indent(c, 1.0, nullptr));
-        CHECK(rsc_contact_value(c, "resistance", &v) == RSC_NO_RESULT && v == 7);
-    }
-    OK(rsc_contact_destroy(&k));
-    OK(rsc_contact_destroy(&copy));
-    for (const char* one : {"0, 7e-5", "7e-5, 0"}) {  // of one body alone
-        k = contact(("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solids resistivity=" + std::string(one) + " /").c_str());
-        OK(rsc_contact_indent(k, 0.01, nullptr));
-        CHECK_RELATIVE(value(k, "resistance") * value(k, "conductance_length"), 7e-5, 1e-14);
-        OK(rsc_contact_destroy(&k));
-    }
-}
-
 // Asked again for the level it holds, the contact does not solve it again: a second solution would begin at the first and need fewer steps.
 void test_again() {
     rsc_contact* k = contact(kRough);
@@ -95,7 +74,6 @@ void test_press_after() {
 }  // namespace
 
 TESTS {
-    test_resistance();
     test_again();
     test_press_after();
 }

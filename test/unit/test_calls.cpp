@@ -156,24 +156,6 @@ void checkpoints(const Folder& folder) {
     checkpoint.remove();
 }
 
-// The disk says no when the file is to get its name: that is a failure of the file, with the reason, and nothing is left.
-void refusal(const Folder& folder) {
-    rsc_case* c = nullptr;
-    CHECK(rsc_case_create(&c) == RSC_SUCCESS);
-    CHECK(rsc_case_read(c, "&surface n=64, L_lambda_l=2, L_lambda_s=8 / &indentation steps=2 /") == RSC_SUCCESS);
-    CHECK(rsc_case_set(c, "output%file", ("'" + (folder / "refused.nc") + "'").c_str()) == RSC_SUCCESS);
-    const std::size_t before = folder.files();
-    refuse_renames = true;
-    std::int64_t failed = -1;
-    CHECK(rsc_case_run(c, &failed) == RSC_FILE);
-    refuse_renames = false;
-    char text[1000] = "";
-    CHECK(rsc_message(text, sizeof text, nullptr) == RSC_SUCCESS);
-    CHECK(std::string(text).find("refused.nc") != std::string::npos && std::string(text).find("full") != std::string::npos);
-    CHECK(folder.files() == before);
-    CHECK(rsc_case_destroy(&c) == RSC_SUCCESS);
-}
-
 // NetCDF and HDF5 are not safe to call from several threads at a time, and are not.
 void one_thread_in_netcdf(const Folder& folder) {
     most_inside = 0;
@@ -184,24 +166,6 @@ void one_thread_in_netcdf(const Folder& folder) {
     CHECK(most_inside == 1);
 }
 
-// The message of a failure belongs to its thread: another thread's failure leaves it.
-void messages_of_threads() {
-    rsc_case* c = nullptr;
-    CHECK(rsc_case_create(&c) == RSC_SUCCESS);
-    CHECK(rsc_case_set(c, "surface%n", "here") < 0);
-    std::thread([&] {
-        char text[1000] = "?";
-        CHECK(rsc_message(text, sizeof text, nullptr) == RSC_SUCCESS && text[0] == '\0');
-        rsc_case* mine = nullptr;
-        CHECK(rsc_case_create(&mine) == RSC_SUCCESS && rsc_case_set(mine, "surface%n", "there") < 0);
-        CHECK(rsc_case_destroy(&mine) == RSC_SUCCESS);
-    }).join();
-    char text[1000] = "";
-    CHECK(rsc_message(text, sizeof text, nullptr) == RSC_SUCCESS);
-    CHECK(std::string(text).find("here") != std::string::npos && std::string(text).find("there") == std::string::npos);
-    CHECK(rsc_case_destroy(&c) == RSC_SUCCESS);
-}
-
 }  // namespace
 
 TESTS {
@@ -209,7 +173,5 @@ TESTS {
     results(folder);
     manifests(folder);
     checkpoints(folder);
-    refusal(folder);
     one_thread_in_netcdf(folder);
-    messages_of_threads();
 }

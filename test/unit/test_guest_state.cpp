@@ -77,34 +77,6 @@ void test_yielding(const std::string& keys, const Folder& folder) {
     for (rsc_contact** one : {&copy, &saved, &fresh}) rsc_contact_destroy(one);
 }
 
-// The tip goes back, too.
-void test_elastic() {
-    Made made("/");
-    const double here = force_at(made.contact, 0.01);
-    CHECK(rsc_contact_commit(made.contact) == RSC_SUCCESS);
-    CHECK(rsc_contact_move_tip(made.contact, 0.3, 0.4) == RSC_SUCCESS);
-    const double there = force_at(made.contact, 0.01);
-    CHECK(there != here);
-    rsc_contact* copy = nullptr;
-    CHECK(rsc_contact_copy(&copy, made.contact) == RSC_SUCCESS);
-    CHECK(rsc_contact_rollback(made.contact) == RSC_SUCCESS);
-    double x = 0;
-    CHECK(rsc_contact_tip(made.contact, &x, nullptr) == RSC_SUCCESS && x == 0.5);
-    CHECK(value(made.contact, "force") == here && value(copy, "force") == there);
-    const double h = 1e-5;
-    const double slope = (force_at(copy, 0.01 + h) - force_at(copy, 0.01 - h)) / (2 * h);
-    CHECK(rsc_contact_rollback(copy) == RSC_SUCCESS);
-    force_at(copy, 0.01);
-    CHECK_RELATIVE(value(copy, "force"), here, kTolerance);
-    CHECK(rsc_contact_move_tip(copy, 0.3, 0.4) == RSC_SUCCESS && rsc_contact_commit(copy) == RSC_SUCCESS);
-    force_at(copy, 0.01);
-    rsc_contact* third = nullptr;
-    CHECK(rsc_contact_copy(&third, copy) == RSC_SUCCESS);  // its stiffness is worked out after the copy
-    CHECK_RELATIVE(value(third, "stiffness"), slope, 1e-2);
-    rsc_contact_destroy(&copy);
-    rsc_contact_destroy(&third);
-}
-
 struct Path {
     double N = 0, Qx = 0, Qy = 0, tangential = 0, lost = 0;
 };
@@ -151,33 +123,6 @@ void test_rolling() {
     rsc_friction_destroy(&friction);
 }
 
-// A step of many contacts is what the functions for one do.
-void test_many() {
-    Made made("/");
-    rsc_contact* contacts[3] = {};
-    const double x[] = {0.3, 0.5, 0.6}, y[] = {0.5, 0.4, 0.7}, N[] = {1, 2, 3};
-    double Z0[3], S[3], Fx[3], My[3];
-    std::int32_t status[3];
-    for (auto& contact : contacts) CHECK(rsc_contact_copy(&contact, made.contact) == RSC_SUCCESS);
-    CHECK(rsc_contacts_step(3, contacts, x, y, 1, N, Z0, nullptr, S, Fx, nullptr, nullptr, My, nullptr, status, 2) == RSC_SUCCESS);
-    for (int k = 0; k < 3; ++k) {
-        double single = 0;
-        CHECK(rsc_contact_move_tip(made.contact, x[k], y[k]) == RSC_SUCCESS);
-        CHECK(rsc_contact_press(made.contact, N[k], &single) == RSC_SUCCESS && status[k] == RSC_SUCCESS);
-        CHECK_RELATIVE(Z0[k], single, kTolerance);
-        CHECK_RELATIVE(S[k], value(made.contact, "stiffness"), 1e-4);
-        CHECK_CLOSE(Fx[k], value(made.contact, "lateral_force_x"), 1e-5 * N[k]);
-        CHECK_CLOSE(My[k], value(made.contact, "moment_y"), 1e-5 * N[k]);
-    }
-    const double outside[] = {0.3, 7, 0.6};
-    CHECK(rsc_contacts_step(3, contacts, outside, y, 1, N, Z0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, status, 0) ==
-          -2);
-    CHECK(status[0] == 0 && status[1] == -2 && status[2] == 0);
-    CHECK(rsc_contacts_step(3, contacts, x, nullptr, 1, N, Z0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, status, 0) ==
-          -4);
-    for (auto& contact : contacts) rsc_contact_destroy(&contact);
-}
-
 struct Watched {
     int calls = 0, until = 0;
     double done = 0, total = 0;
@@ -207,8 +152,6 @@ void test_watched(const Folder& folder) {
 TESTS {
     test_yielding("", Folder());
     test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
-    test_elastic();
     test_rolling();
-    test_many();
     test_watched(Folder());
 }

@@ -186,51 +186,6 @@ void types() {
     CHECK(read_heights(text, 6.0).dx == 1.5 && !accepted([&] { read_heights(text, std::nullopt); }));
 }
 
-// A classic file is whole to the last byte of its last value, whatever the type, the format, the number of variables and records; less
-// is refused.
-void lengths() {
-    long cut = 0;
-    for (const int format : {0, int{NC_64BIT_OFFSET}, int{NC_64BIT_DATA}})
-        for (const nc_type type : {NC_BYTE, NC_SHORT, NC_INT, NC_FLOAT, NC_DOUBLE, NC_UBYTE, NC_USHORT, NC_UINT, NC_INT64, NC_UINT64}) {
-            if (type > NC_DOUBLE && format != int{NC_64BIT_DATA}) continue;
-            const std::size_t size = type == NC_BYTE || type == NC_UBYTE                          ? 1
-                                     : type == NC_SHORT || type == NC_USHORT                      ? 2
-                                     : type == NC_DOUBLE || type == NC_INT64 || type == NC_UINT64 ? 8
-                                                                                                  : 4;
-            for (const int kind : {0, 1, 2, 3}) {
-                // 0: fixed, the map last; 1: fixed, with axes before; 2: records, one variable; 3: records, two variables of unlike sizes.
-                const std::string y = kind >= 2 ? "record" : "y";
-                std::vector<Variable> variables;
-                std::vector<double> z = counted(15, 1, 1);
-                if (kind == 1) variables.push_back({"y", NC_DOUBLE, {"y"}, counted(5, 2, 0.5), {{"units", "mm"}, {"long_name", "odd"}}});
-                if (kind == 1) variables.push_back({"x", NC_FLOAT, {"x"}, counted(3, 1, 0.5), {{"units", "mm"}}, {{"valid_min", 0}}});
-                if (kind == 3) variables.push_back({"other", NC_BYTE, {y}, counted(5, 0, 1)});
-                variables.push_back({"height", type, {y, "x"}, z, {{"units", "mm"}}});
-                const std::string path = netcdf("c.nc", {{y, 5}, {"x", 3}}, variables, format), bytes = ::bytes(path);
-                const auto same = [&](const std::string& file) {
-                    const HeightMap m = read_heights(file, kind == 1 ? std::nullopt : std::optional<double>(1.5), "mm", "height");
-                    bool equal = m.nx == 3 && m.ny == 5;
-                    for (int k = 0; equal && k < 15; ++k) equal = m(k % 3, k / 3) == k + 1;
-                    return equal;
-                };
-                CHECK(same(path));
-                // Up to three bytes fill the last value, or the last record, up to four; what ends within the last value is cut.
-                const std::size_t padding = (kind == 2 ? 0 : (4 - (kind == 3 ? 3 : 15) * size % 4) % 4);
-                CHECK(same(write("c.nc", bytes.substr(0, bytes.size() - padding))));
-                for (const std::size_t less : {1, 2, 5, 9})
-                    CHECK(!accepted([&] { same(write("c.nc", bytes.substr(0, bytes.size() - padding - less))); })), ++cut;
-                CHECK(same(write("c.nc", bytes + "more")));
-            }
-        }
-    CHECK(cut > 200);
-    // HDF5 after a user block.
-    const std::string hdf = ::bytes(netcdf("h.nc", {{"y", 3}, {"x", 4}}, {{"height", NC_DOUBLE, {"y", "x"}, heights()}}));
-    for (const std::size_t block : {0, 512, 1024, 2048}) CHECK(is_netcdf(write("b.nc", std::string(block, '#') + hdf)));
-    for (const std::size_t block : {1, 256, 513, 4096}) CHECK(!is_netcdf(write("b.nc", std::string(block, '#') + hdf)));
-    for (const char version : {'\1', '\2', '\5'}) CHECK(is_netcdf(write("b.nc", std::string("CDF") + version)));
-    for (const char version : {'\0', '\3', '\4', '\6'}) CHECK(!is_netcdf(write("b.nc", std::string("CDF") + version)));
-}
-
 // Every column of every asperity, each column in a unit of its own.
 void lists() {
     struct Column {
@@ -338,90 +293,11 @@ void texts() {
         CHECK(accepted([&] { read_heights(folder / "t.txt", 2.5 * (1 + off)); }) == (std::abs(off) < 1e-6));
 }
 
-// Instruments: sides of unlike steps, told in other units than the run's, scales of heights, no sides at all, masks.
-void instruments() {
-    Map map{4, 3, 2e-6, 5e-6, {}};
-    for (int k = 0; k < 12; ++k) map.z.push_back(1e-9 * (10 * (k / 4) + k % 4 + 1));  // rows from the top
-    std::vector<std::int16_t> numbers;
-    std::vector<std::string> words;
-    for (const double z : map.z)
-        numbers.push_back(static_cast<std::int16_t>(std::lround(z * 1e9))), words.push_back(std::to_string(numbers.back()));
-    for (const auto& [unit, metre] : {std::pair{"mm", 1e-3}, {"nm", 1e-9}})
-        for (const double scale : {1e-9, 3e-9})
-            for (const std::string& path : {write("b.sdf", sdf_binary(map, 5, scale, numbers)), write("a.sdf", sdf_text(map, scale, words)),
-                                            write("c.gwy", gwy_file(gwy_channel(3, "T", map)))}) {
-                const bool gwy = path.ends_with("gwy");
-                const HeightMap m = read_heights(path, 8e-6 / metre, unit);
-                CHECK(m.nx == 4 && m.ny == 3 && m.x0 == 0 && m.y0 == 0 && !m.periodic);
-                CHECK_RELATIVE(m.dx, 2e-6 / metre, 1e-12);
-                CHECK_RELATIVE(m.dy, 5e-6 / metre, 1e-12);
-                for (int j = 0; j < 3; ++j)
-                    for (int i = 0; i < 4; ++i) CHECK_RELATIVE(m(i, j), (10 * (2 - j) + i + 1) * (gwy ? 1e-9 : scale) / metre, 1e-12);
-                CHECK(!accepted([&] { read_heights(path, 8.1e-6 / metre, unit); }));
-            }
-    // Words that may be written in another way.
-    const HeightMap odd = read_heights(
-        write("o.sdf",
-              "aBCR-1.0\nNUMPOINTS\t=\t3\nnumprofiles=+3\nXSCALE = 1e-6\nYscale   2E-6\nzscale=1e-9\n; Zscale = 5\nDataType=6\n*\n"
-              "1 +2 3\n4 -2147483648 bad\nNaN 8 9\n*\n"),
-        std::nullopt, "um", "", Missing::fill);
-    CHECK_RELATIVE(odd.dx, 1.0, 1e-12);
-    CHECK_RELATIVE(odd.dy, 2.0, 1e-12);
-    CHECK(std::isnan(odd(1, 1)) && std::isnan(odd(2, 1)) && std::isnan(odd(0, 0)));
-    CHECK_RELATIVE(odd(1, 2), 2e-3, 1e-12);
-    CHECK_RELATIVE(odd(2, 0), 9e-3, 1e-12);
-    // Gwyddion: what has no sides has sides of 1; a mask is of its own channel, and any number above 0 masks; a channel without title.
-    const auto channel = [&](int number, const Map& of, const std::string& title) {
-        std::string c;
-        const std::string base = "/" + std::to_string(number) + "/data";
-        gwy_component(c, base, 'o', gwy_field(of, "m", "m"));
-        if (!title.empty()) gwy_component(c, base + "/title", 's', title + '\0');
-        return c;
-    };
-    Map bare = map;
-    bare.dx = bare.dy = 0;
-    const HeightMap sides = read_heights(write("s.gwy", gwy_file(channel(0, bare, "T"))), std::nullopt, "m");
-    CHECK_RELATIVE(sides.dx, 1.0 / 4, 1e-14);
-    CHECK_RELATIVE(sides.dy, 1.0 / 3, 1e-14);
-    Map second = map, mask = map;
-    for (double& z : second.z) z *= 7;
-    for (double& z : mask.z) z = 0;
-    mask.z[1] = 0.01, mask.z[6] = -1, mask.z[11] = 2;
-    std::string both = channel(5, map, "") + channel(12, second, "S");
-    gwy_component(both, "/12/mask", 'o', gwy_field(mask, "m", ""));
-    const std::string two = write("two.gwy", gwy_file(both));
-    const auto read = [&](const std::string& name) { return read_heights(two, std::nullopt, "nm", name, Missing::fill); };
-    CHECK_RELATIVE(read("")(0, 2), 1.0, 1e-12);  // the lowest number
-    CHECK_RELATIVE(read("channel 5")(3, 0), 24.0, 1e-12);
-    const HeightMap s = read("S");
-    for (int k = 0; k < 12; ++k) {
-        const double z = s(k % 4, 2 - k / 4);
-        if (k == 1 || k == 11)
-            CHECK(std::isnan(z));
-        else
-            CHECK_RELATIVE(z, 7 * (10 * (k / 4) + k % 4 + 1.0), 1e-12);
-    }
-}
-
-void patterns() {
-    for (const char* name : {"p10.txt", "p2.txt", "P3.txt", "q.txt", "p.txt"}) write(name, "1\n");
-    using Names = std::vector<std::string>;
-    CHECK((matching_files(folder / "p*.txt") == Names{folder / "p.txt", folder / "p10.txt", folder / "p2.txt"}));
-    CHECK((matching_files(folder / "p?.txt") == Names{folder / "p2.txt"}));
-    CHECK((matching_files(folder / "[pP][23].txt") == Names{folder / "P3.txt", folder / "p2.txt"}));
-    CHECK((matching_files("no such file") == Names{"no such file"}));
-    CHECK(!accepted([&] { matching_files(folder / "r*"); }));
-    CHECK(is_pattern("a*") && is_pattern("a?b") && is_pattern("[a") && !is_pattern("a]b{c}.txt"));
-}
-
 }  // namespace
 
 TESTS {
     units_and_directions();
     types();
-    lengths();
     lists();
     texts();
-    instruments();
-    patterns();
 }

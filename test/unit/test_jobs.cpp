@@ -58,74 +58,8 @@ Case of_map(const std::string& file) {
     return c;
 }
 
-void levels() {
-    Case c = synthetic();
-    auto& keys = c.indentation;
-    keys.start = 3.5, keys.stop = 0.5, keys.steps = 7;
-    const auto are = [&](const std::vector<double>& wanted, double unit, double rounding = kRounding) {
-        Job job = prepare(c);
-        CHECK(job.levels.size() == wanted.size());
-        CHECK_RELATIVE(job.level_unit, unit, kRounding);
-        for (std::size_t k = 0; k < std::min(wanted.size(), job.levels.size()); ++k)
-            CHECK_CLOSE(job.levels[k], wanted[k] * unit, rounding * unit * 4);
-        return job;
-    };
-    CHECK(are({3.5, 3, 2.5, 2, 1.5, 1, 0.5}, 0.02).sigma == 0.02);
-    keys.unit = LevelUnit::length;
-    are({3.5, 3, 2.5, 2, 1.5, 1, 0.5}, 1);
-    keys.steps = 1;
-    are({3.5}, 1);
-    keys.steps = 2;
-    are({3.5, 0.5}, 1);
-    keys.control = Control::force, keys.spacing = Spacing::log, keys.start = 0.25, keys.stop = 16, keys.steps = 4;
-    are({0.25, 1, 4, 16}, 1);
-    keys.levels = {0.5, 3, 7};
-    are({0.5, 3, 7}, 1);
-    keys.control = Control::separation, keys.unit = LevelUnit::sigma;
-    are({0.5, 3, 7}, 0.02);
-    // Two flats: a pressure times the area, or a share of E* sqrt(2 m2) of the surface made, below which it must stay.
-    keys.boundary = Boundary::periodic, keys.control = Control::pressure, keys.unit = LevelUnit::pressure;
-    c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
-    const Job job = are({0.5, 3, 7}, 9);
-    const double E = equivalent_modulus(c.solids.E, c.solids.nu),
-                 full = E * std::sqrt(2 * make_surface(c, *job.spectrum, 1, 1).origin.sampled->m2);
-    CHECK_RELATIVE(1 / E, (1 - 0.35 * 0.35) / 78e3 + (1 - 0.21 * 0.21) / 31e3, kRounding);
-    CHECK(job.indenter.shape->hertz_radius() == HUGE_VAL && job.indenter.period.finite() && job.observe.radial_bins == 0);
-    keys.unit = LevelUnit::relative, keys.levels = {0.01, 0.9999};
-    are({0.01, 0.9999}, 9 * full);
-    keys.levels = {0.01, 1};
-    CHECK(!accepted([&] { prepare(c); }));
-    keys.unit = LevelUnit::pressure, keys.levels = {1, 0.9999 * full};
-    CHECK(accepted([&] { prepare(c); }));
-    keys.levels = {1.0001 * full, 1};
-    CHECK(!accepted([&] { prepare(c); }));
-}
-
 void places() {
-    // A synthetic square; the tip in its middle, or where the case says, and not beyond.
     Case c = synthetic();
-    Job job = prepare(c);
-    CHECK(job.site.domain.x0 == 0 && job.site.domain.y0 == 0 && job.site.domain.Lx == 3 && job.site.domain.Ly == 3 && !job.site.guessed);
-    CHECK(job.site.sigma == 0.02 && job.indenter.x0 == 1.5 && job.indenter.y0 == 1.5 && !job.indenter.period.finite());
-    CHECK_RELATIVE(job.indenter.shape->hertz_radius(), 4 * 2.5 / 6.5, kRounding);
-    CHECK_RELATIVE(job.site.mean_spacing, theoretical_moments(*job.spectrum).mean_spacing(), kRounding);
-    CHECK(job.observe.tip_x == 1.5 && job.observe.tip_y == 1.5 && job.observe.radial_bins == 50);
-    c.indentation.centre[1] = 0.75, c.output.radial_bins = 13, c.output.pdf_levels = {2.5, 1}, c.output.pdf_bins = 17,
-    c.output.map_cells = 9;
-    job = prepare(c);
-    CHECK(job.indenter.x0 == 1.5 && job.indenter.y0 == 0.75 && job.observe.tip_x == 1.5 && job.observe.tip_y == 0.75);
-    CHECK(job.observe.radial_bins == 13 && job.observe.pdf.bins == 17 && job.observe.map.nx == 9 && job.observe.map.ny == 9);
-    CHECK_RELATIVE(job.observe.pdf_levels[0], 0.05, kRounding);
-    CHECK_RELATIVE(job.observe.pdf_levels[1], 0.02, kRounding);
-    c.indentation.centre[0] = 0.5, c.indentation.centre[1] = {};
-    job = prepare(c);
-    CHECK(job.indenter.x0 == 0.5 && job.indenter.y0 == 1.5);
-    for (const int axis : {0, 1})
-        for (const auto& [at, allowed] : {std::pair{-1e-9, false}, {0.0, true}, {3.0, true}, {3 + 1e-9, false}}) {
-            c.indentation.centre[0] = c.indentation.centre[1] = 1;
-            c.indentation.centre[axis] = at;
-            CHECK(accepted([&] { prepare(c); }) == allowed);
-        }
     // A rectangle that does not begin at 0, in a domain of unlike sides.
     Site site;
     site.domain = {-2, 5, 4, 1};
@@ -168,88 +102,6 @@ void places() {
     is(list_site(list({0, 2}, {-3, 2}, {0, 0}), 6.0, "them"), -2, -3.5, 6, false, 6 / std::sqrt(2.0));
     is(list_site(list({7}, {9}, {1}), {}, "it"), 6.5, 8.5, 1, true, 0);
     is(list_site(list({7}, {9}, {1}), 10.0, "it"), 0, 0, 10, false, 10);
-}
-
-void options() {
-    Case c = synthetic();
-    c.solver.method = Method::dgesv, c.solver.tolerance = 3e-5, c.solver.max_iterations = 33, c.solver.delta0 = 0.034;
-    c.solver.interaction = Interaction::none, c.indentation.selection = Selection::paper, c.indentation.selection_factor = 1.7;
-    c.solids.hardness = 321, c.solids.size_effect = 0.45;
-    Site site;
-    site.domain = {-2, 5, 4, 1}, site.sigma = 0.03, site.mean_spacing = 0.27;
-    c.surface.sigma = 0.07;
-    CHECK(sigma_of(c, site) == 0.07);
-    SolverOptions o = solver_of(c, site);
-    CHECK(o.sigma == 0.07 && o.method == Method::dgesv && o.tolerance == 3e-5 && o.max_iterations == 33 && o.delta0 == 0.034);
-    CHECK(o.interaction == Interaction::none && o.selection == Selection::paper && o.selection_factor == 1.7 && o.mean_spacing == 0.27);
-    CHECK(o.hardness.H0 == 321 && o.hardness.length == 0.45 && o.law == LawKind::hertz);
-    CHECK(o.surface.x0 == -2 && o.surface.y0 == 5 && o.surface.Lx == 4 && o.surface.Ly == 1);
-    c.surface.sigma = {}, c.asperities.law = LawKind::fourth_order;
-    o = solver_of(c, site);
-    CHECK(o.sigma == 0.03 && o.law == LawKind::fourth_order && sigma_of(c, site) == 0.03);
-    // Where the surface ends is known of free surfaces that are no guess.
-    site.guessed = true;
-    CHECK(!solver_of(c, site).surface.known());
-    site.guessed = false, c.indentation.boundary = Boundary::periodic;
-    CHECK(!solver_of(c, site).surface.known());
-    // Without an rms height neither dgesv nor the paper's selection can be.
-    site.sigma = 0;
-    for (const Method method : {Method::automatic, Method::dgesv})
-        for (const Selection selection : {Selection::overlap, Selection::paper}) {
-            c.solver.method = method, c.indentation.selection = selection;
-            CHECK(accepted([&] { solver_of(c, site); }) == (method == Method::automatic && selection == Selection::overlap));
-        }
-    // The grid of elements: the next even number of factors 2, 3, 5 and 7 alone.
-    Case e = synthetic();
-    for (int most = 4; most <= 400; ++most) {
-        e.elements.points_per_wave = most / 16.0;
-        int n = most + most % 2;
-        for (;; n += 2) {
-            int rest = n;
-            for (const int p : {2, 3, 5, 7})
-                while (rest % p == 0) rest /= p;
-            if (rest == 1) break;
-        }
-        CHECK(element_points(e, spectrum_of(e)) == n);
-    }
-    e.elements.points_per_wave = 2048.01;
-    CHECK(!accepted([&] { require_element_memory(e, spectrum_of(e)); }));
-    // The spectrum of the keys, and of none.
-    Case bare;
-    const Spectrum s = spectrum_of(bare), t = spectrum_of(synthetic());
-    CHECK(s.L == 1 && s.sigma == 0.01 && s.hurst == 0.8 && s.L_lambda_l == 24 && s.L_lambda_s == 512 && !s.plateau && !s.table);
-    CHECK(t.L == 3 && t.sigma == 0.02 && t.hurst == 0.6 && t.L_lambda_l == 3 && t.L_lambda_s == 16);
-    // From a table: the square of its longest wave, its own rms height, unless the case has others.
-    Case tabulated;
-    tabulated.surface.source = Source::spectrum, tabulated.surface.file = write("table.txt", "2 7e-4\n6 1e-5\n30 1e-7\n");
-    const Spectrum own = spectrum_of(tabulated);
-    CHECK_RELATIVE(own.L, kPi, kRounding);
-    CHECK_RELATIVE(own.sigma, own.table->sigma(), kRounding);
-    tabulated.surface.L = 5, tabulated.surface.sigma = 0.4;
-    CHECK(spectrum_of(tabulated).L == 5 && spectrum_of(tabulated).sigma == 0.4);
-    CHECK(has_spectrum(tabulated) && has_spectrum(bare) && !has_spectrum(of_map("a.txt")));
-    CHECK(differs_by_realization(tabulated) && differs_by_realization(bare) && !differs_by_realization(of_map("a.txt")) &&
-          differs_by_realization(of_map("a*.txt")));
-    // What a surface's statistics are of.
-    for (const Normalise how : {Normalise::sample, Normalise::ensemble}) {
-        Case n = synthetic();
-        n.surface.normalise = how;
-        const Surface surface = make_surface(n, 3, 1);
-        const Moments grid = grid_moments(surface.map);
-        const Ground ground = make_ground(n, 3, 1), bare_ground = make_bare_ground(surface), found = make_ground(surface, n, 1);
-        for (const Ground* g : {&ground, &bare_ground, &found}) {
-            CHECK_RELATIVE(g->statistics.sigma, std::sqrt(surface.origin.sampled->m0), kRounding);
-            CHECK_RELATIVE(g->statistics.m2, surface.origin.sampled->m2, kRounding);
-            CHECK_RELATIVE(g->statistics.m4, surface.origin.sampled->m4, kRounding);
-            CHECK_RELATIVE(g->statistics.m2_grid, grid.m2, 1e-10);
-            CHECK_RELATIVE(g->statistics.m4_grid, grid.m4, 1e-10);
-            CHECK(g->site.sigma == 0.02 && g->site.domain.Lx == 3 && g->site.domain.Ly == 3);
-            CHECK_RELATIVE(g->site.mean_spacing, theoretical_moments(spectrum_of(n)).mean_spacing(), kRounding);
-        }
-        CHECK((std::abs(ground.statistics.sigma - 0.02) < 1e-12) == (how == Normalise::sample));
-        CHECK(ground.statistics.summits == static_cast<std::int64_t>(ground.asperities.size()) && ground.statistics.summits > 20);
-        CHECK(surface.origin.points_per_wave == 4 && ground.asperities.x == found.asperities.x);
-    }
 }
 
 // Several maps: each realization its own, brought to the place of the first; sizes that differ are refused.
@@ -342,8 +194,6 @@ void maps() {
 }  // namespace
 
 TESTS {
-    levels();
     places();
-    options();
     maps();
 }

@@ -36,26 +36,6 @@ void closed_forms() {
     CHECK_CLOSE(unit->at(0.5, 0.5), 0, kSum);
 }
 
-// Sources at r and half a period away in x, y and both are a lattice of half the period.
-void finer_lattices() {
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> uniform(-1.5, 1.5);
-    for (double aspect : {1.0, 1.3, 0.5, 4.0}) {
-        const double Lx = 2, Ly = 2 * aspect, size = std::sqrt(Lx * Ly);
-        const Lattice coarse({Lx, Ly}), fine({Lx / 2, Ly / 2});
-        double worst = 0;
-        for (int k = 0; k < 200; ++k) {
-            const double x = uniform(random), y = aspect * uniform(random);
-            double sum = 0;
-            for (double sx : {0.0, Lx / 2})
-                for (double sy : {0.0, Ly / 2}) sum += coarse.at(x + sx, y + sy);
-            const double scale = std::max(1.0, std::abs(fine.at(x, y)) * size);
-            worst = check::worse(worst, std::abs(sum - fine.at(x, y)) * size / scale);
-        }
-        CHECK_CLOSE(worst, 0, 4 * kSum);
-    }
-}
-
 // Another parameter shares the sum out otherwise between images and modes.
 double ewald(double x, double y, double Lx, double Ly, double b) {
     double sum = -2 * std::sqrt(pi) / (b * Lx * Ly);
@@ -163,48 +143,11 @@ void spots_wrap() {
     CHECK_CLOSE(union_area(ring, nullptr, period), 10 * (pi * r * r - lens), 1e-14);
 }
 
-// The mesh that repeats against the sum over all pairs: points all over, in heaps across the borders, twice at one place.
-void mesh_repeats() {
-    std::mt19937_64 random(9);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    std::normal_distribution<double> normal;
-    for (double aspect : {1.0, 0.4}) {
-        const Period period{2, 2 * aspect};
-        const Lattice lattice(period);
-        const auto kernel = make_kernel(Interaction::point, 1 / pi, period);
-        for (bool heaps : {false, true}) {
-            constexpr std::size_t n = 1500;
-            std::vector<double> x(n), y(n), f(n), exact(n), phi(n);
-            for (std::size_t i = 0; i < n; ++i) {
-                x[i] = heaps ? (i % 3 ? 0 : 1) + 0.05 * normal(random) : period.x * (uniform(random) + (i % 4 == 0 ? 1 : -2));
-                y[i] = heaps ? (i % 3 ? 0.03 : -0.01) + 0.05 * normal(random) : period.y * uniform(random);
-                f[i] = i % 5 ? uniform(random) : -uniform(random);
-            }
-            x[0] = 0.375, y[0] = 0.25;  // exactly, so that the two are at one place to the last bit
-            x[1] = x[0] + 3 * period.x, y[1] = y[0];
-            lattice.potential(n, x.data(), y.data(), n, x.data(), y.data(), f.data(), exact.data());
-            double total = 0, norm = 0;
-            for (double force : f) total += force;
-            for (double& e : exact) e -= lattice.least() * total, norm += e * e;
-            for (double error : {1e-3, 1e-6, 1e-9}) {
-                const MeshPotential mesh(n, x.data(), y.data(), error, kernel);
-                CHECK(mesh.mesh_points() > 0);
-                mesh.apply(f.data(), phi.data());
-                double off = 0;
-                for (std::size_t i = 0; i < n; ++i) off += (phi[i] - exact[i]) * (phi[i] - exact[i]);
-                CHECK_CLOSE(std::sqrt(off / norm), 0, error);
-            }
-        }
-    }
-}
-
 }  // namespace
 
 TESTS {
     closed_forms();
-    finer_lattices();
     lattice_sums();
     close_pairs_wrap();
     spots_wrap();
-    mesh_repeats();
 }

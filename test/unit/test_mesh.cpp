@@ -118,19 +118,6 @@ void tiny() {
     CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return value == 0; }));
 }
 
-// B is symmetric, and so is its approximation up to rounding: conjugate gradients rely on it.
-void symmetry() {
-    const Points p = uniform_points(5000, 13);
-    const Vector f = random_forces(p.size(), 14, true), g = random_forces(p.size(), 15, true);
-    for (double wanted : {1e-3, 1e-8}) {
-        const MeshPotential potential(p.size(), p.x.data(), p.y.data(), wanted);
-        const Vector bf = product(potential, f), bg = product(potential, g);
-        double fbg = 0, gbf = 0, size = 0;
-        for (std::size_t i = 0; i < p.size(); ++i) fbg += f[i] * bg[i], gbf += g[i] * bf[i], size += std::abs(f[i] * bg[i]);
-        CHECK_CLOSE(fbg, gbf, 1e-14 * size);
-    }
-}
-
 void same_bits_for_any_threads() {
     for (const Points& p : {uniform_points(12000, 20), clustered_points(6000, 21)}) {
         const Vector f = random_forces(p.size(), 22, true);
@@ -159,6 +146,5 @@ void same_bits_for_any_threads() {
 TESTS {
     shapes();
     tiny();
-    symmetry();
     same_bits_for_any_threads();
 }

@@ -166,56 +166,7 @@ void test_round_trip() {
     }
 }
 
-void test_set_and_get() {
-    Case c;
-    set_key(c, "surface%SIGMA", "2d-2");
-    CHECK(c.surface.sigma == 0.02);
-    set_key(c, "solids%R(2)", "7");
-    CHECK(c.solids.R[0] == Case::kInfinity && c.solids.R[1] == 7.0);
-    CHECK_TEXT(get_key(c, "solids%r(2)"), "7.0");
-    CHECK_TEXT(get_key(c, "solids%R"), "Infinity, 7.0");
-    CHECK_TEXT(get_key(c, "surface%L"), "");
-    CHECK_TEXT(get_key(c, "indentation%levels"), "");
-    const auto refusal = [&](const char* name, const char* value) {
-        const std::string before = effective_namelist(c);
-        try {
-            set_key(c, name, value);
-        } catch (const Error& error) {
-            CHECK_TEXT(effective_namelist(c), before);
-            return std::string(error.what());
-        }
-        return std::string("nothing");
-    };
-    CHECK_CONTAINS(refusal("surface%simga", "1"), "unknown key 'simga'; did you mean 'sigma'?");
-    CHECK_CONTAINS(refusal("surfac%sigma", "1"), "unknown group 'surfac'; did you mean 'surface'?");
-    CHECK_CONTAINS(refusal("sigma", "1"), "expected group%key");
-    CHECK_CONTAINS(refusal("surface%sigma", "-1"), "must be > 0");
-    CHECK_CONTAINS(refusal("surface%sigma", "1 n = 4"), "expected one value for one key");
-    CHECK_CONTAINS(refusal("surface%sigma", "1 / &run seed = 2"), "nothing may follow the value");
-    CHECK_CONTAINS(refusal("surface%hurst", "'a'"), "expected a real number");
-    CHECK_CONTAINS(refusal("run%title", "'a"), "not closed");
-    Options options;
-    options.set = {"surface%simga=1", "surface%n=64", "solver%method='mesh"};
-    const std::string text = complaint("&run seed = 3 /", options);
-    CHECK_CONTAINS(text, "--set surface%simga=1: unknown key 'simga'; did you mean 'sigma'?");
-    CHECK_CONTAINS(text, "--set solver%method='mesh: ");
-    options.set = {"surface%n=64", "surface%L_lambda_s=20", "surface%L_lambda_l=2"};
-    options.output = "elsewhere.nc";
-    const ReadCase read = read_case_text("&surface n = 512 / &output file = 'here.nc' /", "case.nml", options);
-    CHECK(read.settings.surface.n == 64 && read.settings.output.file == "elsewhere.nc");
-}
-
 void test_limits() {
-    CHECK_CONTAINS(complaint("&indentation levels = 200000001*1 /"), "the repeat count is larger than");
-    CHECK_CONTAINS(complaint("&indentation levels = 99999999999999999999999*1 /"), "the repeat count is larger than");
-    CHECK_CONTAINS(complaint("&indentation levels = 100000000*1 /"), "the repeat count is too large");
-    CHECK_CONTAINS(complaint("&indentation levels = 0*1 /"), "the repeat count is zero");
-    CHECK(complaint("&indentation levels = 10000*1 /").empty() && complaint("&output pdf_levels = 100*1 /").empty());
-    CHECK(!complaint("&indentation levels = 10001*1 /").empty() && !complaint("&output pdf_levels = 101*1 /").empty());
-    CHECK_CONTAINS(complaint("&surface n = 40000 /"), "must be 2 to 32768");
-    CHECK_CONTAINS(complaint("&indentation steps = 2000000 /"), "must be 1 to 1000000");
-    CHECK_CONTAINS(complaint("&indentation steps = 1000000 / &output map_cells = 4096 /"), "would hold more than 1000000000 values");
-    CHECK_CONTAINS(complaint("&run title = '" + std::string(2000, 'x') + "' /"), "more than 1024 characters");
     CHECK_CONTAINS(complaint(std::string(namelist::kLargestText + 1, ' ')), "larger than");
     // Large and hostile texts end soon; the reader has no recursion to exhaust.
     CHECK(!complaint("&surface " + std::string(1000000, '(')).empty());
@@ -254,27 +205,6 @@ void test_study() {
     CHECK_THROWS(expand_study(Case{}, zip), Error);
     zip.axes.pop_back();
     CHECK(expand_study(Case{}, zip).size() == 3);
-    const auto first_fault = [](const std::string& text) {
-        const Reading r = read_namelist(text);
-        return r.faults.empty() ? std::string() : namelist::format("case.nml", r.faults.front());
-    };
-    CHECK_CONTAINS(first_fault("&study surface%simga = 1, 2 /"),
-                   "case.nml:1:8: &study: unknown key 'surface%simga'; did you mean 'sigma'?");
-    CHECK_CONTAINS(first_fault("&study solids%R = 1, 2 /"), "vary one element");
-    CHECK_CONTAINS(first_fault("&study mode = 'both' /"), "must be 'product' or 'zip'");
-    CHECK_CONTAINS(first_fault("&study surface%sigma = 1,,2 /"), "a value is missing");
-    CHECK_CONTAINS(first_fault("&study surface%sigma = 100000*1 /"), "more than 10000 values");
-    CHECK_CONTAINS(first_fault("&study /"), "no lists of values");
-    CHECK_CONTAINS(first_fault("&study surface%sigma = 1, 2\n surface%hurst = 0.5\n surface%sigma = 3 /"),
-                   "case.nml:3:2: &study: surface%sigma: given twice");
-    // A value out of bounds, and one that is wrong only beside another.
-    CHECK_CONTAINS(check_study(Case{}, *read_namelist("&study surface%hurst = 0.5, 1.5 /").study).at(0).text, "must be 0 to 1");
-    try {
-        expand_study(Case{}, *read_namelist("&study surface%n = 2048, 512 /").study);
-        CHECK(!"a member with n < 2 L_lambda_s is refused");
-    } catch (const Error& error) {
-        CHECK_CONTAINS(error.what(), "member 2 (surface%n=512)");
-    }
     CHECK_TEXT(member_file("a.b/result", 12, 2000), "a.b/result_0012");
 }
 
@@ -290,22 +220,6 @@ void test_options() {
     CHECK(parse({}).case_path.empty() && parse({"-"}).case_path.empty() && parse({"--", "-x"}).case_path == "-x");
     CHECK(parse({"--describe", "surface%sigma"}).describe_what == "surface%sigma");
     CHECK(parse({"-h", "--nonsense"}).help);
-    const std::vector<std::vector<const char*>> wrong = {{"--chek"},
-                                                         {"-x"},
-                                                         {"a.nml", "b.nml"},
-                                                         {"--output"},
-                                                         {"--check=yes"},
-                                                         {"--member", "0"},
-                                                         {"--member", "2x"},
-                                                         {"--progress", "often"},
-                                                         {"--set", "surface%n"},
-                                                         {"-o", ""}};
-    for (const auto& words : wrong) CHECK_THROWS(parse(words), Error);
-    try {
-        parse({"--chek"});
-    } catch (const Error& error) {
-        CHECK_CONTAINS(error.what(), "unknown option '--chek'; did you mean '--check'?");
-    }
 }
 
 }  // namespace
@@ -315,7 +229,6 @@ TESTS {
     test_syntax();
     test_nulls();
     test_round_trip();
-    test_set_and_get();
     test_limits();
     test_study();
     test_options();

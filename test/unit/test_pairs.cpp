@@ -119,13 +119,6 @@ void sizes_and_shapes() {
     check_all_products(forces, "tiny forces");
 }
 
-// A pair much closer than the others.
-void close_pair() {
-    Points p = random_points(200, 8);
-    p.x[17] = p.x[99] + 1e-4, p.y[17] = p.y[99];
-    check_all_products(p, "close pair");
-}
-
 // Points at the same place do not act on each other, and all points together at one place not at all.
 void coincident() {
     Points p = random_points(100, 9);
@@ -137,20 +130,6 @@ void coincident() {
     set.assign(100, p.x.data(), p.y.data());
     std::vector<double> phi(100, 1.0);
     set.apply(p.f.data(), phi.data());
-    CHECK(std::all_of(phi.begin(), phi.end(), [](double v) { return v == 0; }));
-}
-
-void apart() {
-    const Points targets = random_points(333, 10, 2, -1), sources = random_points(777, 11);
-    std::vector<double> phi(targets.size()), exact, size;
-    truth(targets, sources, exact, size);
-    pair_potential(targets.size(), targets.x.data(), targets.y.data(), sources.size(), sources.x.data(), sources.y.data(), sources.f.data(),
-                   phi.data());
-    CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
-    pair_potential_single(targets.size(), targets.x.data(), targets.y.data(), sources.size(), sources.x.data(), sources.y.data(),
-                          sources.f.data(), phi.data());
-    CHECK_CLOSE(distance(phi, exact, size), 0, kSingle);
-    pair_potential(targets.size(), targets.x.data(), targets.y.data(), 0, nullptr, nullptr, nullptr, phi.data());
     CHECK(std::all_of(phi.begin(), phi.end(), [](double v) { return v == 0; }));
 }
 
@@ -288,34 +267,6 @@ void instruction_sets() {
     CHECK(pair_kernels(pair_instruction_set()) == &pair_kernels());
 }
 
-void several_threads() {
-    const Points p = random_points(700, 13);
-    PairSet set;
-    set.assign(p.size(), p.x.data(), p.y.data());
-    std::vector<std::vector<double>> phi(4, std::vector<double>(p.size()));
-    std::vector<std::thread> threads;
-    for (auto& to : phi)
-        threads.emplace_back([&] {
-            for (int k = 0; k < 5; ++k) set.apply(p.f.data(), to.data());
-        });
-    for (auto& thread : threads) thread.join();
-    for (const auto& to : phi) CHECK(to == phi[0]);
-}
-
-// A set taken again with other points forgets the former ones.
-void reuse() {
-    PairSet set;
-    for (std::size_t n : {500, 20, 300}) {
-        const Points p = random_points(n, 14);
-        set.assign(n, p.x.data(), p.y.data());
-        CHECK(set.size() == n);
-        std::vector<double> phi(n), exact, size;
-        set.apply(p.f.data(), phi.data());
-        truth(p, p, exact, size);
-        CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
-    }
-}
-
 void bad_coordinates() {
     Points p = random_points(5, 15);
     p.y[3] = std::nan("");
@@ -335,11 +286,7 @@ void bad_coordinates() {
 TESTS {
     std::printf("chosen: %s\n", pair_instruction_set());
     sizes_and_shapes();
-    close_pair();
     coincident();
-    apart();
     instruction_sets();
-    several_threads();
-    reuse();
     bad_coordinates();
 }

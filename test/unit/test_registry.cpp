@@ -17,75 +17,6 @@ using namespace rsc;
 
 namespace {
 
-struct Promise {
-    const char *key, *standard, *bounds;
-};
-
-const Promise kPromises[] = {
-    {"run%title", "''", ""},
-    {"run%seed", "1", ""},
-    {"run%realizations", "1", "1 to 10000000"},
-    {"run%first_realization", "1", "1 to 2147483647"},
-    {"run%threads", "0", "0 to 4096"},
-    {"run%length_unit", "'mm'", ""},
-    {"run%force_unit", "'N'", ""},
-    {"solids%E", "78000.0, Infinity", "> 0 (Infinity allowed)"},
-    {"solids%nu", "0.42, 0.0", "> -1 and <= 0.5"},
-    {"solids%R", "Infinity, 2.5", "> 0 (Infinity allowed)"},
-    {"solids%hardness", "Infinity", "> 0 (Infinity allowed)"},
-    {"solids%size_effect", "0.0", ">= 0"},
-    {"solids%resistivity", "0.0, 0.0", ">= 0"},
-    {"solids%friction", "0.0", ">= 0"},
-    {"surface%source", "'synthetic'", ""},
-    {"surface%n", "2048", "2 to 32768"},
-    {"surface%hurst", "0.8", "0 to 1"},
-    {"surface%L_lambda_l", "24.0", "1 to 32768"},
-    {"surface%L_lambda_s", "512.0", "1 to 32768"},
-    {"surface%L", "", "> 0"},
-    {"surface%plateau", ".false.", ""},
-    {"surface%sigma", "", "> 0"},
-    {"surface%normalise", "'sample'", ""},
-    {"surface%detrend", "'plane'", ""},
-    {"surface%missing", "'refuse'", ""},
-    {"surface%filter_cutoff", "0.0", ">= 0"},
-    {"asperities%curvature", "'geometric'", ""},
-    {"asperities%law", "'hertz'", ""},
-    {"indentation%boundary", "'free'", ""},
-    {"indentation%control", "'separation'", ""},
-    {"indentation%start", "4.0", ""},
-    {"indentation%stop", "1.0", ""},
-    {"indentation%steps", "100", "1 to 1000000"},
-    {"indentation%unit", "'sigma'", ""},
-    {"indentation%spacing", "'linear'", ""},
-    {"indentation%selection", "'overlap'", ""},
-    {"indentation%selection_factor", "1.5", "> 0"},
-    {"solver%method", "'auto'", ""},
-    {"solver%tolerance", "1e-06", "1e-14 to 0.1"},
-    {"solver%max_iterations", "100", "1 to 1000000"},
-    {"solver%delta0", "0.01", "> 0 and <= 1000"},
-    {"solver%interaction", "'point'", ""},
-    {"elements%points_per_wave", "8.0", "4 to 64"},
-    {"output%file", "'output/rsc.nc'", ""},
-    {"output%contacts", "'auto'", ""},
-    {"output%heights", ".false.", ""},
-    {"output%map_cells", "50", "1 to 4096"},
-    {"output%radial_bins", "50", "1 to 100000"},
-    {"output%pdf_levels", "2.0, 2.5, 3.0", ""},
-    {"output%pdf_bins", "60", "1 to 100000"},
-    {"output%compression", "4", "0 to 9"},
-};
-
-void promises() {
-    for (const Promise& p : kPromises) {
-        const std::string name = p.key;
-        const Key* key = find_key(name.substr(0, name.find('%')), name.substr(name.find('%') + 1));
-        const bool as_promised = key && get_key(Case{}, name) == p.standard && key->bounds.text() == p.bounds;
-        if (!as_promised)
-            std::printf("%s: %s, %s\n", p.key, key ? get_key(Case{}, name).c_str() : "", key ? key->bounds.text().c_str() : "");
-        CHECK(as_promised);
-    }
-}
-
 // Each key is in each text, and a key's own description is the one it has in the whole.
 void texts() {
     const std::string all = describe(""), page = manual_page(), standard = effective_namelist(Case{});
@@ -174,7 +105,6 @@ void bounds() {
 }  // namespace
 
 TESTS {
-    promises();
     texts();
     bounds();
 }

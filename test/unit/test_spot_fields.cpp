@@ -129,20 +129,9 @@ void test_moment() {
     CHECK_RELATIVE(sphere.y, both.y, 1e-12);
 }
 
-// Constriction: the resistivities add, either may be 0; without contact, or of two perfect conductors, there is none to tell.
-void test_resistance() {
-    CHECK_RELATIVE(conductance_length(-6.0, 4.0), 3.0, 1e-15);
-    CHECK(conductance_length(0, 4.0) == 0 && !std::signbit(conductance_length(0, 4.0)));
-    CHECK_RELATIVE(constriction_resistance(4.0, {2, 3}), 1.25, 1e-15);
-    CHECK_RELATIVE(constriction_resistance(4.0, {0, 3}), 0.75, 1e-15);
-    CHECK_RELATIVE(constriction_resistance(4.0, {2, 0}), 0.5, 1e-15);
-    CHECK(std::isnan(constriction_resistance(4.0, {0, 0})) && std::isnan(constriction_resistance(0, {2, 3})));
-}
-
 }  // namespace
 
 TESTS {
-    test_resistance();
     test_fields();
     test_moment();
     test_one_spot();

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstring>
 #include <numbers>
 #include <vector>
 
@@ -77,14 +76,6 @@ Spectrum small_spectrum(double L_lambda_l, double L_lambda_s) {
     Spectrum s;
     s.L = 2, s.L_lambda_l = L_lambda_l, s.L_lambda_s = L_lambda_s;
     return s;
-}
-
-bool same(const Asperities& a, const Asperities& b) {
-    const auto equal = [](const std::vector<double>& x, const std::vector<double>& y) {
-        return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0);
-    };
-    return equal(a.x, b.x) && equal(a.y, b.y) && equal(a.z, b.z) && equal(a.radius, b.radius) && equal(a.kappa1, b.kappa1) &&
-           equal(a.kappa2, b.kappa2) && equal(a.angle, b.angle) && equal(a.biharmonic, b.biharmonic);
 }
 
 double rms(const std::vector<double>& v) {
@@ -170,20 +161,6 @@ void closed_form() {
     CHECK_THROWS(find_asperities(w.map(16, 16), Curvature::geometric, nullptr, 1, Detail::subgrid, 3.9), Error);
 }
 
-// Bits: whatever the threads, streamed or from a stored map.
-void threads() {
-    const Spectrum s = small_spectrum(4, 32);
-    SummitCount one, more;
-    const Asperities a = make_asperities(s, 160, Normalise::sample, 9, 1, Curvature::geometric, &one, nullptr, 1, Detail::subgrid);
-    const HeightMap map = synthesize(s, 160, Normalise::sample, 9, 1);
-    CHECK(a.size() > 200);
-    for (const int t : {1, 2, 3, 7}) {
-        CHECK(same(a, make_asperities(s, 160, Normalise::sample, 9, 1, Curvature::geometric, &more, nullptr, t, Detail::subgrid)));
-        CHECK(more.mean_kappa_g == one.mean_kappa_g && more.saddles == one.saddles && more.repeated == one.repeated);
-        CHECK(same(a, find_asperities(map, Curvature::geometric, &more, t, Detail::subgrid, 5)));
-    }
-}
-
 // Maps of which nothing is known: rms errors over the rms value, by points in the shortest wave.
 void measured() {
     const Spectrum s = small_spectrum(2, 32);
@@ -250,25 +227,6 @@ void polynomial() {
     CHECK_CLOSE(a.biharmonic[0], -12 - 2 - 3, 1e-6);  // 24*0.5, 2*4*0.25, 24*0.125
 }
 
-// The moments of finite differences summed over the modes are those of the map; n = 2 L_lambda_s has modes at the grid's limit.
-void differences() {
-    for (const int n : {32, 34, 64, 160}) {
-        const Spectrum s = small_spectrum(2, 16);
-        Moments exact;
-        make_asperities(s, n, Normalise::sample, 2, 7, Curvature::geometric, nullptr, nullptr, 1, Detail::grid, &exact);
-        const Moments grid = grid_moments(synthesize(s, n, Normalise::sample, 2, 7));
-        CHECK_RELATIVE(exact.m0, grid.m0, 1e-12);
-        CHECK_RELATIVE(exact.m2, grid.m2, 1e-12);
-        CHECK_RELATIVE(exact.m4, grid.m4, 1e-12);
-        // Summits between the points are sought on a finer grid where this one is coarse; the moments stay those of this one.
-        if (n == 32) continue;  // its modes at the limit are waves of their own on a finer grid
-        Moments coarse;
-        make_asperities(s, n, Normalise::sample, 2, 7, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid, &coarse);
-        CHECK_RELATIVE(coarse.m2, grid.m2, 1e-12);
-        CHECK_RELATIVE(coarse.m4, grid.m4, 1e-12);
-    }
-}
-
 // A summit is there once, also where two sides of the period meet: no two within a tenth of a step, and moving the surface round
 // its periods neither makes nor loses one.
 void once_each() {
@@ -318,9 +276,7 @@ void once_each() {
 TESTS {
     against_the_fourier_sum();
     closed_form();
-    threads();
     measured();
     polynomial();
-    differences();
     once_each();
 }

@@ -126,33 +126,6 @@ void finer() {
     CHECK(fine.dx == 0.5 && fine.x0 == -0.25);
 }
 
-void models() {
-    Case c;
-    CHECK(!by_elements(c));
-    c.surface.source = Source::heights;
-    CHECK(by_elements(c));
-    c.solids.friction = 0.1;
-    CHECK(!by_elements(c));
-    c.solids.friction = 0;
-    c.compare.levels = {1};
-    CHECK(!by_elements(c));
-    c.solver.model = Model::elements;
-    CHECK(by_elements(c));
-}
-
-void words() {
-    Case c;
-    CHECK(get_key(c, "compare%levels") == "'auto'");
-    set_key(c, "compare%levels", "'none'");
-    CHECK(get_key(c, "compare%levels") == "'none'" && !c.compare.listed());
-    set_key(c, "compare%levels", "2.0, 1.0");
-    CHECK((c.compare.levels == std::vector<double>{2, 1}));
-    set_key(c, "compare%levels", "'auto'");
-    CHECK(c.compare.levels.empty() && c.compare.what == CompareWhat::automatic);
-    CHECK_THROWS(set_key(c, "compare%levels", "'some'"), Error);
-    CHECK_THROWS(set_key(c, "compare%levels", "'none', 2.0"), Error);
-}
-
 void filled() {
     Measured map;
     map.nx = map.ny = 4;
@@ -236,8 +209,6 @@ TESTS {
     own_areas();
     borders();
     finer();
-    models();
-    words();
     filled();
     resolution();
     bounds();

@@ -1,11 +1,19 @@
 // Units of length and force: what UDUNITS knows, what is refused, factors to the last bit.
 #include "case/units.hpp"
 
+#include <netcdf.h>
+
+#include <cmath>
 #include <cstring>
+#include <set>
+#include <sstream>
 
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "error.hpp"
+#include "result_reader.hpp"
+#include "run/run.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
@@ -53,25 +61,55 @@ void refusals() {
     for (const char* bad : {"banana", "mm", "Pa"}) CHECK(!unit_problem(bad, Quantity::force).empty());
 }
 
-// A case with a unit that is none is refused where it stands.
-void in_a_case() {
-    const auto message = [](const char* text) -> std::string {
-        try {
-            read_case_text(text, "case.nml");
-            return "accepted";
-        } catch (const Error& error) {
-            return error.what();
-        }
+// The same case in millimetres and newtons and in micrometres and millinewtons: every variable of the result changes as its units say.
+void every_variable() {
+    const Folder folder;
+    const auto result = [&](const std::string& units, const std::string& lengths, const std::string& moduli) {
+        Case c = read_case_text("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 " + lengths + " friction=0.25 " + moduli +
+                                    " / &indentation levels=1, 0.5 / &output map_cells=6 heights=.true. /",
+                                "case.nml")
+                     .settings;
+        c.output.file = folder / (c.run.length_unit + ".nc");
+        CHECK(run_case(c, {}) == 0);
+        return c.output.file;
     };
-    CHECK(message("&run length_unit='banana' /").starts_with("case.nml:1:18: &run: length_unit: 'banana' is no unit"));
-    CHECK(message("&run\n force_unit='mm' /").starts_with("case.nml:2:13: &run: force_unit: 'mm' is no unit of force"));
-    CHECK(message("&run length_unit='um', force_unit='mN' /") == "accepted");
+    const Reader mm(result("length_unit='mm' force_unit='N'", "L=2.0 sigma=0.01 / &solids R=3.0,5.0", "E=1e3,3e3 resistivity=1e-5,3e-5")),
+        um(result("length_unit='um' force_unit='mN'", "L=2e3 sigma=10.0 / &solids R=3e3,5e3", "E=1.0,3.0 resistivity=1e-2,3e-2"));
+    int variables = 0;
+    nc_inq_nvars(mm.id(), &variables);
+    CHECK(variables > 80);
+    for (int v = 0; v < variables; ++v) {
+        char name[NC_MAX_NAME + 1] = "";
+        nc_inq_varname(mm.id(), v, name);
+        if (std::set<std::string>{"iterations", "products", "residual"}.contains(name)) continue;  // of numbers that round otherwise
+        std::istringstream words(mm.text(name, "units"));
+        std::string wanted;
+        double factor = 1;
+        for (std::string word; words >> word;) {
+            const std::size_t letters = word.find_first_not_of("abcdefghijklmnopqrstuvwxyzN");
+            const std::string unit = word.substr(0, letters);
+            const double power = letters == std::string::npos ? 1 : std::atoi(word.c_str() + letters);
+            if (unit == "mm" || unit == "N") factor *= std::pow(1e3, power);
+            wanted += (wanted.empty() ? "" : " ") + (unit == "mm" ? "um" : unit == "N" ? "mN" : unit) + word.substr(unit.size());
+        }
+        const std::vector<double> one = mm.values(name), other = um.values(name);
+        double largest = 0, worst = 0;
+        for (std::size_t k = 0; k < std::min(one.size(), other.size()); ++k) {
+            if (one[k] == NC_FILL_DOUBLE && other[k] == NC_FILL_DOUBLE) continue;
+            largest = std::max(largest, std::abs(other[k])), worst = check::worse(worst, std::abs(other[k] - factor * one[k]));
+        }
+        const bool same = um.text(name, "units") == wanted && one.size() == other.size() && worst <= 1e-5 * largest;
+        if (!same)
+            std::printf("%s: %s, then %s, %g of %g\n", name, mm.text(name, "units").c_str(), um.text(name, "units").c_str(), worst,
+                        largest);
+        CHECK(same);
+    }
 }
 
 }  // namespace
 
 TESTS {
+    every_variable();
     factors();
     refusals();
-    in_a_case();
 }
