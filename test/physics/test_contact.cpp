@@ -112,21 +112,6 @@ void overlap_selection_loses_nothing() {
     for (int i : few.asperity) CHECK(std::hypot(a.x[static_cast<std::size_t>(i)] - 0.5, a.y[static_cast<std::size_t>(i)] - 0.5) <= r0);
 }
 
-// No interaction: a sum of Hertz contacts.
-void without_interaction() {
-    const Asperities a = random_asperities(300, 0.005, 0.01, 5e-4, 0.5, 5);
-    SolverOptions o = options(Method::direct, 1e-12);
-    o.interaction = Interaction::none;
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double g = Indenter{kE, 2.5, 0.5, 0.5}.clearance(a.x[i], a.y[i], a.z[i]) - 0.002;
-        if (g > 0) sum += 4.0 / 3.0 * kE * std::sqrt(a.radius[i]) * std::pow(g, 1.5);
-    }
-    CHECK_RELATIVE(press(a, 0.002, o).force, sum, 1e-12);
-    o.method = Method::dgesv;
-    CHECK_RELATIVE(press(a, 0.002, o).force, sum, 1e-12);
-}
-
 // dN/dZ0 against central differences; pressing with a force finds the separation again.
 void stiffness_and_force_control() {
     const Asperities a = random_asperities(400, 0.012, 0.01, 5e-4, 0.5, 6);
@@ -146,51 +131,6 @@ void stiffness_and_force_control() {
         CHECK_RELATIVE(level.force, force, 1e-9);
         CHECK(level.status != LevelStatus::not_converged);
     }
-}
-
-// The paper's r0 = 1.5 sqrt(2 (4 sigma - Z0) R) to the digit: an asperity just inside is a candidate, one just outside is none.
-void selection_radius() {
-    SolverOptions o = options(Method::direct, 1e-12);
-    o.selection = Selection::paper;
-    for (double Z0 : {0.02, 0.0, -0.03}) {
-        const double r0 = 1.5 * std::sqrt(2 * (4 * o.sigma - Z0) * 2.5);
-        for (double turn : {0.0, 0.7, 2.0}) {
-            Asperities a;
-            for (double part : {1 - 1e-9, 1 + 1e-9}) {
-                a.x.push_back(0.5 + part * r0 * std::cos(turn)), a.y.push_back(0.5 + part * r0 * std::sin(turn));
-                a.z.push_back(1), a.radius.push_back(1e-3);
-            }
-            const Level level = press(a, Z0, o);
-            CHECK(level.candidates == 1);
-            CHECK(level.asperity == std::vector<int>{0});
-        }
-    }
-}
-
-// A contact whose tip was moved is the contact at that place, along x and along y.
-void moved_tip() {
-    const Asperities a = random_asperities(400, 0.012, 0.01, 5e-4, 0.5, 7);
-    const SolverOptions o = options(Method::direct, 1e-12);
-    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, o);
-    const double before = contact.at_separation(0.002).force;
-    for (const auto& [x0, y0] : {std::pair{0.43, 0.61}, {0.43, 0.39}, {0.62, 0.39}, {0.5, 0.5}}) {
-        contact.move_tip(x0, y0);
-        const Level there = press(a, 0.002, o, 2.5, x0, y0), moved = contact.at_separation(0.002);
-        CHECK_RELATIVE(moved.force, there.force, 1e-9);
-        CHECK(moved.asperity == there.asperity);
-        CHECK(contact.first_touch() == AsperityContact(a, {kE, 2.5, x0, y0}, o).first_touch());
-    }
-    CHECK_RELATIVE(contact.at_separation(0.002).force, before, 1e-9);
-    contact.move_tip(0.5, 0.61);
-    CHECK(std::abs(contact.at_separation(0.002).force / before - 1) > 1e-3);
-    // The paper's selection goes with the tip.
-    SolverOptions near = o;
-    near.selection = Selection::paper;
-    near.selection_factor = 0.2;
-    AsperityContact chosen(a, {kE, 2.5, 0.5, 0.5}, near);
-    chosen.move_tip(0.3, 0.65);
-    const Level moved = chosen.at_separation(-0.01), there = press(a, -0.01, near, 2.5, 0.3, 0.65);
-    CHECK(moved.candidates == there.candidates && moved.candidates > 0 && moved.asperity == there.asperity);
 }
 
 // The rule that defines the answer of a level starts from the mean field: F = f(<g0 - s>) with s the mean of B F over F, to a
@@ -224,52 +164,6 @@ void start_is_the_mean_field() {
         };
         CHECK(excess(s - 0.01 * highest) > 0 && excess(s + 0.02 * highest) < 0);
         for (std::size_t i = 0; i < start.size(); ++i) CHECK_CLOSE(start[i], set.g0[i] - s, 1e-15);
-    }
-}
-
-// Contacts that are large, pairs that overlap, contacts beyond their law: counted one by one from what the level holds.
-void counts_are_counts() {
-    for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
-        Asperities a = random_asperities(500, 0.0, 0.01, 5e-2, 0.7, 8);
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            const double stretch = 1 + static_cast<double>(i % 4);
-            a.kappa1.push_back(stretch / a.radius[i]);
-            a.kappa2.push_back(1 / (stretch * a.radius[i]));
-            a.angle.push_back(0.1 * static_cast<double>(i));
-            a.biharmonic.push_back(static_cast<double>(i % 3) * 3e4 * (a.kappa1[i] + a.kappa2[i]));
-        }
-        SolverOptions o = options(Method::direct, 1e-9);
-        o.law = law;
-        o.mean_spacing = 0.03;
-        const Level level = press(a, 0.002, o, 1e4);
-        long large = 0, pairs = 0;
-        for (std::size_t k = 0; k < level.a.size(); ++k) {
-            const auto i = static_cast<std::size_t>(level.asperity[k]);
-            large += level.a[k] > 0.03 / 4;
-            for (std::size_t l = 0; l < k; ++l) {
-                const auto j = static_cast<std::size_t>(level.asperity[l]);
-                pairs += std::hypot(a.x[i] - a.x[j], a.y[i] - a.y[j]) < level.a[k] + level.a[l];
-            }
-        }
-        CHECK(large > 0 && large < static_cast<long>(level.a.size()) && level.large_contacts == large);
-        CHECK(level.overlapping_pairs == pairs);
-        if (law != LawKind::fourth_order) CHECK(pairs > 0);
-        CHECK(level.status == (level.force_error_expected > kMuchError ? LevelStatus::out_of_validity
-                               : pairs > 0                             ? LevelStatus::overlapping
-                                                                       : LevelStatus::converged));
-        CHECK((level.beyond_law > 0) == (law == LawKind::fourth_order));
-    }
-    // Alone on a flat: q a = pi at u = 2 A = 4/(R q^2) of a round summit; just before it the law holds, just after it is told.
-    const double R = 1e-3, q2 = 1e8, last = 4 / (R * q2);
-    Asperities one;
-    one.x = {0.5}, one.y = {0.5}, one.z = {0}, one.radius = {R}, one.kappa1 = {1 / R}, one.kappa2 = {1 / R}, one.angle = {0};
-    one.biharmonic = {2 * q2 / R};
-    SolverOptions o = options(Method::direct, 1e-12);
-    o.law = LawKind::fourth_order;
-    for (double part : {1 - 1e-9, 1 + 1e-9}) {
-        const Level level = press(one, -part * last, o, kFlat);
-        CHECK(level.beyond_law == (part > 1) && level.status == (part > 1 ? LevelStatus::out_of_validity : LevelStatus::converged));
-        CHECK_RELATIVE(level.a.at(0), std::numbers::pi / std::sqrt(q2), 1e-4);
     }
 }
 
@@ -359,11 +253,7 @@ TESTS {
     two_equal_asperities();
     regularisation_leaves_no_trace();
     overlap_selection_loses_nothing();
-    without_interaction();
     stiffness_and_force_control();
-    selection_radius();
-    moved_tip();
-    counts_are_counts();
     start_is_the_mean_field();
     of_two_the_first_met_carries();
     asperities_that_nearly_coincide();

@@ -143,29 +143,6 @@ void overlapping() {
     }
 }
 
-// Asperities beyond the rim of the sphere do not exist for it; a sphere smaller than their spacing sees one or none.
-void small_spheres() {
-    const Asperities a = random_asperities(300, 0.02, 0.01, 1e-3, 0.5, 11);
-    for (double R : {0.2, 0.05, 0.02, 1e-3, 1e-6}) {
-        for (Method method : kMethods) {
-            check_answer(a, {kE, R, 0.5, 0.5}, -0.02, method, "small sphere");
-            const Level level = AsperityContact(a, {kE, R, 0.5, 0.5}, options(method)).at_separation(-10.0);
-            long under = 0;
-            for (std::size_t i = 0; i < a.size(); ++i) under += std::hypot(a.x[i] - 0.5, a.y[i] - 0.5) <= R;
-            CHECK(level.candidates == under);
-        }
-    }
-    // Exactly at the rim, the sphere is at Z0 + R.
-    const Asperities rim = set_of({0.75}, {0.5}, {0.3}, 1e-3);
-    CHECK_RELATIVE(AsperityContact(rim, {kE, 0.25, 0.5, 0.5}, options(Method::direct)).at_separation(0.0).u.at(0), 0.05, 1e-12);
-    // A tip far from the surface: no asperity under it.
-    AsperityContact away(a, {kE, 0.1, 50.0, 0.5}, options(Method::direct));
-    CHECK(away.at_separation(-1.0).candidates == 0);
-    CHECK(away.first_touch() == -std::numeric_limits<double>::infinity());
-    CHECK(away.stiffness() == 0 && away.energy() == 0);
-    CHECK_THROWS(away.at_force(1.0), Error);
-}
-
 // From far above to far below the surface; the deepest has every asperity in contact or pushed out by its neighbours.
 void depths() {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 12);
@@ -183,62 +160,6 @@ void depths() {
     // The flat gives what a very large sphere gives.
     const double flat = AsperityContact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force;
     CHECK_RELATIVE(AsperityContact(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12)).at_separation(0.0).force, flat, 1e-9);
-}
-
-void counts() {
-    // None: no asperity at all, none reached.
-    AsperityContact none(Asperities{}, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
-    for (double Z0 : {0.0, -1.0}) {
-        const Level level = none.at_separation(Z0);
-        sane(level, "none");
-        CHECK(level.force == 0 && level.area == 0 && level.candidates == 0);
-        CHECK(level.status == (Z0 < 0 ? LevelStatus::out_of_validity : LevelStatus::converged));  // -1 is below -3 sigma
-    }
-    CHECK_THROWS(none.at_force(1.0), Error);
-    // One: touching exactly is no contact; the next number below is one.
-    const Asperities one = set_of({0.5}, {0.5}, {0.02}, 1e-3);
-    for (Method method : kMethods) {
-        AsperityContact contact(one, {kE, 2.5, 0.5, 0.5}, options(method));
-        CHECK(contact.first_touch() == 0.02);
-        CHECK(contact.at_separation(0.02).f.empty());
-        const Level least = contact.at_separation(std::nextafter(0.02, 0.0));
-        sane(least, "least contact");
-        CHECK(least.f.size() == 1 && least.status == LevelStatus::converged);
-        CHECK_RELATIVE(contact.at_separation(-1e5).force, 4.0 / 3.0 * kE * std::sqrt(1e-3) * std::pow(1e5 + 0.02, 1.5), 1e-12);
-    }
-    // All, far apart: a sum of Hertz contacts but for an interaction that is small.
-    Asperities all;
-    for (int i = 0; i < 20; ++i) {
-        for (int j = 0; j < 20; ++j) all.x.push_back(i), all.y.push_back(j), all.z.push_back(0.0), all.radius.push_back(1e-3);
-    }
-    for (Method method : kMethods) {
-        const Level level = AsperityContact(all, {kE, kFlat, 9.5, 9.5}, options(method)).at_separation(-1e-3);
-        CHECK(level.f.size() == 400 && level.status == LevelStatus::converged);
-        CHECK(level.force < 400 * 4.0 / 3.0 * kE * std::sqrt(1e-3) * std::pow(1e-3, 1.5));
-        CHECK(*std::max_element(level.f.begin(), level.f.end()) == level.f.front() ||
-              std::abs(*std::max_element(level.f.begin(), level.f.end()) / level.f.front() - 1) < 1e-9);  // the corners carry most
-    }
-}
-
-// Radii over ten decades on one surface; tolerances down to 1e-13; one that cannot be met is said not to be.
-void radii_and_tolerances() {
-    std::mt19937_64 random(3);
-    std::uniform_real_distribution<double> uniform(-10, 0);
-    Asperities a = random_asperities(150, 0.04, 0.01, 1.0, 0.0, 13);
-    for (double& r : a.radius) r = 0.01 * std::pow(10.0, uniform(random));
-    for (Method method : kMethods) {
-        for (double tolerance : {1e-2, 1e-6, 1e-10, 1e-13}) check_answer(a, {kE, 2.5, 0.5, 0.5}, -0.01, method, "ten decades", tolerance);
-        const Level impossible = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(method, 1e-30)).at_separation(-0.01);
-        sane(impossible, "tolerance 1e-30");
-        CHECK(impossible.status == LevelStatus::not_converged || impossible.residual == 0);
-        for (int most : {1, 2}) {
-            SolverOptions o = options(method, 1e-12);
-            o.max_iterations = most;
-            const Level stopped = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
-            sane(stopped, "stopped early");
-            CHECK((stopped.status == LevelStatus::not_converged) == (stopped.residual > 1e-12));
-        }
-    }
 }
 
 // Loads from that of a touch to far beyond.
@@ -280,9 +201,6 @@ TESTS {
     beyond_squares();
     coincident();
     overlapping();
-    small_spheres();
     depths();
-    counts();
-    radii_and_tolerances();
     forces();
 }

@@ -70,52 +70,6 @@ void run_and_check(const Scene& scene, const Folder& folder) {
     CHECK(format == formats.at(settings.output.format));
 }
 
-// The same variables with the same values, bit for bit.
-void same_values(const std::string& a, const std::string& b) {
-    const Reader one(a), other(b);
-    int n = 0, m = 0;
-    nc_inq_nvars(one.id(), &n), nc_inq_nvars(other.id(), &m);
-    CHECK(n == m && n > 50);
-    for (int v = 0; v < n; ++v) {
-        char name[NC_MAX_NAME + 1] = "";
-        nc_inq_varname(one.id(), v, name);
-        if (one.values(name) != other.values(name))
-            std::printf("%s: ", name), check::that(false, "the same in both files", __FILE__, __LINE__);
-    }
-}
-
-// A campaign merged of two, and one that went on after its first half: the campaign of all, whose file is there.
-void put_together(const Scene& scene, const Folder& folder) {
-    const std::string merged = folder / (scene.name + "_merged.nc"), resumed = folder / (scene.name + "_resumed.nc");
-    Case whole = settings_of(scene.text, merged);
-    const int half = whole.run.realizations / 2;
-    std::vector<std::string> parts;
-    for (int k = 1; k >= 0; --k) {
-        Case part = whole;
-        part.run.realizations = half, part.run.first_realization += k * half;
-        part.output.file = folder / (scene.name + "_part" + std::to_string(k) + ".nc");
-        parts.push_back(part.output.file);
-        CHECK(run_case(part, kOptions) == 0);
-    }
-    const RunSummary summary = merge_campaigns(parts, merged, kOptions);
-    const auto levels = static_cast<std::size_t>(whole.run.realizations) * whole.indentation.levels.size() + whole.compare.levels.size();
-    CHECK(summary.levels == static_cast<long>(levels) && summary.failed == 0);
-    check_file({scene.name + " merged", ""}, merged, whole);
-
-    whole.output.file = resumed;
-    Case first = whole;
-    first.run.realizations = half;
-    CHECK(run_case(first, kOptions) == 0);
-    RunOptions resume = kOptions;
-    resume.resume = true;
-    std::ostringstream messages;
-    resume.messages = &messages;
-    CHECK(run_case(whole, resume) == 0);
-    CHECK(messages.str().find("all realizations are computed") == std::string::npos);
-    check_file({scene.name + " resumed", ""}, resumed, whole);
-    for (const std::string& file : {merged, resumed}) same_values(file, folder / (scene.name + ".nc"));
-}
-
 // A map of other steps along x than along y, tilted, bent, away from the origin; some points missing.
 HeightMap measured_map() {
     HeightMap map;
@@ -234,34 +188,6 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     return all;
 }
 
-// What was read has changed between two parts of a campaign: they are not put together.
-void changed_inputs(const Folder& folder) {
-    const std::string psd = folder / "changing.txt";
-    const auto write = [&](double most) { std::ofstream(psd) << "0.15 " << most << "\n0.4 0.3\n0.9 0.01\n"; };
-    Case c = settings_of("&surface source = 'spectrum', file = '" + psd + "', n = 64, L = 100 /\n&run realizations = 2 /\n" +
-                             "&indentation levels = 0.5 /\n",
-                         folder / "before.nc");
-    write(0.9);
-    CHECK(run_case(c, kOptions) == 0);
-    write(1.1);
-    Case later = c;
-    later.run.first_realization = 3, later.output.file = folder / "after.nc";
-    CHECK(run_case(later, kOptions) == 0);
-    std::string why;
-    try {
-        merge_campaigns({c.output.file, later.output.file}, folder / "both.nc", kOptions);
-    } catch (const Error& error) {
-        why = error.what();
-    }
-    CHECK(why.find("begins at another value than the case gives: the surfaces were not the same") != std::string::npos);
-    std::ostringstream messages;
-    RunOptions resume = kOptions;
-    resume.resume = true, resume.messages = &messages;
-    c.run.realizations = 4;
-    CHECK(run_case(c, resume) == 0);
-    CHECK(messages.str().find("an input has changed since): all realizations are computed") != std::string::npos);
-}
-
 // Levels that did not converge say so, and are compared with nothing.
 void unconverged(const Folder& folder) {
     const std::string path = folder / "unconverged.nc";
@@ -287,9 +213,7 @@ TESTS {
     std::ofstream(folder / "psd.txt") << "0.15 0.9\n0.4 0.3\n0.9 0.01\n";
     for (const Scene& scene : scenes(folder, map)) {
         run_and_check(scene, folder);
-        if (scene.name.starts_with("campaign")) put_together(scene, folder);
     }
-    changed_inputs(folder);
     unconverged(folder);
     CHECK(gammas_fitted > 0);
 }

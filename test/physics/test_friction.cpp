@@ -233,39 +233,6 @@ void random_histories() {
     }
 }
 
-// A straight step is the same in one go and in parts; the work of Q over the slide is what is stored and what is lost.
-void parts_of_a_step() {
-    Spheres curve = several();
-    constexpr double low = -0.001, high = 0.008;
-    const double c = kFriction.slide_per_approach(), most = kFriction.coefficient * curve.load(high).force, far = c * (high - low);
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        std::mt19937_64 random(1000 + seed);
-        FrictionHistory whole(kFriction), parts(kFriction);
-        Step at{0.002, 0};
-        whole.go_to(curve, at.delta, {});
-        parts.go_to(curve, at.delta, {});
-        for (int step = 0; step < 15; ++step) {
-            const Step to = random_step(random, low, high, c, at);
-            const double energy = whole.tangential_energy();
-            whole.go_to(curve, to.delta, {to.xi, 0});
-            constexpr int n = 500;
-            double work = 0, before = parts.tangential_force().x;
-            for (int k = 1; k <= n; ++k) {
-                const double t = static_cast<double>(k) / n;
-                parts.go_to(curve, at.delta + t * (to.delta - at.delta), {at.xi + t * (to.xi - at.xi), 0});
-                const double now = parts.tangential_force().x;
-                work += 0.5 * (before + now) * (to.xi - at.xi) / n;
-                before = now;
-            }
-            CHECK_CLOSE(parts.tangential_force().x, whole.tangential_force().x, 1e-12 * most);
-            CHECK_CLOSE(parts.tangential_energy(), whole.tangential_energy(), 1e-12 * most * far);
-            CHECK_CLOSE(parts.work_lost(), whole.work_lost(), 1e-9 * most * far);                          // rounding of 500 parts
-            CHECK_CLOSE(work, whole.tangential_energy() - energy + whole.step_lost(), 1e-5 * most * far);  // trapezia
-            at = to;
-        }
-    }
-}
-
 // Two directions: along a line in any direction it is the problem of one; a turned path gives turned forces; what is lost is positive;
 // the friction disc holds; and springs with the radial return one by one give nearly the same.
 void two_directions() {
@@ -384,7 +351,6 @@ TESTS {
     mindlin_deresiewicz_cycle();
     loading_in_proportion();
     random_histories();
-    parts_of_a_step();
     two_directions();
     tangent();
     memory();

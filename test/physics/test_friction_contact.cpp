@@ -135,46 +135,9 @@ void conductance() {
     }
 }
 
-// A rough contact: the loop closes, its area is what the history loses, first loading is inside mu N.
-void rough_loop() {
-    const Asperities a = random_asperities(400, 0.02, 0.01, 5e-4, 0.3, 7);
-    Slid slid(a, {kE, 2.5, 0.5, 0.5}, tight());
-    const double delta = 0.0, full = full_slip(slid.curve, kFriction, delta);
-    const double most = kFriction.coefficient * slid.curve.load(delta).force;
-    FrictionHistory path(kFriction);
-    path.go_to(slid.curve, delta, {});
-    CHECK_RELATIVE(path.stiffness(slid.curve).yy, kFriction.ratio * slid.curve.stiffness(delta), 1e-10);
-    path.go_to(slid.curve, delta, {0.9 * full, 0});
-    const double Q_A = path.tangential_force().x;
-    double lost = path.work_lost();
-    const SlideCycle cycle = slide_cycle(slid.curve, kFriction, delta, 40);
-    for (int round = 0; round < 2; ++round) {
-        double area = 0, Q = Q_A;
-        const int parts = 40;
-        for (int k = 1; k <= 2 * parts; ++k) {
-            const double t = k <= parts ? 1 - 2.0 * k / parts : 2.0 * k / parts - 3;
-            path.go_to(slid.curve, delta, {0.9 * full * t, 0});
-            const double now = path.tangential_force().x;
-            area += 0.5 * (Q + now) * (k <= parts ? -1 : 1) * 1.8 * full / parts;
-            Q = now;
-        }
-        CHECK_CLOSE(Q, Q_A, 1e-12 * most);
-        CHECK_RELATIVE(path.work_lost() - lost, cycle.work, 1e-10);
-        CHECK_RELATIVE(area, cycle.work, 5e-3);  // 80 trapezia
-        lost = path.work_lost();
-    }
-    CHECK_RELATIVE(cycle.force[cycle.first - 1], most, 1e-12);
-    for (std::size_t k = 1; k < cycle.first; ++k) CHECK(cycle.force[k] > cycle.force[k - 1]);
-    CHECK(slid.curve.failed() == 0);
-    // The force at a given slide, and the slide at that force.
-    const auto point = slide_to(slid.curve, kFriction, delta, {0.37 * full})[0];
-    CHECK_CLOSE(slide_at_force(slid.curve, kFriction, delta, point.force).displacement, 0.37 * full, 1e-9 * full);
-}
-
 }  // namespace
 
 TESTS {
     spots_against_slip_problem();
     conductance();
-    rough_loop();
 }

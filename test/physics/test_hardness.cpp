@@ -302,24 +302,6 @@ SolverOptions strict_options() {
     return options;
 }
 
-// A rough sphere pressed so deep that flattened asperities cover each other, and let go again: every level is solved on the way back, too,
-// where many asperities have let go below their old depth.
-void test_way_back() {
-    const Asperities a = rough_asperities();
-    const SolverOptions options = strict_options();
-    AsperityContact contact(a, {115e3, 2.5, 0.5, 0.5}, options);
-    const double touch = contact.first_touch();
-    const int steps = 80;
-    double before = 0;
-    for (int k = 1; k < 2 * steps; ++k) {
-        const int depth = k < steps ? k : 2 * steps - k;
-        const Level level = contact.at_separation(touch - 8e-3 * depth / steps);
-        CHECK(level.status != LevelStatus::not_converged);
-        CHECK(k <= steps ? level.force > before : level.force <= before);
-        before = level.force;
-    }
-}
-
 // What yields goes on from the accepted levels alone, where several solutions exist, too: separations tried on the way to a force are not
 // even seen in the last bit, and on the way down the branch is kept (two paths of different steps meet at the same force).
 void test_follows() {
@@ -375,7 +357,6 @@ TESTS {
     test_laws();
     test_independent();
     test_path();
-    test_way_back();
     test_follows();
     test_limits();
 }

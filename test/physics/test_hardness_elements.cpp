@@ -135,67 +135,6 @@ void test_sphere() {
     CHECK_RELATIVE(level.plastic_work, H * volume, 1e-12);
 }
 
-// Load, unload, reload: elastic up to the deepest point, from there on as if nothing had been.
-void test_path() {
-    const HeightMap map = rough(96, 12, 2);
-    const double H = 8000, top = 1.6 * kSigma, deep = 0.3 * kSigma, deeper = -0.2 * kSigma;
-    ElementContact contact(map, kTip, options(H)), straight(map, kTip, options(H));
-    const Level turn = contact.at_separation(deep);
-    CHECK(turn.plastic_contacts > 0 && turn.contacts > 5);
-    std::vector<Level> down, up;
-    const std::vector<double> places{0.5, 0.9, 1.3, 1.7};
-    for (const double z : places) up.push_back(contact.at_separation(z * kSigma));
-    for (const double z : places) CHECK(z > 0.3);
-    for (std::size_t k = places.size(); k-- > 0;) {
-        const Level again = contact.at_separation(places[k] * kSigma);
-        CHECK_CLOSE(again.force, up[k].force, 1e-8 * turn.force);
-        CHECK_CLOSE(again.area, up[k].area, 1e-6 * turn.area);
-        CHECK(again.plastic_contacts == 0 && up[k].plastic_contacts == 0);
-        CHECK_RELATIVE(again.plastic_work, turn.plastic_work, 1e-8);
-        CHECK(again.force < straight.at_separation(std::max(top, places[k] * kSigma)).force || again.contacts == 0 || places[k] < 1.6);
-    }
-    CHECK_RELATIVE(contact.at_separation(deep).force, turn.force, 1e-8);
-    ElementContact fresh(map, kTip, options(H));
-    const Level far = contact.at_separation(deeper), at_once = fresh.at_separation(deeper);
-    CHECK(far.plastic_work > 1.2 * turn.plastic_work);
-    std::printf("to the same end with a way back in between: N %.1e, plastic work %.1e\n", far.force / at_once.force - 1,
-                far.plastic_work / at_once.plastic_work - 1);
-    CHECK_RELATIVE(far.force, at_once.force, 1e-8);
-
-    // What is left: H times its volume is the work lost, and the sphere now touches where it says.
-    const ResidualProfile profile = contact.residual_profile();
-    double volume = 0, touch = -kInfinity;
-    for (const double d : profile.depth) CHECK(d > 0), volume += d * map.dx * map.dy;
-    CHECK_RELATIVE(H * volume, far.plastic_work, 1e-12);
-    std::vector<double> z(static_cast<std::size_t>(map.nx * map.ny));
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) z[static_cast<std::size_t>(j * map.nx + i)] = map(i, j);
-    for (std::size_t k = 0; k < profile.depth.size(); ++k)
-        z[static_cast<std::size_t>(std::lround(profile.y[k] / map.dy)) * static_cast<std::size_t>(map.nx) +
-          static_cast<std::size_t>(std::lround(profile.x[k] / map.dx))] -= profile.depth[k];
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
-            touch = std::max(touch, kTip.clearance(i * map.dx, j * map.dy, z[static_cast<std::size_t>(j * map.nx + i)]));
-    CHECK_CLOSE(contact.first_touch(), touch, 1e-15);
-    CHECK(contact.at_separation(touch).force == 0);
-    CHECK(contact.at_separation(touch - 1e-3 * kSigma).force > 0);
-    // The rest of the surface is as it was: another place is virgin.
-    contact.move_tip(0.9, 0.1);
-    ElementContact other(map, {kE, 2.5, 0.9, 0.1}, options(H));
-    CHECK(contact.first_touch() == other.first_touch());
-    CHECK_RELATIVE(contact.at_separation(1.9 * kSigma).force, other.at_separation(1.9 * kSigma).force, 1e-8);
-
-    // Pressing with a force tries separations beyond: no trace. Neither does a level computed twice.
-    ElementContact pressed(map, kTip, options(H)), indented(map, kTip, options(H));
-    const Level by_force = pressed.at_force(0.7 * turn.force);
-    indented.at_separation(by_force.separation);
-    indented.at_separation(by_force.separation);
-    CHECK(by_force.plastic_contacts > 0);
-    const double back = by_force.separation + 0.1 * kSigma;
-    CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-7);
-    CHECK_RELATIVE(pressed.at_force(0.5 * by_force.force).force, 0.5 * by_force.force, 1e-9);
-}
-
 // N = -dW/dZ0 and S = -dN/dZ0 on the way back; work put in = elastic energy + work lost; the loop's area = work lost.
 void test_work() {
     const HeightMap map = rough(64, 8, 3);
@@ -245,6 +184,5 @@ void test_work() {
 TESTS {
     test_limits();
     test_sphere();
-    test_path();
     test_work();
 }

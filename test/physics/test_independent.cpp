@@ -128,55 +128,6 @@ void against_slow_solver() {
     CHECK(systems >= 450);
 }
 
-// Residuals e of a cold start stopped after 1, 2, 3, ... steps. Steps are solved to sqrt(e), so that order 1.5 is what to expect:
-// e' <= C e^1.5 with one C over eight decades, whatever the system (its largest value is printed; C = 3 is asserted). The slope
-// of ln e' over ln e tells it from a linearly convergent method, whose slope is 1; it is blurred by C, which varies from step to
-// step. Pairs count once the iteration has come near (e < 0.1), as long as rounding plays no part (e' > 1e-13).
-void newton_order() {
-    std::vector<double> from, to;
-    int most_steps = 0;
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300 + seed);
-        std::vector<double> residual;
-        for (int steps = 1; steps < 30; ++steps) {
-            SolverOptions o = options(Method::direct);
-            o.max_iterations = steps;
-            const Level level = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, o).at_separation(-0.01);
-            residual.push_back(level.residual);
-            CHECK((level.status == LevelStatus::not_converged) == (level.residual > o.tolerance));
-            CHECK(level.iterations <= steps);
-            if (level.status != LevelStatus::not_converged) break;
-        }
-        most_steps = std::max(most_steps, static_cast<int>(residual.size()));
-        for (std::size_t k = 1; k < residual.size(); ++k) {
-            if (residual[k - 1] > 0.1 || residual[k] < 1e-13) continue;
-            from.push_back(std::log(residual[k - 1]));
-            to.push_back(std::log(residual[k]));
-        }
-        if (seed < 3) {
-            std::printf("residuals of a cold start:");
-            for (double e : residual) std::printf(" %.1e", e);
-            std::printf("\n");
-        }
-    }
-    double mean_from = 0, mean_to = 0, covariance = 0, variance = 0;
-    for (std::size_t k = 0; k < from.size(); ++k) mean_from += from[k], mean_to += to[k];
-    mean_from /= static_cast<double>(from.size()), mean_to /= static_cast<double>(from.size());
-    for (std::size_t k = 0; k < from.size(); ++k) {
-        covariance += (from[k] - mean_from) * (to[k] - mean_to);
-        variance += (from[k] - mean_from) * (from[k] - mean_from);
-    }
-    const double order = covariance / variance;
-    double C = 0;
-    for (std::size_t k = 0; k < from.size(); ++k) C = check::worse(C, std::exp(to[k] - 1.5 * from[k]));
-    std::printf("e' <= %.2f e^1.5 in %zu pairs of residuals, slope of ln e' over ln e %.2f; at most %d steps\n", C, from.size(), order,
-                most_steps);
-    CHECK(from.size() >= 40);
-    CHECK(C <= 3);
-    CHECK(order >= 1.35);
-    CHECK(most_steps <= 15);
-}
-
 // dF_i/dg_j = dF_j/dg_i (reciprocity), and dW/dg_i = F_i (the forces come from an energy), by central differences in the height
 // of single asperities, of second order in h/u; asperities that are nearly out of touch are left out, where the slope is not
 // smooth.
@@ -225,66 +176,9 @@ void reciprocity() {
     }
 }
 
-// The energy as a function of forces, written out: sum (3/5) c^(-2/3) f^(5/3) + F'BF/2 - g0'F. At the answer it is minus
-// energy(), and no feasible change of the forces, of few or of all, lowers it; W(Z0) and N(Z0) fall as the sphere is raised.
-void energy_is_minimal() {
-    std::mt19937_64 random(5);
-    std::normal_distribution<double> normal(0, 1);
-    for (unsigned seed = 0; seed < 8; ++seed) {
-        const bool overlapping = seed % 2 == 1;
-        const Asperities a = random_asperities(60, overlapping ? 0.004 : 0.03, 0.01, overlapping ? 0.2 : 1e-3, 0.5, 500 + seed);
-        const double Z0 = -0.01;
-        AsperityContact contact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct));
-        const Level level = contact.at_separation(Z0);
-        CHECK(level.status != LevelStatus::not_converged);
-        const std::size_t n = a.size();
-        const auto energy = [&](const std::vector<double>& F) {
-            long double E = 0;
-            for (std::size_t i = 0; i < n; ++i) {
-                const long double c = 4 / 3.0L * kE * std::sqrt(static_cast<long double>(a.radius[i])), f = F[i];
-                E += 0.6L * std::pow(c, -2 / 3.0L) * std::pow(f, 5 / 3.0L) - f * (static_cast<long double>(a.z[i]) - Z0);
-                for (std::size_t j = 0; j < i; ++j) {
-                    E += f * F[j] / (independent::kPi * kE * std::hypot(static_cast<long double>(a.x[i] - a.x[j]), a.y[i] - a.y[j]));
-                }
-            }
-            return E;
-        };
-        std::vector<double> F(n, 0.0);
-        for (std::size_t c = 0; c < level.f.size(); ++c) F[at(level.asperity[c])] = level.f[c];
-        const long double least = energy(F);
-        CHECK_RELATIVE(contact.energy(), static_cast<double>(-least), 1e-11);
-        int lower = 0;
-        for (int trial = 0; trial < 300; ++trial) {
-            std::vector<double> moved = F;
-            const double size = std::pow(10.0, -1 - trial % 5);
-            for (std::size_t i = 0; i < n; ++i) {
-                const bool this_one = trial % 3 != 0 || i % 17 == static_cast<std::size_t>(trial) % 17;
-                const double scale = F[i] > 0 ? F[i] : level.force / static_cast<double>(n);
-                if (this_one) moved[i] = std::max(0.0, moved[i] + size * scale * normal(random));
-            }
-            lower += energy(moved) < least - 1e-15L * std::abs(least);
-        }
-        CHECK(lower == 0);
-        if (overlapping) {
-            CHECK(level.status >= LevelStatus::overlapping);
-            continue;
-        }
-        double last_energy = 1e300, last_force = 1e300;
-        for (double Z = -0.03; Z < 0.03; Z += 0.002) {
-            const double N = contact.at_separation(Z).force, W = contact.energy();
-            CHECK(W >= 0 && (W < last_energy || W == 0));
-            CHECK(N < last_force || N == 0);
-            last_energy = W;
-            last_force = N;
-        }
-    }
-}
-
 }  // namespace
 
 TESTS {
     against_slow_solver();
-    newton_order();
     reciprocity();
-    energy_is_minimal();
 }

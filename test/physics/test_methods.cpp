@@ -145,22 +145,6 @@ void pressed_levels_do_not_remember() {
     }
 }
 
-// The same between two flats that repeat, by separations: each is one of several solutions of an equation with the load in it.
-void flats_do_not_remember() {
-    for (unsigned seed = 201; seed < 203; ++seed) {
-        const Asperities a = random_asperities(400, 0.003, 0.01, 0.1, 0.7, seed);
-        const Indenter flat{kE, HUGE_VAL, 0.5, 0.5, {1, 1}};
-        AsperityContact pressed(a, flat, options(Method::mesh));
-        for (int k = 0; k < 12; ++k) {
-            const double Z0 = 0.0195 - 0.001 * k;
-            const Level level = pressed.at_separation(Z0), alone = AsperityContact(a, flat, options(Method::mesh)).at_separation(Z0);
-            CHECK(level.status == alone.status && level.status != LevelStatus::not_converged);
-            CHECK(level.asperity == alone.asperity);
-            CHECK_CLOSE(level.force, alone.force, kTolerance * alone.force);
-        }
-    }
-}
-
 // 'auto': direct sums of few asperities, a mesh of many, of fewer where every pair is a sum over images; none where nothing interacts. What was
 // asked for by name is done. One summit carries all, the others are candidates only.
 void auto_chooses() {
@@ -194,5 +178,4 @@ TESTS {
     methods_agree();
     levels_do_not_remember();
     pressed_levels_do_not_remember();
-    flats_do_not_remember();
 }

@@ -63,23 +63,6 @@ void asperities_and_images() {
     }
 }
 
-void methods_agree() {
-    constexpr double kMethods = 1e-8;
-    for (unsigned seed : {1u}) {
-        const Asperities a = on_square(250, seed);
-        for (double Z0 : {0.02, 0.008, 0.0}) {
-            double force = 0;
-            for (Method method : {Method::direct, Method::dgesv}) {
-                AsperityContact contact(a, flats(1), options(method, 1e-10));
-                const Level level = contact.at_separation(Z0);
-                CHECK(level.status != LevelStatus::not_converged);
-                if (force == 0) force = level.force;
-                CHECK_RELATIVE(level.force, force, kMethods);
-            }
-        }
-    }
-}
-
 // Enough asperities for a mesh.
 void direct_and_mesh() {
     const Asperities a = on_square(700, 5, 0.005, 4e-4);
@@ -92,33 +75,6 @@ void direct_and_mesh() {
         force[k++] = level.force;
     }
     CHECK_RELATIVE(force[1], force[0], 1e-8);
-}
-
-// Everything moved by a vector, and put back into the cell.
-void translations() {
-    constexpr double kMoved = 1e-9;
-    for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
-        Asperities a = on_square(400, 11, 0.0, 2e-2);
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            const double ratio = 0.3 + 0.6 * std::fmod(0.618 * static_cast<double>(i), 1.0);
-            a.kappa1.push_back(1 / a.radius[i] / std::sqrt(ratio));
-            a.kappa2.push_back(1 / a.radius[i] * std::sqrt(ratio));
-            a.angle.push_back(std::fmod(static_cast<double>(i), 1.5));
-        }
-        Asperities moved = a;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            moved.x[i] = std::fmod(a.x[i] + 0.377, 1.0);
-            moved.y[i] = std::fmod(a.y[i] + 0.613, 1.0);
-        }
-        AsperityContact here(a, flats(1), options(Method::direct, 1e-11, law)), there(moved, flats(1), options(Method::direct, 1e-11, law));
-        const Level p = here.at_separation(0.005), q = there.at_separation(0.005);
-        CHECK(p.contacts > 50 && p.overlapping_pairs > 0);
-        CHECK_RELATIVE(q.force, p.force, kMoved);
-        CHECK_RELATIVE(q.area, p.area, kMoved);
-        CHECK(q.asperity == p.asperity && q.overlapping_pairs == p.overlapping_pairs && q.status == p.status);
-        CHECK_RELATIVE(there.stiffness(), here.stiffness(), kMoved);
-        CHECK_RELATIVE(there.energy(), here.energy(), kMoved);
-    }
 }
 
 // A cluster in a growing cell: the images add kSelf/(pi E* L) to what every force does, and quadrupoles of order (size/L)^3 in the end.
@@ -169,32 +125,11 @@ void controls_and_derivatives() {
     CHECK(touch.force == 0 && touch.contacts == 0 && contact.stiffness() == 0 && contact.energy() == 0);
 }
 
-// A level is the same alone and in a series, to the tolerance, whatever the control.
-void series() {
-    const Asperities a = on_square(400, 41);
-    AsperityContact up(a, flats(1), options(Method::direct, 1e-9));
-    long products = 0, steps = 0;
-    for (int k = 0; k <= 10; ++k) {
-        const double N = 1e-6 * std::pow(10, 0.3 * k);
-        const Level level = up.at_force(N);
-        AsperityContact fresh(a, flats(1), options(Method::direct, 1e-9));
-        const Level alone = fresh.at_force(N);
-        CHECK(level.status != LevelStatus::not_converged);
-        CHECK_RELATIVE(level.force, N, 1e-9);
-        CHECK_CLOSE(level.separation, alone.separation, 1e-10);
-        products += level.products, steps += level.iterations;
-    }
-    std::printf("a series of 11 forces: %ld Newton steps, %ld products\n", steps, products);
-}
-
 }  // namespace
 
 TESTS {
     asperities_and_images();
-    methods_agree();
     direct_and_mesh();
-    translations();
     large_periods();
     controls_and_derivatives();
-    series();
 }

@@ -167,29 +167,6 @@ void any_grid() {
     std::printf("random heights: %.1f rounds a level, %ld at most\n", static_cast<double>(rounds) / static_cast<double>(levels), most);
 }
 
-// A bump on the seam and the same in the middle: one contact, its centroid in the map.
-void across_the_seam() {
-    constexpr int n = 63;  // odd: transforms of any length
-    const double h = 1.0 / n;
-    const auto pressed = [&](double cx, double cy) {
-        HeightMap map = empty(n, n, h, h);
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) {
-                const double dx = std::remainder(i * h - cx, 1.0), dy = std::remainder(j * h - cy, 1.0);
-                map.row(j)[i] = -dx * dx - 1.3 * dy * dy;
-            }
-        return make_element_contact(map, flat(map), options(1e-11))->at_force(0.05);
-    };
-    const Level middle = pressed(31.2 * h, 31.4 * h), seam = pressed(0.2 * h, 62.4 * h);
-    CHECK(middle.contacts == 1 && seam.contacts == 1);
-    CHECK(middle.pixels.index.size() > 50);
-    CHECK_RELATIVE(seam.a[0], middle.a[0], 1e-9);
-    CHECK_RELATIVE(seam.u[0], middle.u[0], 1e-9);
-    CHECK_CLOSE(seam.x[0], middle.x[0] - 31 * h, 1e-9);
-    CHECK_CLOSE(seam.y[0], middle.y[0] + 31 * h, 1e-9);
-    CHECK_CLOSE(middle.x[0], 31.2 * h, 0.05 * h);
-}
-
 void threads_change_no_bit() {
     const HeightMap map = rough(640, 40);
     std::vector<Level> levels;
@@ -214,6 +191,5 @@ TESTS {
     independent(128, 16);
     westergaard();
     any_grid();
-    across_the_seam();
     threads_change_no_bit();
 }

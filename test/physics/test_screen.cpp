@@ -108,20 +108,6 @@ void compared(const Folder& folder) {
     CHECK_CLOSE(A, 100 * (file.values("contact_area")[1] / file.values("compare_contact_area")[0] - 1), 0.006);
 }
 
-void campaign(const Folder& folder) {
-    const std::string path = folder / "campaign.nc";
-    const Screen screen = run("&surface n=64 L_lambda_l=2 L_lambda_s=16 / &indentation levels=2,1,0.5 / &run realizations=5 /", path);
-    const Reader file(path);
-    const auto means = screen.table("level ");
-    column(means, 1, file.values("separation"), 1e-5);
-    std::size_t c = 3;
-    for (const char* name : {"force_mean", "force_std", "contact_area_mean", "contact_area_std"}) {
-        column(means, c, file.values(name), c % 2 == 0 ? 0.006 : 1e-7);
-        ++c;
-    }
-    CHECK(screen.says("mean curve of 5 realizations") && screen.failed == 0);
-}
-
 void twins(const Folder& folder) {
     std::ofstream map(folder / "map.txt");
     for (int j = 0; j < 40; ++j, map << "\n")
@@ -151,6 +137,5 @@ TESTS {
     const Folder folder;
     levels(folder);
     compared(folder);
-    campaign(folder);
     twins(folder);
 }

@@ -19,68 +19,6 @@ using namespace rsc;
 
 namespace {
 
-// One asperity at (x, 0.4) under a nearly flat sphere; surface [0, 1] x [0, 0.8], <d> = 0.1, sigma = 0.01.
-Level level_at(double x, double y, double Z0 = 0.0, double radius = 1e-3) {
-    Asperities a;
-    a.x = {x}, a.y = {y}, a.z = {0.001}, a.radius = {radius};
-    SolverOptions options;
-    options.sigma = 0.01;
-    options.mean_spacing = 0.1;
-    options.surface = {0, 0, 1, 0.8};
-    return AsperityContact(a, {1.0, 1e6, 0.5, 0.4}, options).at_separation(Z0);
-}
-
-// Spots of a level put together by hand: two of radius 0.01, 0.02 apart, about the tip. The disc that holds them has radius 0.02.
-void nominal() {
-    SolverOptions options;
-    options.sigma = 0.01;
-    options.mean_spacing = 1;
-    const Indenter indenter{1.0, 2.5, 0.5, 0.4};
-    Level level;
-    level.add_contact(0, 0.49, 0.4, 1.0, 0.01, 0.001);
-    level.add_contact(1, 0.51, 0.4, 1.0, 0.01, 0.001);
-    const double disc = std::numbers::pi * 0.02 * 0.02;
-    level.area = 0.5 * disc;
-    judge_range(level, indenter, options);
-    CHECK_RELATIVE(level.nominal_area, disc, 1e-12);
-    CHECK(level.status == LevelStatus::converged && level.large_contacts == 0);
-    level.area = 1.01 * disc;
-    judge_range(level, indenter, options);
-    CHECK(level.status == LevelStatus::out_of_validity && exceeds_nominal_area(level));
-    // A surface smaller than the disc; a more serious status stays, one that says nothing of size does not.
-    options.surface = {0.495, 0.39, 0.01, 0.02};
-    for (const LevelStatus before : {LevelStatus::not_unique, LevelStatus::not_converged}) {
-        level.status = before;
-        judge_range(level, indenter, options);
-        CHECK_RELATIVE(level.nominal_area, 2e-4, 1e-12);
-        CHECK(level.status == (before == LevelStatus::not_unique ? LevelStatus::out_of_validity : before));
-    }
-    options.mean_spacing = 0.039;
-    judge_range(level, indenter, options);
-    CHECK(level.large_contacts == 2);
-    // Elements: near the border is within <d> or the contact's own radius, the larger.
-    for (const auto& [spacing, edges] : {std::pair{0.0, 1}, {0.05, 1}, {0.1, 2}}) {
-        Level pixels;
-        pixels.add_contact(0, 0.93, 0.4, 1.0, 0.08, 0.001);
-        pixels.add_contact(1, 0.5, 0.72, 1.0, 0.01, 0.001);
-        SolverOptions near;
-        near.mean_spacing = spacing;
-        near.surface = {0, 0, 1, 0.8};
-        judge_edges(pixels, indenter, near);
-        CHECK(pixels.edge_contacts == edges && pixels.status == LevelStatus::out_of_validity);
-    }
-    // Two flats have the area of their period, wherever the tip is.
-    Indenter flat{1.0, __builtin_huge_val(), 0.5, 0.4};
-    flat.period = {0.3, 0.2};
-    judge_range(level, flat, options);
-    CHECK_RELATIVE(level.nominal_area, 0.06, 1e-12);
-    // One spot right under the tip has all its nominal area, and no more.
-    const Level one = level_at(0.5, 0.4);
-    CHECK(!exceeds_nominal_area(one) && one.large_contacts == 0 && one.edge_contacts == 0);  // judged by its expected error alone
-    CHECK(one.status == (one.force_error_expected > kMuchError ? LevelStatus::out_of_validity : LevelStatus::converged));
-    CHECK_RELATIVE(one.nominal_area, one.area, 1e-12);
-}
-
 // Just at a bound is within it, of asperities and of elements; what is not known is not judged.
 void at_the_bounds() {
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
@@ -163,7 +101,6 @@ void elements() {
 }  // namespace
 
 TESTS {
-    nominal();
     at_the_bounds();
     elements();
 }
