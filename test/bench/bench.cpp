@@ -259,8 +259,6 @@ const Part kParts[] = {
     {"elements", bench::elements},
     {"elements_growth", bench::elements_growth},
     {"elements_finest", bench::elements_finest, true},
-    {"friction", bench::friction},
-    {"hardness", bench::hardness},
     {"observe", bench::observe},
     {"flats", bench::flats},
 };

@@ -196,17 +196,6 @@ test_grow() {
     expect 0 "$rsc" --resume -s surface%hurst=0.75 ../case.nml
     says "surface%hurst: 0.7 there, 0.75 now"
     silent_on "are done"
-    expect 0 "$rsc" --resume -s surface%hurst=0.75 -s run%realizations=5 ../case.nml
-    says "run%realizations: 30 there, 5 now"
-    expect 0 "$rsc" --resume -s surface%hurst=0.75 -s run%realizations=9 -s run%first_realization=1 ../case.nml
-    says "run%first_realization: 3 there, 1 now"
-    # Forces, and a comparison with elements.
-    local pressed="-q -s indentation%control='force' -s indentation%levels=1,3,10 -s compare%levels=3"
-    expect 0 in_folder ../forces "$rsc" $pressed ../case.nml
-    rm out.nc
-    expect 0 "$rsc" $pressed -s run%realizations=7 ../case.nml
-    expect 0 "$rsc" --resume $pressed ../case.nml
-    same ../forces/out.nc out.nc
 }
 
 # Parts of a campaign are put together into the file of the whole; what does not belong together is refused by name.
@@ -221,31 +210,8 @@ test_merge() {
     expect 0 "$rsc" --merge ../c/out.nc ../a/out.nc ../b/out.nc -o out.nc
     says "30 realizations, 600 levels"
     same ../whole/out.nc out.nc
-    # Of what was merged before, in whatever order; an existing result is replaced.
-    rm out.nc
-    expect 0 "$rsc" -q --merge ../b/out.nc ../c/out.nc --output=later.nc
-    expect 0 "$rsc" -q --merge ../a/out.nc later.nc -o out.nc
-    same ../whole/out.nc out.nc
-    expect 0 "$rsc" --merge later.nc ../a/out.nc -o out.nc
-    says "out.nc (replaces"
-    same ../whole/out.nc out.nc
     cd ..
-    # Elements, which have no summits, and two flats under pressures.
-    local flats="-s solver%model='elements' -s surface%n=64 -s surface%L_lambda_s=16 -s indentation%levels=2,1.5"
-    part elements 3 5 $flats
-    part elements1 3 2 $flats
-    part elements2 5 3 $flats
-    expect 0 in_folder elements12 "$rsc" -q --merge ../elements2/out.nc ../elements1/out.nc -o out.nc
-    same elements/out.nc elements12/out.nc
-    flats="-s indentation%boundary='periodic' -s solids%R=Infinity,Infinity -s indentation%control='pressure' -s indentation%unit='relative'
-           -s indentation%levels=0.01,0.05"
-    part flats 3 5 $flats
-    part flats1 3 2 $flats
-    part flats2 5 3 $flats
-    expect 0 in_folder flats12 "$rsc" -q --merge ../flats2/out.nc ../flats1/out.nc -o out.nc
-    same flats/out.nc flats12/out.nc
     part law 14 4 -s "asperities%law='elliptic'"
-    part cells 14 4 -s output%map_cells=10
     part one 14 1
     part classic 14 3 -s "output%format='classic'"
     study
@@ -253,12 +219,10 @@ test_merge() {
     echo text > text.nc
     refused() { local word=$1; shift; expect 2 "$rsc" --merge "$@" -o new.nc; says "$word"; [ ! -e new.nc ] || fail "a refusal has written"; }
     refused "asperities%law: 'hertz' in 'a/out.nc', 'elliptic' in 'law/out.nc'" a/out.nc law/out.nc
-    refused "output%map_cells: 20 in 'a/out.nc', 10 in 'cells/out.nc'" a/out.nc cells/out.nc
     refused "one/out.nc.*single" a/out.nc one/out.nc
     refused "rsc_manifest.nc.*manifest" a/out.nc study/out/rsc_manifest.nc
     refused "text.nc.*no result of rsc" a/out.nc text.nc
     refused "realizations 3 to 13 .*'a/out.nc'.*'a/../a/out.nc'" a/out.nc a/../a/out.nc
-    refused "realizations 14 to 16" a/out.nc merged/later.nc b/out.nc
     refused "realizations 14 to 16 .*none" a/out.nc c/out.nc
     sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' classic/out.nc
     truncate -s -47 classic/out.nc  # its checksum
@@ -266,9 +230,6 @@ test_merge() {
     expect 2 "$rsc" --merge a/out.nc b/out.nc -o text.nc
     grep -q text text.nc || fail "a file of somebody else was replaced"
     expect 2 "$rsc" --merge a/out.nc b/out.nc -o b/out.nc; says "input of the run"
-    expect 2 "$rsc" --merge a/out.nc -o new.nc; says "two"
-    expect 2 "$rsc" --merge a/out.nc b/out.nc; says "--output"
-    expect 2 "$rsc" --merge a/out.nc b/out.nc -o new.nc -s run%seed=2; says "computes nothing"
 }
 
 # A study in one go and as an array of jobs: the same files. A bad member is refused before anything runs.
@@ -286,12 +247,6 @@ test_study() {
     grep -q "^5	rsc_005.nc	0.02	1$" one/out/rsc_manifest.txt || fail "the manifest"
 
     expect 2 in_folder bad "$rsc" -s surface%n=60 ../case.nml
-    sed 's/0.005, 0.01/0.005, -0.01/' case.nml > bad.nml
-    expect 2 in_folder bad "$rsc" ../bad.nml
-    says "surface%sigma"
-    sed 's/surface%sigma.*0.02/surface%n = 128, 256, 62/' case.nml > bad.nml
-    expect 2 in_folder bad "$rsc" ../bad.nml
-    says "member 5 (surface%n=62"
     expect 2 in_folder bad "$rsc" --member 7 ../case.nml
     [ -z "$(ls bad)" ] || fail "a refused study has written"
 

@@ -1,6 +1,5 @@
 """Bad input from Python: each of these is refused with a message that names the argument, and nothing crashes."""
 import copy
-import itertools
 import math
 import pickle
 import unittest
@@ -98,28 +97,6 @@ class Arguments(unittest.TestCase):
             pickle.dumps(rsc.Case())
         self.assertIsNot(copy.copy(indented()), copy.deepcopy(indented()))
         self.assertEqual(copy.deepcopy(rsc.Case({"surface%n": 64}))["surface%n"], 64)
-
-    def test_anything_anywhere(self):
-        """Every method with values of the wrong kind in every place: an exception of Python's, never the end of the process."""
-        odd = [None, True, -1, 2**70, 1e300, NAN, "x", b"x", [], [[1.0]], np.zeros(0), np.zeros((2, 2), "f4"), object(), rsc.Case(), int]
-        surface = rsc.Surface.take(GRID, 1.0)
-        contact = indented()
-        calls = [rsc.Surface.synthesize, rsc.Surface.take, surface.detrend, surface.heights, rsc.Asperities.find, rsc.Asperities.take, rsc.Contact, rsc.Contact.from_case,
-                 contact.indent, contact.press, contact.deflection, contact.curve, rsc.Case, rsc.Case().read, rsc.Case().update, rsc.read]
-        tried = 0
-        for call in calls:
-            for count in (0, 1, 2):
-                for values in itertools.product(odd, repeat=count):
-                    if call == rsc.Surface.synthesize and (not values or values[0] is None or isinstance(values[0], rsc.Case)):
-                        continue  # correct, and slow
-                    tried += 1
-                    try:
-                        call(*values)
-                    except (rsc.Error, TypeError, ValueError, OSError):
-                        pass
-        self.assertGreater(tried, 1000)
-        self.assertEqual(indented().force, indented().force)
-
 
 if __name__ == "__main__":
     unittest.main()

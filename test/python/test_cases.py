@@ -2,14 +2,11 @@
 
 usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)
 """
-import filecmp
 import glob
 import os
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 import unittest.mock
 
@@ -66,24 +63,6 @@ class Cases(unittest.TestCase):
                 whole, cut = effective(text), effective(short)
                 self.assertLessEqual(int(cut["run%realizations"]), int(whole["run%realizations"]), case)
                 self.assertEqual(cut["solids%E"], whole["solids%E"])
-
-    def test_map(self):
-        """make_map.py makes the files that stand beside it, and their run tells what input/README says, whichever of the two is read."""
-        block = [line[4:] for line in re.search(r"The run tells:\n\n((?:    .*\n)+)", read("input", "README"))[1].splitlines()]
-        self.assertEqual(len(block), 6)
-        with tempfile.TemporaryDirectory() as folder:
-            os.mkdir(os.path.join(folder, "map"))
-            shutil.copy(os.path.join(PROJECT, "input", "map", "make_map.py"), os.path.join(folder, "map"))
-            subprocess.run([sys.executable, os.path.join(folder, "map", "make_map.py")], check=True, capture_output=True)
-            for kind in ("sdf", "gwy"):
-                self.assertTrue(filecmp.cmp(os.path.join(folder, "map", "map." + kind), os.path.join(PROJECT, "input", "map", "map." + kind), shallow=False), kind)
-                words = [RSC, "-o", os.path.join(folder, "map.nc"), "-s", f"surface%file='input/map/map.{kind}'", "-s", "indentation%steps=2", os.path.join("input", "map", "map.nml")]
-                done = subprocess.run(words, text=True, capture_output=True, cwd=PROJECT)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                lines = done.stdout.splitlines()
-                first = next(k for k, line in enumerate(lines) if line.startswith("map: "))
-                self.assertEqual(lines[first : first + 6], block, kind)
-
 
 class Readme(unittest.TestCase):
     def test_pictures(self):

@@ -131,40 +131,6 @@ class Presses(unittest.TestCase):
             self.close(stiffness, slope, 3)
         self.assertAlmostEqual(float(lines[8].split()[-1]), 32, delta=1e-4)
 
-    def test_switch(self):
-        lines = printed("switch")
-        E = 78e3 / (2 * (1 - 0.42**2))
-        spheres = Spheres(asperities("&surface n = 512, L_lambda_l = 8, L_lambda_s = 128, sigma = 1.0e-3 /"), E, 2.5, (0.5, 0.5))
-        self.assertEqual(len(lines), 9)
-        for k, line in enumerate(lines[1:]):
-            N, spots, resistance, alone, one = numbers(line)
-            self.assertAlmostEqual(N, 0.01 * 3**k)
-            _, _, slope, area, a = spheres.press(N)
-            self.assertEqual(spots, a.size)
-            for found, expected in ((resistance, 2 * 2.2e-5 * E / (-2 * slope)), (alone, 2.2e-5 / (2 * a.sum())), (one, 2.2e-5 / (2 * np.sqrt(area / np.pi)))):
-                self.assertAlmostEqual(found, 1e3 * expected, delta=6e-6 + 3e-6 * found)
-
-    def test_fixed(self):
-        found = asperities(SMALL.format(0.01))
-        lines = printed("fixed")
-        self.assertEqual(len(lines), 6)
-        for k, line in enumerate(lines[1:]):
-            x, Z0, A, contacts = numbers(line)
-            Z, _, _, area, a = Spheres(found, GOLD, 2.5, (x, 0.5)).press(20.0)
-            self.close(Z0, Z, 4)
-            self.close(A, area, 4)
-            self.assertEqual((contacts, round(x, 6)), (a.size, round(0.44 + 0.04 * k, 6)))
-
-    def test_threads(self):
-        lines = printed("threads")
-        found = asperities("&surface n=512, L_lambda_l=16, L_lambda_s=128, sigma=0.005 / &solids R=Infinity, 0.5 /")
-        each = [Spheres(found, GOLD, 0.5, (0.2 + 0.6 * (k % 8) / 7, 0.2 + 0.6 * (k // 8) / 7)).press(1.0) for k in range(64)]
-        match = re.fullmatch(r"mean separation under 1 N at 64 places: (\S+) mm, mean area (\S+) mm2", lines[0])
-        self.assertTrue(match, lines[0])
-        self.assertAlmostEqual(float(match[1]), np.mean([e[0] for e in each]), delta=1e-6)
-        self.assertAlmostEqual(float(match[2]), np.mean([e[3] for e in each]), delta=1e-6)
-        self.assertLess(float(lines[1].split()[-1]), 1e-8)
-
     def test_ranks(self):
         command = os.environ.get("RSC_MPIEXEC", "").split()
         if not command:

@@ -52,46 +52,12 @@ class Guest(unittest.TestCase):
         alone, together = (rsc.study(case, over, run, threads=threads) for threads in (1, 4))
         self.assertEqual([force for _, force in alone], [force for _, force in together])
 
-    def test_damage(self):
-        case = rsc.Case(SMALL)
-        file = case.run(self.path("whole.nc"))
-        with open(file, "rb") as whole:
-            content = bytearray(whole.read())
-        self.assertIn("force", rsc.read(file, xarray=False))
-        for place in range(100, len(content) - 50, len(content) // 20):
-            content[place] ^= 16
-            with open(file, "wb") as damaged:
-                damaged.write(content)
-            with self.assertRaisesRegex(rsc.Error, "damaged"):
-                rsc.read(file)
-            content[place] ^= 16
-
     def test_holes(self):
         heights = np.ma.masked_greater(np.random.default_rng(1).normal(size=(8, 8)), 0.5)
         with self.assertRaisesRegex(rsc.ArgumentError, "masked"):
             rsc.Surface.take(heights, dx=0.1)
         with self.assertRaisesRegex(rsc.ArgumentError, "heights"):
             rsc.Surface.take(np.ma.getdata(np.ma.filled(heights, 9.969209968386869e36)), dx=0.1)
-
-    def test_states(self):
-        case = rsc.Case(SMALL)
-        asperities = rsc.Asperities.make(case)
-        contact = rsc.Contact.from_case(asperities, case)
-        force = contact.indent(0.01)
-        contact.commit()
-        contact.tip = (0.4, 0.6)
-        there = contact.indent(0.0)
-        copy = contact.copy()
-        contact.rollback()
-        self.assertEqual((contact.force, contact.tip, copy.force), (force, (0.5, 0.5), there))
-        friction = rsc.Friction(contact, 0.3, 0.8)
-        friction.update(0.01)
-        friction.update(0.01, 1e-4)
-        before = friction.state()
-        friction.move_tip(0.5 + 1e-3, 0.5)
-        after = friction.state()
-        self.assertLessEqual(after.tangential_energy, before.tangential_energy)
-        self.assertAlmostEqual(after.tangential_energy + after.lost, before.tangential_energy + before.lost, delta=1e-12 * before.tangential_energy)
 
     def test_step(self):
         case = rsc.Case(SMALL)

@@ -162,13 +162,6 @@ class WholeText(unittest.TestCase):
         self.assertTrue(np.allclose(rows[:, [0, 1, 2, 5]], np.column_stack(expected), rtol=1e-11))
         self.assertTrue(np.all(np.isnan(rows[1:, 3])) and rows[0, 3] == 0)
 
-    def test_one_realization(self):
-        file = made("alone", self.Z, self.N[:1], self.A[:1], self.STATUS[:1])
-        text = run(file, "--table")
-        rows = np.array([[float(v) for v in line.split()] for line in text.splitlines() if line[0] != "#"])
-        self.assertTrue(np.array_equal(rows[:, 1], [0, 1, 3, 4, 10, 14, 40]) and np.array_equal(rows[:, 0], [0, 1, 2.5, 3, 4, 5, 7]))
-        self.assertTrue(np.array_equal(rows[:, [2, 4, 5]], np.zeros((7, 3))))
-
     def test_refused(self):
         none = np.zeros((3, 8))
         single = np.where(self.Z == 2, 5.0, none)
@@ -183,18 +176,6 @@ class WholeText(unittest.TestCase):
         # Two levels are enough.
         pair = np.where(self.Z == 4, 4.0, np.where(self.Z == 2, 5.0, none))
         self.assertIn("3 points, force increasing", run(made("pair", self.Z, pair, pair, 0 * self.STATUS), "--table"))
-
-    def test_command(self):
-        file, out = made("whole", self.Z, self.N, self.A, self.STATUS), os.path.join(FOLDER, "law.inp")
-        whole = run(file, "--calculix")
-        self.assertEqual(run(file, "--calculix", "-o", out), out + "\n")
-        with open(out, encoding="utf-8") as written:
-            self.assertEqual(written.read(), whole)
-        self.assertIn("law.py: cannot write: ", run(file, "--table", "-o", os.path.join(FOLDER, "no_such", "law.inp")))
-        for words in ((file,), (file, "--table", "--abaqus"), ("--table",), (file, "--nonsense")):
-            with contextlib.redirect_stderr(io.StringIO()):
-                self.assertEqual(run(*words), "2")
-
 
 class Flats(unittest.TestCase):
     Z = np.linspace(0.04, 0.0, 21)

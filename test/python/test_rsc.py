@@ -1,6 +1,5 @@
 """What rsc.py has beyond the calls of the C interface (test/calls): arrays, curves, lifetimes, threads, studies, result files, documentation."""
 import gc
-import inspect
 import math
 import os
 import tempfile
@@ -159,34 +158,6 @@ class Threads(unittest.TestCase):
         self.assertEqual(wrong, [])
         self.assertEqual(alone, [True] * 10)
 
-    def test_one_contact(self):
-        """One object in several threads, closed in the midst: ValueError at worst, never a crash."""
-        contact = one_asperity()
-        contact.indent(-U)
-        wrong = []
-
-        def work():
-            try:
-                for _ in range(300):
-                    contact.indent(-U)
-                    contact.spots()
-                    contact.copy().close()
-            except ValueError as error:
-                if "closed" not in str(error):
-                    wrong.append(error)
-            except Exception as error:
-                wrong.append(error)
-
-        threads = [threading.Thread(target=work) for _ in range(4)]
-        for t in threads:
-            t.start()
-        contact.indent(-U)
-        contact.close()
-        for t in threads:
-            t.join()
-        self.assertEqual(wrong, [])
-
-
 class Files(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -265,30 +236,6 @@ class Files(unittest.TestCase):
         for threads in (1, 2):
             with self.assertRaisesRegex(RuntimeError, "mine"):
                 rsc.study(self.case, over, broken, threads=threads)
-
-
-class Documentation(unittest.TestCase):
-    def test_every_public_name(self):
-        """Each has a docstring that speaks of every argument and, for what can fail, of its errors."""
-        for name in rsc.__all__:
-            thing = getattr(rsc, name)
-            if isinstance(thing, tuple):
-                continue  # LEVELS: said beside it
-            self.assertTrue(inspect.getdoc(thing), name)
-            members = {f"{name}.{k}": v for k, v in vars(thing).items() if not k.startswith("_")} if isinstance(thing, type) and issubclass(thing, rsc._Object) else {}
-            if inspect.isfunction(thing):
-                members[name] = thing
-            for where, member in members.items():
-                text = inspect.getdoc(member)
-                self.assertTrue(text, where)
-                function = member.__func__ if isinstance(member, classmethod) else member.fget if isinstance(member, property) else member
-                arguments = [a for a in inspect.signature(function).parameters if a not in ("self", "cls")]
-                for argument in arguments:
-                    self.assertRegex(text, rf"\b{argument}\b", where)
-                if arguments:
-                    self.assertRegex(text, "Raises", where)
-        for member in ("indent", "press", "area", "force", "separation", "stiffness", "energy", "deflection", "first_touch"):
-            self.assertRegex(inspect.getdoc(getattr(rsc.Contact, member)), r"\[(force|length)", member)
 
 
 if __name__ == "__main__":
