@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "rough/summits.hpp"
 
@@ -53,6 +54,28 @@ Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter)
         if (!a.biharmonic.empty()) moved.biharmonic.push_back(a.biharmonic[i] - f.biharmonic);
     }
     return moved;
+}
+
+void add_flanks(Asperities& found, const Asperities& of_surface, double spacing) {
+    if (!(spacing > 0)) return;
+    using Cell = std::pair<long, long>;
+    const auto cell = [spacing](double x, double y) {
+        return Cell{std::lround(std::floor(x / spacing)), std::lround(std::floor(y / spacing))};
+    };
+    std::multimap<Cell, std::size_t> places;
+    for (std::size_t i = 0; i < found.size(); ++i) places.insert({cell(found.x[i], found.y[i]), i});
+    const auto near = [&](double x, double y) {
+        const auto [column, row] = cell(x, y);
+        for (long c = column - 1; c <= column + 1; ++c)
+            for (auto at = places.lower_bound({c, row - 1}); at != places.end() && at->first <= Cell{c, row + 1}; ++at)
+                if (std::hypot(found.x[at->second] - x, found.y[at->second] - y) < spacing) return true;
+        return false;
+    };
+    for (std::size_t i = 0; i < of_surface.size(); ++i) {
+        if (near(of_surface.x[i], of_surface.y[i])) continue;
+        for (const AsperityColumn& column : kAsperityColumns)
+            if (!(of_surface.*column.values).empty()) (found.*column.values).push_back((of_surface.*column.values)[i]);
+    }
 }
 
 double steepest_above(const Asperities& asperities, const Indenter& indenter, double least) {

@@ -33,6 +33,10 @@ inline constexpr double kMostSlopeRatio = 0.2;
 // where the face does not reach, or would leave no summit, stay as they are. As many as the surface's, in their order.
 Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter);
 
+// Adds to the summits found of the difference those of the surface that have none within `spacing`: on the flanks of a steep face, where the
+// difference has no summits, they are what the contact comes to when it is pressed further.
+void add_flanks(Asperities& found, const Asperities& of_surface, double spacing);
+
 // Largest slope of the face above asperities it may touch, those with a clearance above `least`; 0 without any.
 double steepest_above(const Asperities& asperities, const Indenter& indenter, double least);
 

@@ -99,9 +99,11 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
 }  // namespace
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
-                           double points_per_wave, const BodyAbove* above) {
+                           double points_per_wave, const BodyAbove* above, const Breaks* breaks) {
     const bool refined = detail == Detail::subgrid;
-    const Stencil stencil = refined && points_per_wave != 0 ? Stencil::band_limited(points_per_wave) : Stencil::polynomial(kMeasuredReach);
+    std::vector<Stencil> stencils;
+    if (refined && points_per_wave != 0) stencils.push_back(Stencil::band_limited(points_per_wave));
+    for (int reach = 1; refined && points_per_wave == 0 && reach <= kMeasuredReach; ++reach) stencils.push_back(Stencil::polynomial(reach));
     const int edge = map.periodic ? 0 : 1;
     const int rows = map.ny - 2 * edge;
     threads = std::clamp(threads, 1, std::max(rows, 1));
@@ -109,7 +111,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
     share_rows(rows, threads, [&](int t, int first, int last) {
         RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
         Part& part = parts[static_cast<std::size_t>(t)];
-        SummitClimber climber(stencil, place, map.ny, map.y0, curvature, above);
+        SummitClimber climber(stencils, place, map.ny, map.y0, curvature, above, breaks);
         for (int j = first + edge; j < last + edge; ++j) {
             const auto row = [&](int d) -> const double* {
                 if (map.periodic) return map.row(((j + d) % map.ny + map.ny) % map.ny);
@@ -142,9 +144,9 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
     if (refined) {
-        const Stencil stencil = Stencil::band_limited(fine / shortest_wave(spectrum));
+        const std::vector<Stencil> stencils{Stencil::band_limited(fine / shortest_wave(spectrum))};
         share_rows(fine, threads, [&](int t, int first, int last) {
-            SummitClimber climber(stencil, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature, above);
+            SummitClimber climber(stencils, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature, above);
             // Twice the rows kept from one filling of the window to the next: moving them costs little then.
             const int held = 4 * climber.margin() + RowSource::kBlock;
             visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {

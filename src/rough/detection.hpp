@@ -5,6 +5,7 @@
 
 #include "rough/asperities.hpp"
 #include "rough/body_above.hpp"
+#include "rough/breaks.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -35,13 +36,14 @@ struct SummitCount {
 // lambda_s, one in some thousands with 8). 0: nothing is known, as of a measured map; Lagrange polynomials through
 // kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
 // 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
-// on top. A map that is not periodic gives interior points only by as much as the stencil reaches.
+// on top. Near the border of a map that is not periodic, and near breaks (whose pits were raised), they go through fewer points.
 //
 // With a body above (Detail::subgrid only) the summits are those of the difference, map less its face: x, y is their place, z the height of
 // the surface there, curvatures and biharmonic are the difference's. Under one that does not repeat, on a periodic map, those within
 // the map.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr);
+                           Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr,
+                           const Breaks* breaks = nullptr);
 inline constexpr int kMeasuredReach = 6;
 
 // The asperities of a synthetic surface, found while it is being made: the same as find_asperities(synthesize(...)), bit

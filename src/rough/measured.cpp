@@ -57,6 +57,27 @@ std::string told_change(const Roughness& before, const Roughness& after, const c
                   before.slope, after.slope, before.curvature, after.curvature, l);
 }
 
+// Pits, spikes and steps, with their places.
+void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lines) {
+    const auto at = [&](const Breaks::Found& found) {
+        return format("%.4g %s at x = %.6g, y = %.6g", found.size, l, m.x0 + found.largest.i * m.dx, m.y0 + found.largest.j * m.dy);
+    };
+    const auto& [pits, spikes, steps] = m.breaks.found;
+    if (pits.points > 0)
+        lines.push_back(format("pits or grooves one point wide: %ld points, the deepest ", pits.points) + at(pits) +
+                        "; elements see them, the summits beside them are those of the surface around");
+    if (spikes.points > 0)
+        lines.push_back(format("warning: spikes one point wide: %ld, the highest ", spikes.points) + at(spikes) +
+                        ": they touch first, and nothing is known of their shape");
+    if (steps.points > 0) {
+        std::string line = format("warning: steps: %ld points where heights jump, the largest by ", steps.points) + at(steps);
+        if (m.breaks.seam_column >= 0)
+            line += format("; most of the map jumps at x = %.6g, as at a seam", m.x0 + m.breaks.seam_column * m.dx);
+        if (m.breaks.seam_row >= 0) line += format("; most of the map jumps at y = %.6g, as at a seam", m.y0 + m.breaks.seam_row * m.dy);
+        lines.push_back(line);
+    }
+}
+
 }  // namespace
 
 Roughness roughness(const HeightMap& map) {
@@ -72,7 +93,7 @@ double Measured::points_per_wave() const { return shortest_wave() / std::max(dx,
 
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
-    m.nx = map.nx, m.ny = map.ny, m.dx = map.dx, m.dy = map.dy;
+    m.nx = map.nx, m.ny = map.ny, m.dx = map.dx, m.dy = map.dy, m.x0 = map.x0, m.y0 = map.y0;
     // Beyond this, sums of terms over dx^2 and dy^2 lose one of the two directions to rounding.
     constexpr double most_unlike = 1e4;
     if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
@@ -96,6 +117,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         gaussian_filter(map, options.filter_cutoff);
         m.filtered = roughness(map);
     }
+    m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);
     m.isotropy = isotropy_ratio(map);
     m.texture = measure_texture(map);
@@ -127,6 +149,7 @@ std::vector<std::string> told(const Measured& m, const std::string& length_unit)
         lines.push_back(
             format("heights are rounded to multiples of %.4g %s: asperities are the summits of a smooth surface within half of it",
                    m.height_step, l));
+    tell_breaks(m, l, lines);
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rough/breaks.hpp"
 #include "rough/form.hpp"
 #include "rough/measured_spectrum.hpp"
 #include "rough/surface.hpp"
@@ -34,7 +35,7 @@ Roughness roughness(const HeightMap& map);
 // What was done to a map, and what it is now.
 struct Measured {
     int nx = 0, ny = 0;
-    double dx = 0, dy = 0;
+    double dx = 0, dy = 0, x0 = 0, y0 = 0;
     long missing = 0;                  // points filled
     double missing_share = 0;          // of all points
     std::vector<std::uint8_t> filled;  // 1 at j*nx + i where a point was filled; empty if none was
@@ -45,6 +46,7 @@ struct Measured {
     double isotropy = 1;
     Texture texture;
     double height_step = 0;          // heights were rounded to multiples of it (rough/rounding.hpp); 0: not, or filtered since [length]
+    Breaks breaks;                   // pits, spikes and steps
     std::vector<double> height_pdf;  // density of the heights about their mean, in an even number of bins around it [1/length]
     double height_bin = 0;           // their width [length]
     MeasuredSpectrum spectrum;

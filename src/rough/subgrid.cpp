@@ -45,10 +45,12 @@ void RefinedSummits::append(const RefinedSummits& other) {
     saddles += other.saddles;
 }
 
-SummitClimber::SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature, const BodyAbove* above)
+SummitClimber::SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny, double y0, Curvature curvature,
+                             const BodyAbove* above, const Breaks* breaks)
     : above_(above),
       goes_on_(above && place.periodic && !above->periodic()),
-      stencil_(stencil),
+      stencils_(stencils),
+      breaks_(breaks),
       place_(place),
       ny_(ny),
       y0_(y0),
@@ -69,28 +71,40 @@ const double* SummitClimber::difference_row(int j, const double* z) {
     return row.z.data() + beside;
 }
 
-// The patch around (i, j); false where the stencil does not fit into a map that is not periodic.
-bool SummitClimber::cut_out(int i, int j, const Rows& row) {
-    const int reach = stencil_.reach(), span = margin(), nx = place_.nx;
-    if (!place_.periodic) {
-        if (i < reach || j < reach || i + reach >= nx || j + reach >= ny_) return false;
-        patch_.first_x = std::max(-Patch::kTravel, reach - i);
-        patch_.last_x = std::min(Patch::kTravel, nx - 1 - reach - i);
-        patch_.first_y = std::max(-Patch::kTravel, reach - j);
-        patch_.last_y = std::min(Patch::kTravel, ny_ - 1 - reach - j);
-    }
-    for (int dj = -span; dj <= span; ++dj) {
-        const double* const from = row(dj);
-        if (!from) continue;
-        double* const to = patch_.z[Patch::kMargin + dj] + Patch::kMargin;
-        if (i >= span && i + span < nx) {
-            std::copy(from + i - span, from + i + span + 1, to - span);
-        } else {
-            for (int di = -span; di <= span; ++di)
-                if (place_.periodic || (i + di >= 0 && i + di < nx)) to[di] = from[wrapped(i + di, nx)];
+// How far a stencil at (i, j) may reach: up to the map's border and the next break; 0 on one.
+int SummitClimber::clear_reach(int i, int j) const {
+    int reach = stencils_.back().reach();
+    if (!place_.periodic) reach = std::min({reach, i, j, place_.nx - 1 - i, ny_ - 1 - j});
+    if (breaks_ && !breaks_->clear.empty())
+        reach = std::min<int>(
+            reach, breaks_->clear[static_cast<std::size_t>(j) * static_cast<std::size_t>(place_.nx) + static_cast<std::size_t>(i)]);
+    return reach;
+}
+
+// Lets the stencil's middle move only as far as it fits into a map that is not periodic.
+void SummitClimber::keep_within(int i, int j, int reach) {
+    if (place_.periodic) return;
+    patch_.first_x = std::max(-Patch::kTravel, reach - i);
+    patch_.last_x = std::min(Patch::kTravel, place_.nx - 1 - reach - i);
+    patch_.first_y = std::max(-Patch::kTravel, reach - j);
+    patch_.last_y = std::min(Patch::kTravel, ny_ - 1 - reach - j);
+}
+
+// The patch around (i, j).
+void SummitClimber::cut_out(int i, int j, const Rows& row) {
+    const int span = margin(), nx = place_.nx;
+    for (const int side : {1, -1})
+        for (int d = 0; d <= span; ++d) {
+            const double* const from = row(side * d);
+            double* const to = patch_.z[Patch::kMargin + side * d] + Patch::kMargin;
+            if (!from) {  // beyond the border as on it
+                std::copy(to - side * Patch::kStride - span, to - side * Patch::kStride + span + 1, to - span);
+            } else if (i >= span && i + span < nx) {
+                std::copy(from + i - span, from + i + span + 1, to - span);
+            } else {
+                for (int di = -span; di <= span; ++di) to[di] = from[place_.periodic ? wrapped(i + di, nx) : std::clamp(i + di, 0, nx - 1)];
+            }
         }
-    }
-    return true;
 }
 
 // Whether a maximum of the grid beside (i, j) sees the same top: nothing else is to be found from (i, j) then.
@@ -179,6 +193,32 @@ RefinedSummit SummitClimber::of_grid(int i, int j, double bend, bool& broken) co
     return s;
 }
 
+std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maximum, const Rows& row) {
+    const PatchAbove less{above_, place_.x0 + i * place_.dx, y0_ + j * place_.dy, place_.dx, place_.dy};
+    const int travel = maximum ? Patch::kTravel : kShortTravel, clear = clear_reach(i, j);
+    const Stencil& longest = stencils_.back();
+    if (longest.band_known()) {
+        if (clear < longest.reach()) return {};
+        cut_out(i, j, row);
+        keep_within(i, j, clear);
+        return refine(longest, patch_, travel, less);
+    }
+    cut_out(i, j, row);
+    const double bend = usual_bend();
+    bool broken = clear == 0;
+    for (int reach = clear; reach > 0; --reach) {
+        keep_within(i, j, reach);
+        const auto s = refine(stencils_[static_cast<std::size_t>(reach - 1)], patch_, travel, less);
+        if (s && smooth_around(i, j, *s, bend)) return s;
+        if (!s && clear == longest.reach()) break;  // nothing near breaks it
+        broken |= s.has_value();
+    }
+    if (!maximum) return {};
+    const RefinedSummit point = of_grid(i, j, bend, broken);  // a maximum that leads nowhere beside a step is a summit all the same
+    if (broken) return point;
+    return {};
+}
+
 void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
     const Rows seen = above_ ? Rows([&](int d) { return difference_row(j + d, row(d)); }) : row;
     RowPlace place = place_;
@@ -194,18 +234,7 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
     const double dx2 = place_.dx * place_.dx, dy2 = place_.dy * place_.dy;
     for (const auto [i, maximum] : starts_) {
         if (!maximum && seen_from_maximum(place, i, j, seen)) continue;
-        if (!cut_out(i, j, row)) continue;
-        const PatchAbove less{above_, place_.x0 + i * place_.dx, y0_ + j * place_.dy, place_.dx, place_.dy};
-        auto s = refine(stencil_, patch_, maximum ? Patch::kTravel : kShortTravel, less);
-        if (!stencil_.band_known()) {
-            const double bend = usual_bend();
-            if (!s || !smooth_around(i, j, *s, bend)) {
-                if (!maximum) continue;
-                bool broken = s.has_value();  // a maximum that leads nowhere beside a pit or a step is a summit all the same
-                const RefinedSummit point = of_grid(i, j, bend, broken);
-                if (broken) s = point;
-            }
-        }
+        const auto s = summit_from(i, j, maximum, row);
         double u = 0, v = 0, lowered = 0;
         bool kept = s.has_value();
         if (kept) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rough/asperities.hpp"
+#include "rough/breaks.hpp"
 #include "rough/refine.hpp"
 #include "rough/summits.hpp"
 
@@ -24,19 +25,24 @@ struct RefinedSummits {
 // Climbs from grid points to the summits of the surface, row by row.
 class SummitClimber {
 public:
-    // The map's rows as in `place` (its y is not used), ny of them; y0 is the y of row 0.
+    // The map's rows as in `place` (its y is not used), ny of them; y0 is the y of row 0. One stencil for a map whose band is known; polynomials
+    // of reach 1, 2, ... for others, of which the longest that reaches over no break and no border is taken.
     // With a body above: to the summits of the difference.
-    SummitClimber(const Stencil& stencil, const RowPlace& place, int ny, double y0, Curvature curvature, const BodyAbove* above = nullptr);
+    SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny, double y0, Curvature curvature,
+                  const BodyAbove* above = nullptr, const Breaks* breaks = nullptr);
 
     // Rows on either side of a row that row() must be able to give; a map that is not periodic has none beyond its edges.
-    int margin() const { return stencil_.reach() + Patch::kTravel; }
+    int margin() const { return stencils_.back().reach() + Patch::kTravel; }
 
     using Rows = std::function<const double*(int)>;
     // Appends the summits reached from row j; row(d) is the row j + d, null where there is none.
     void climb(int j, const Rows& row, RefinedSummits& to);
 
 private:
-    bool cut_out(int i, int j, const Rows& row);
+    int clear_reach(int i, int j) const;
+    void cut_out(int i, int j, const Rows& row);
+    void keep_within(int i, int j, int reach);
+    std::optional<RefinedSummit> summit_from(int i, int j, bool maximum, const Rows& row);
     bool seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const;
     const double* difference_row(int j, const double* z);
     double difference(int i, int j, int di, int dj) const;
@@ -55,7 +61,8 @@ private:
     const BodyAbove* above_;
     bool goes_on_ = false;  // a periodic surface under a body that does not repeat
     DifferenceRow differences_[kRows];
-    const Stencil& stencil_;
+    const std::vector<Stencil>& stencils_;
+    const Breaks* breaks_;
     RowPlace place_;
     int ny_;
     double y0_;

@@ -233,28 +233,28 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     SummitCount count;
     const auto& measured = surface.origin.measured;
     // Rounded heights have plateaus, which are summits of a smoother surface.
-    auto seen = std::make_shared<HeightMap>();
     const double step = surface.origin.theory ? 0 : measured ? measured->height_step : height_step(map);
-    if (step > 0 || detail_of(settings) == Detail::subgrid) *seen = copy_of(map);
+    auto breaks = std::make_shared<Breaks>();
+    if (!surface.origin.theory) *breaks = measured ? measured->breaks : find_breaks(map, step);
+    auto seen = std::make_shared<HeightMap>();
+    if (step > 0 || !breaks->pits.empty() || detail_of(settings) == Detail::subgrid) *seen = copy_of(map);
+    if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
     if (step > 0) smooth_within_step(*seen, step);
-    ground.asperities = find_asperities(step > 0 ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
-                                        surface.origin.points_per_wave);
+    ground.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
+                                        surface.origin.points_per_wave, nullptr, breaks.get());
     if (measured) {
         drop_near_filled(ground.asperities, count, map, measured->filled, measured->shortest_wave());
     }
     if (detail_of(settings) == Detail::subgrid)
         ground.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
-                         waves = surface.origin.points_per_wave, measured](const Indenter& indenter) {
+                         waves = surface.origin.points_per_wave, measured, breaks](const Indenter& indenter) {
             const Face face(indenter);
             SummitCount unused;
-            Asperities found = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face);
+            Asperities found = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
             if (measured) drop_near_filled(found, unused, *kept, measured->filled, measured->shortest_wave());
             return found;
         };
-    require_summits(ground, surface.origin.name,
-                    map.periodic                          ? ""
-                    : detail_of(settings) == Detail::grid ? " inside the map"
-                                                          : " " + std::to_string(kMeasuredReach) + " or more points inside the map");
+    require_summits(ground, surface.origin.name, map.periodic ? "" : " inside the map");
     const Ground bare = make_bare_ground(surface);
     ground.site = bare.site;
     ground.statistics = bare.statistics;

@@ -56,6 +56,21 @@ TESTS {
         }
     }
 
+    // Pressed far beyond its roughness, a ball has one summit in the middle; what carries beside it are the flanks.
+    {
+        constexpr double kForce = 0.12;  // without the flanks it was 0.4 to 0.7
+        Case a = polished(5e-5, "asperities"), e = polished(5e-5, "elements");
+        a.surface.L_lambda_l = e.surface.L_lambda_l = 2, a.surface.hurst = e.surface.hurst = 0.9;
+        const Ground summits = make_ground(a, 1, 1), points = make_ground(e, 1, 1);
+        for (const double Z : {-1e-3, -3e-3}) {
+            const Level model = at(a, summits, Z), truth = at(e, points, Z);
+            std::printf("pressed ball, Z0 %g: N %.5g against %.5g, status %d\n", Z, model.force, truth.force,
+                        static_cast<int>(model.status));
+            CHECK_RELATIVE(model.force, truth.force, kForce);
+            CHECK(model.status == LevelStatus::out_of_validity);
+        }
+    }
+
     // Moved to second order there are as many as of the surface, at its tops no higher than they were.
     {
         Case c = polished(1e-2, "asperities");
