@@ -61,7 +61,7 @@ this="$short $(cat "$rsc" "$here"/*.nml "$here/run.sh" "$here/../run_cases.sh" |
 if [ "$(cat "$folder/unfinished.txt" 2> /dev/null)" = "$this" ]; then
     echo 'going on with the run that was interrupted'
 else
-    rm -f "$folder"/*.nc "$folder"/*.checkpoint* "$folder"/*.part-* "$folder"/*_manifest.txt "$folder"/times.txt "$folder"/begun.txt "$folder"/report.txt "$folder/${study}"_*.png
+    rm -f "$folder"/*.nc "$folder"/*.checkpoint* "$folder"/*.part-* "$folder"/times.txt "$folder"/begun.txt "$folder"/report.txt "$folder/${study}"_*.png
     echo "$this" > "$folder/unfinished.txt"
 fi
 touch "$folder/times.txt" "$folder/begun.txt"

@@ -186,7 +186,7 @@ contains
     if (present(stat)) stat = int(status)
     if (status == rsc_success) return
     message = last_message()
-    if (status == rsc_no_memory) message = 'the machine refused memory'
+    if (status == rsc_no_memory) message = 'out of memory'
     if (index(message, 'must not be null') > 0) then
       message = message // ': nothing was created in the object, or it is a bitwise copy of one that is gone (see rsc.f90)'
     end if

@@ -115,7 +115,7 @@ static void put_text(const char* text, char* characters, size_t length) {
             *(handle) = entered;                     \
         } else {                                     \
             destroy(kind, made);                     \
-            refuse(0, "the machine refused memory"); \
+            refuse(0, "out of memory"); \
             *ierr = RSC_NO_MEMORY;                   \
         }                                            \
     }

@@ -1,13 +1,6 @@
 // Values as they lie in memory, one after another in a string of bytes, and back: for files of this machine and this version.
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
-
 #include "error.hpp"
 
 namespace rsc {

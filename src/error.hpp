@@ -2,15 +2,14 @@
 // the program turns the kind into an exit status and the library into a status code.
 #pragma once
 
-#include <stdexcept>
-#include <string>
+#include "std.hpp"
 
 namespace rsc {
 
 enum class Failure {
     bad_input,      // refused before running: namelist, file content, argument value (exit status 2)
     not_converged,  // ran, but a solver did not reach its tolerance (exit status 1)
-    no_memory,      // the machine refused memory (exit status 1)
+    no_memory,      // out of memory (exit status 1)
     file_system,    // a file could not be written, disk full, ... (exit status 1)
     internal,       // a broken invariant of rsc itself (exit status 1)
 };

@@ -1,9 +1,7 @@
 // Text by the rules of printf.
 #pragma once
 
-#include <cstdio>
-#include <string>
-#include <string_view>
+#include "std.hpp"
 
 namespace rsc {
 

@@ -1,27 +1,17 @@
 // The program: `rsc < case.nml`. It turns text into a case and runs it; everything else is in run/. Built with RSC_MPI it is
 // rsc_mpi.
-#include <cerrno>
-#include <cstdlib>
-#include <functional>
-#include <iostream>
-#include <memory>
-#include <new>
-#include <sstream>
-#include <system_error>
 
-#include "case/manual.hpp"
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
-#include "file/output_path.hpp"
+#include "file/whole_file.hpp"
 #include "format.hpp"
-#include "rough/omp_team.hpp"
-#include "run/campaign_manifest.hpp"
-#include "run/campaign_merge.hpp"
-#include "run/campaign_study.hpp"
+#include "rough/parallel.hpp"
+#include "run/campaign.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "run/study.hpp"
 #ifdef RSC_MPI
 #include "run/mpi_team.hpp"
 #endif
@@ -169,12 +159,12 @@ int guarded(const std::function<int()>& program) {
         std::cerr << "rsc: " << stop.what() << '\n';
         return 128 + stop.signal();
     } catch (const rsc::Error& error) {
-        // What comes from files may hold control characters of terminals.
+        // Text from files may hold control characters of terminals.
         std::istringstream lines(error.what());
         for (std::string line; std::getline(lines, line);) std::cerr << rsc::printable(line, line.size()) << '\n';
         return error.kind() == rsc::Failure::bad_input ? 2 : 1;
     } catch (const std::bad_alloc&) {
-        std::cerr << "rsc: the machine refused memory; a smaller surface%n, fewer levels or solver%method='direct' need less\n";
+        std::cerr << "rsc: out of memory; a smaller surface%n, fewer levels or solver%method = 'direct' need less\n";
         return 1;
     } catch (const std::exception& error) {
         std::cerr << "rsc: internal failure: " << error.what() << "\nPlease report it with the case that led here.\n";
@@ -183,7 +173,7 @@ int guarded(const std::function<int()>& program) {
 }
 
 #ifdef RSC_MPI
-// What a rank other than the first does.
+// The work of a rank other than the first.
 int serve(Job& job, const std::string& command) {
     return job.serve([&command](const std::string& case_text, std::size_t threads) -> rsc::Work {
         rsc::RunOptions how;

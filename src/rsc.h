@@ -60,7 +60,7 @@ extern "C" {
 #define RSC_STATUS_LIST(X)                                                                                       \
     X(RSC_SUCCESS, 0, "success")                                                                                 \
     X(RSC_NOT_CONVERGED, 1, "the solver did not reach its tolerance; the results are those of its last iterate") \
-    X(RSC_NO_MEMORY, 2, "the machine refused memory")                                                            \
+    X(RSC_NO_MEMORY, 2, "out of memory")                                                                         \
     X(RSC_FILE, 3, "a file could not be read or written")                                                        \
     X(RSC_NO_RESULT, 4, "the contact holds no result: indent or press first")                                    \
     X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")                                             \
@@ -70,7 +70,7 @@ extern "C" {
 enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
 #undef RSC_STATUS_ENUMERATOR
 
-/* What is to be said about a level that was computed (rsc_contact_level), the more serious the larger. The values are those of
+/* Status of a computed level (rsc_contact_level), the more serious the larger. The values are those of
  * the variable `status` of a result file. */
 #define RSC_LEVEL_LIST(X)                                                                                       \
     X(RSC_LEVEL_CONVERGED, 0, "converged")                                                                      \
@@ -149,7 +149,7 @@ RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buf
  */
 RSC_API int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length);
 
-/* How many keys there are. count (out): their number. Errors: -1 null. */
+/* Number of keys. count (out): the number. Errors: -1 null. */
 RSC_API int32_t rsc_key_count(int64_t* count);
 
 /* The name of a key, "group%key", for going through all of them.
@@ -266,7 +266,7 @@ RSC_API int32_t rsc_asperities_copy(rsc_asperities** asperities, const rsc_asper
 /* Releases asperities and nulls the handle. Errors: -1 null address. */
 RSC_API int32_t rsc_asperities_destroy(rsc_asperities** asperities);
 
-/* How many there are. asperities: the asperities; n (out): their number. Errors: -1, -2 null. */
+/* Number of asperities. asperities: the asperities; n (out): their number. Errors: -1, -2 null. */
 RSC_API int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n);
 
 /* Reads them back. asperities: the asperities; n: length of each array, their number; x, y, z, radius (out, may be null)
@@ -319,7 +319,7 @@ RSC_API int32_t rsc_contact_commit(rsc_contact* contact);
  * contact: the contact. Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_rollback(rsc_contact* contact);
 
-/* Where the tip is. contact: the contact; x0, y0 (out, may be null) [length]. Errors: -1 null. */
+/* Position of the tip. contact: the contact; x0, y0 (out, may be null) [length]. Errors: -1 null. */
 RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0);
 
 /* The separation at which the sphere, coming down, touches its first asperity.
@@ -344,7 +344,7 @@ RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* se
  * RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts);
 
-/* How the last level was reached. All outputs may be null. contact: the contact; level_status: of RSC_LEVEL_LIST; candidates:
+/* Status and solver data of the last level. All outputs may be null. contact: the contact; level_status: of RSC_LEVEL_LIST; candidates:
  * asperities that the sphere would penetrate without interaction; iterations: of the solver, of all levels visited when pressing;
  * overlapping_pairs: pairs of contact spots with d < a_i + a_j; residual: relative residual of F = f(<g0 - BF>). Errors: -1 null;
  * RSC_NO_RESULT. */
@@ -501,7 +501,7 @@ RSC_API int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double 
  * dQ_y/dx, dQ_y/dy [force/length], 0 without contact. Errors: -1 null; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy);
 
-/* Where the path has led. All outputs may be null. friction: the friction; separation, x, y: the last update's [length]; force: N;
+/* State of the path after the last update. All outputs may be null. friction: the friction; separation, x, y: the last update's [length]; force: N;
  * force_x, force_y: Q [force]; energy: elastic energy W of the normal problem; tangential_energy: elastic energy of the slide; lost: work
  * lost to friction since the path began [force length]; stick_separation: the separation whose spots stick, the separation itself where
  * all sticks, that of first touch where all slips [length]. Errors: -1 null; RSC_NO_RESULT before the first update. */

@@ -1,14 +1,12 @@
 // Cases: options by name, and a run of the whole program.
-#include <algorithm>
-#include <string>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "rough/omp_team.hpp"
-#include "run/campaign_team.hpp"
+#include "rough/parallel.hpp"
 #include "run/run.hpp"
+#include "run/team.hpp"
 
 namespace rsc::api {
 
@@ -38,21 +36,17 @@ using namespace rsc::api;
 extern "C" {
 
 int32_t rsc_case_create(rsc_case** new_case) {
-    return guarded(0, [&] { construct(new_case, "new_case", [] { return new rsc_case; }); });
+    return constructed(0, new_case, "new_case", [] { return new rsc_case; });
 }
 
 int32_t rsc_case_copy(rsc_case** new_case, const rsc_case* original) {
-    return guarded(0, [&] {
-        construct(new_case, "new_case", [&] {
-            require(original, 2, "original");
-            return new rsc_case(*original);
-        });
+    return constructed(0, new_case, "new_case", [&] {
+        require(original, 2, "original");
+        return new rsc_case(*original);
     });
 }
 
-int32_t rsc_case_destroy(rsc_case** old_case) {
-    return guarded(0, [&] { destroy(old_case, "old_case"); });
-}
+int32_t rsc_case_destroy(rsc_case** old_case) { return destroyed(old_case, "old_case"); }
 
 int32_t rsc_case_read(rsc_case* a_case, const char* text) {
     return guarded(2, [&] {

@@ -1,19 +1,16 @@
 // Contacts: levels, what they hold, and the deflection of the surface around them.
-#include <algorithm>
-#include <cmath>
-#include <string_view>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "observe/quantities.hpp"
-#include "rough/magnitude.hpp"
+#include "rough/asperities.hpp"
 
 namespace rsc::api {
 namespace {
 
-// Whether `constant` is "RSC_LEVEL_" and the name in capitals.
+// True if `constant` is "RSC_LEVEL_" followed by the name in capitals.
 constexpr bool is_constant_of(std::string_view constant, std::string_view name) {
     constexpr std::string_view prefix = "RSC_LEVEL_";
     if (!constant.starts_with(prefix) || constant.size() != prefix.size() + name.size()) return false;
@@ -47,17 +44,17 @@ void require_contact_keys(const Case& settings) {
 }
 
 // Asperities, and points for elements, are made for one solver%model: a case that asks for the other is refused. 'auto' takes what there is.
-void require_model(const Ground& on, const Case& settings, int argument) {
+void require_model(const SurfaceModel& on, const Case& settings, int argument) {
     if (settings.solver.model == Model::automatic) return;
     const bool elements = settings.solver.model == Model::elements;
-    if (elements && !on.points) refuse(argument, "a_case", "asks for solver%model = 'elements', and the asperities were made without it");
-    if (!elements && on.points)
-        refuse(argument, "a_case", "asks for asperities, and what it is given was made with solver%model = 'elements'");
+    if (elements && !on.points) refuse(argument, "a_case", "asks for solver%model = 'elements', but the asperities were made without it");
+    if (!elements && on.points) refuse(argument, "a_case", "asks for asperities, but these were made with solver%model = 'elements'");
 }
 
 const Level& level_of(const rsc_contact* contact) {
     require(contact, 1, "contact");
-    if (!contact->known.level) throw Outcome{RSC_NO_RESULT, "the contact holds no result: indent or press first"};
+    if (!contact->known.level)
+        throw Outcome{RSC_NO_RESULT, "the contact has no result yet: call rsc_contact_indent or rsc_contact_press first"};
     return *contact->known.level;
 }
 
@@ -76,7 +73,7 @@ void compute(rsc_contact& contact, Compute&& level) {
 }
 
 void put_finite(double* to, double value) {
-    if (!std::isfinite(value)) throw Outcome{RSC_NO_RESULT, "the result is beyond the range of numbers: other units may help"};
+    if (!std::isfinite(value)) throw Outcome{RSC_NO_RESULT, "the result overflows double precision: choose other units"};
     put(to, value);
 }
 
@@ -94,16 +91,15 @@ double stiffness_of(rsc_contact& contact) {
 }
 
 double conductance_length_of(rsc_contact& contact) {
-    if (contact.contact.indenter().layers.count > 0)
-        throw Outcome{RSC_NO_RESULT, "the body has layers: its stiffness says nothing of its conductance"};
+    if (contact.contact.indenter().layers.count > 0) throw Outcome{RSC_NO_RESULT, "conductance is not available for a body with layers"};
     return conductance_length(stiffness_of(contact), contact.contact.indenter().E_star);
 }
 
 double resistance_of(rsc_contact& contact) {
     const auto& resistivity = contact.keys->solids.resistivity;
     if (!(resistivity[0] + resistivity[1] > 0))
-        throw Outcome{RSC_NO_RESULT, "solids%resistivity is 0 in the case the contact was made from: there is no resistance"};
-    if (!(contact.known.level->force > 0)) throw Outcome{RSC_NO_RESULT, "nothing touches: the resistance is infinite"};
+        throw Outcome{RSC_NO_RESULT, "there is no resistance: solids%resistivity is 0 in the case of this contact"};
+    if (!(contact.known.level->force > 0)) throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
     return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
@@ -155,48 +151,41 @@ extern "C" {
 
 int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
                            const rsc_case* a_case) {
-    return guarded(7, [&] {
-        construct(contact, "contact", [&] {
-            require(asperities, 2, "asperities");
-            if (!rsc::usable_positive(E_star)) refuse(3, "E_star", rsc::kPositiveBounds);
-            if (!rsc::usable_positive(R) && !(R > 0 && std::isinf(R))) refuse(4, "R", "must be from 1e-50 to 1e50, or Infinity");
-            require_finite(x0, 5, "x0");
-            require_finite(y0, 6, "y0");
-            const rsc::Case& settings = settings_of(a_case);
-            require_contact_keys(settings);
-            if (!settings.solids.layer_thickness.empty())
-                refuse(7, "a_case", "has layers, and one modulus E* does not say what lies where: rsc_contact_create_from_case takes them");
-            if (settings.indenter.shape != 0)
-                refuse(7, "a_case", "asks for another shape than the sphere of radius R: rsc_contact_create_from_case makes it");
-            const auto& on = asperities->ground;
-            require_model(*on, settings, 7);
-            const rsc::Period period = rsc::period_of(settings, site_of(settings, *on));
-            auto made =
-                std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings), rsc::Indenter{E_star, R, x0, y0, period});
-            made->given = {E_star, R};
-            return made.release();
-        });
+    return constructed(7, contact, "contact", [&] {
+        require(asperities, 2, "asperities");
+        if (!rsc::usable_positive(E_star)) refuse(3, "E_star", rsc::kPositiveBounds);
+        if (!rsc::usable_positive(R) && !(R > 0 && std::isinf(R))) refuse(4, "R", "must be from 1e-50 to 1e50, or Infinity");
+        require_finite(x0, 5, "x0");
+        require_finite(y0, 6, "y0");
+        const rsc::Case& settings = settings_of(a_case);
+        require_contact_keys(settings);
+        if (!settings.solids.layer_thickness.empty())
+            refuse(7, "a_case", "has layers, which one modulus E* does not describe: use rsc_contact_create_from_case");
+        if (settings.indenter.shape != 0) refuse(7, "a_case", "asks for a shape other than a sphere: use rsc_contact_create_from_case");
+        const auto& on = asperities->model;
+        require_model(*on, settings, 7);
+        const rsc::Period period = rsc::period_of(settings, domain_of(settings, *on));
+        auto made =
+            std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings), rsc::Indenter{E_star, R, x0, y0, period});
+        made->given = {E_star, R};
+        return made.release();
     });
 }
 
 int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case) {
-    return guarded(3, [&] {
-        construct(contact, "contact", [&] {
-            require(asperities, 2, "asperities");
-            const rsc::Case& settings = settings_of(a_case);
-            require_contact_keys(settings);
-            require_sound(settings, {"solids", "indenter"});
-            const auto& on = asperities->ground;
-            require_model(*on, settings, 3);
-            const rsc::Indenter indenter = rsc::indenter_of(settings, site_of(settings, *on));
-            return new rsc_contact(on, std::make_shared<const rsc::Case>(settings), indenter);
-        });
+    return constructed(3, contact, "contact", [&] {
+        require(asperities, 2, "asperities");
+        const rsc::Case& settings = settings_of(a_case);
+        require_contact_keys(settings);
+        require_sound(settings, {"solids", "indenter"});
+        const auto& on = asperities->model;
+        require_model(*on, settings, 3);
+        const rsc::Indenter indenter = rsc::indenter_of(settings, domain_of(settings, *on));
+        return new rsc_contact(on, std::make_shared<const rsc::Case>(settings), indenter);
     });
 }
 
-int32_t rsc_contact_destroy(rsc_contact** contact) {
-    return guarded(0, [&] { destroy(contact, "contact"); });
-}
+int32_t rsc_contact_destroy(rsc_contact** contact) { return destroyed(contact, "contact"); }
 
 int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
     return guarded(2, [&] {
@@ -359,20 +348,18 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
 }
 
 int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact) {
-    return guarded(0, [&] {
-        construct(asperities, "asperities", [&] {
-            require(contact, 2, "contact");
-            const rsc::Asperities* touched = contact->contact.asperities();
-            if (!touched) refuse(2, "contact", "has no asperities: it is made of elements");
-            rsc::Ground ground;
-            ground.asperities = *touched;
-            ground.site = contact->on->site;
-            ground.statistics = contact->on->statistics;
-            ground.list = contact->on->list;
-            auto made = std::make_unique<rsc_asperities>();
-            made->ground = std::make_shared<const rsc::Ground>(std::move(ground));
-            return made.release();
-        });
+    return constructed(0, asperities, "asperities", [&] {
+        require(contact, 2, "contact");
+        const rsc::Asperities* touched = contact->contact.asperities();
+        if (!touched) refuse(2, "contact", "has no asperities: it is made of elements");
+        rsc::SurfaceModel model;
+        model.asperities = *touched;
+        model.domain = contact->on->domain;
+        model.statistics = contact->on->statistics;
+        model.list = contact->on->list;
+        auto made = std::make_unique<rsc_asperities>();
+        made->model = std::make_shared<const rsc::SurfaceModel>(std::move(model));
+        return made.release();
     });
 }
 

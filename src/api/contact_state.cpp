@@ -1,5 +1,4 @@
-// What a contact is made of, and its state as a value: copies, commit and roll back.
-#include <memory>
+// How a contact is made, copied, committed and rolled back.
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
@@ -8,19 +7,19 @@ using namespace rsc::api;
 
 namespace rsc::api {
 
-Site site_of(const Case& settings, const Ground& on) {
-    return on.list && settings.surface.L ? list_site(on.asperities, settings.surface.L, "the asperities") : on.site;
+SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on) {
+    return on.list && settings.surface.L ? list_domain(on.asperities, settings.surface.L, "the asperities") : on.domain;
 }
 
 void require_place(const rsc_contact& contact, double x0, double y0) {
     const Indenter& indenter = contact.contact.indenter();
     if (indenter.period.finite()) return;
-    Site site = contact.on->site;
+    SurfaceDomain domain = contact.on->domain;
     if (const Rectangle& known = contact.options.surface; known.known()) {
-        site.domain = {known.x0, known.y0, known.Lx, known.Ly};
-        site.guessed = false;
+        domain = {known.x0, known.y0, known.Lx, known.Ly};
+        domain.guessed = false;
     }
-    require_tip_above(site, indenter.shape, x0, y0);
+    require_tip_above(domain, indenter.shape, x0, y0);
 }
 
 namespace {
@@ -34,10 +33,11 @@ void put_tip(rsc_contact& contact, double x0, double y0) {
 }  // namespace
 }  // namespace rsc::api
 
-rsc_contact::rsc_contact(std::shared_ptr<const rsc::Ground> on_, std::shared_ptr<const rsc::Case> keys_, const rsc::Indenter& indenter)
+rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_, std::shared_ptr<const rsc::Case> keys_,
+                         const rsc::Indenter& indenter)
     : on(std::move(on_)),
       keys(std::move(keys_)),
-      options(rsc::solver_of(*keys, site_of(*keys, *on))),
+      options(rsc::solver_of(*keys, domain_of(*keys, *on))),
       model(rsc::make_contact(*on, indenter, options)),
       contact(*model),
       committed(state()) {}
@@ -67,14 +67,12 @@ void rsc_contact::recall(const std::vector<double>& memory) {
 extern "C" {
 
 int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
-    return guarded(0, [&] {
-        construct(contact, "contact", [&] {
-            require(original, 2, "original");
-            auto made = std::make_unique<rsc_contact>(*original);
-            made->go_back(original->state());
-            made->committed = original->committed;
-            return made.release();
-        });
+    return constructed(0, contact, "contact", [&] {
+        require(original, 2, "original");
+        auto made = std::make_unique<rsc_contact>(*original);
+        made->go_back(original->state());
+        made->committed = original->committed;
+        return made.release();
     });
 }
 

@@ -1,16 +1,14 @@
 // Friction: a contact along a path of separations and slides.
-#include <algorithm>
-#include <memory>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "contact/equivalent.hpp"
-#include "rough/magnitude.hpp"
+#include "rough/asperities.hpp"
 
 namespace rsc::api {
 namespace {
 
-constexpr const char* kNoPath = "the friction has no path yet: update first";
+constexpr const char* kNoPath = "friction has no path yet: call rsc_friction_update first";
 
 void require_usable(double value, int argument, const char* name) {
     if (!usable(value)) refuse(argument, name, kNumberBounds);
@@ -24,14 +22,13 @@ const FrictionHistory& path_of(const rsc_friction* friction) {
 
 const FrictionHistory& contact_of(const rsc_friction* friction) {
     const FrictionHistory& history = path_of(friction);
-    if (history.state().nodes.empty()) throw Outcome{RSC_NO_RESULT, "friction: there is no contact yet that could be slid"};
+    if (history.state().nodes.empty()) throw Outcome{RSC_NO_RESULT, "friction: there is no contact yet"};
     return history;
 }
 
 void require_elastic(const rsc_contact& contact) {
-    if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction needs one load for one separation");
-    if (contact.contact.indenter().layers.count > 0)
-        refuse(2, "contact", "is one of a body with layers: friction there is not available yet");
+    if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction is not available with hardness");
+    if (contact.contact.indenter().layers.count > 0) refuse(2, "contact", "has layers: friction is not available for them yet");
 }
 
 // Moves the tip of both contacts behind the path.
@@ -86,44 +83,36 @@ int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
 }
 
 int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio) {
-    return guarded(3, [&] {
-        construct(friction, "friction", [&] {
-            require(contact, 2, "contact");
-            require_elastic(*contact);
-            if (!(mu >= 0) || !rsc::usable(mu)) refuse(3, "mu", "must be zero or positive, and at most 1e50");
-            if (!rsc::usable_positive(ratio)) refuse(4, "ratio", rsc::kPositiveBounds);
-            return new rsc_friction(*contact, {mu, ratio});
-        });
+    return constructed(3, friction, "friction", [&] {
+        require(contact, 2, "contact");
+        require_elastic(*contact);
+        if (!(mu >= 0) || !rsc::usable(mu)) refuse(3, "mu", "must be zero or positive, and at most 1e50");
+        if (!rsc::usable_positive(ratio)) refuse(4, "ratio", rsc::kPositiveBounds);
+        return new rsc_friction(*contact, {mu, ratio});
     });
 }
 
 int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case) {
-    return guarded(3, [&] {
-        construct(friction, "friction", [&] {
-            require(contact, 2, "contact");
-            require_elastic(*contact);
-            const rsc::Case& settings = settings_of(a_case);
-            require_sound(settings, {"solids"});
-            return new rsc_friction(*contact, {settings.solids.friction, rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
-        });
+    return constructed(3, friction, "friction", [&] {
+        require(contact, 2, "contact");
+        require_elastic(*contact);
+        const rsc::Case& settings = settings_of(a_case);
+        require_sound(settings, {"solids"});
+        return new rsc_friction(*contact, {settings.solids.friction, rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
     });
 }
 
 int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original) {
-    return guarded(0, [&] {
-        construct(friction, "friction", [&] {
-            require(original, 2, "original");
-            auto made = std::make_unique<rsc_friction>(original->outer, original->history.friction());
-            made->history = original->history;
-            made->committed_tip = original->committed_tip;
-            return made.release();
-        });
+    return constructed(0, friction, "friction", [&] {
+        require(original, 2, "original");
+        auto made = std::make_unique<rsc_friction>(original->outer, original->history.friction());
+        made->history = original->history;
+        made->committed_tip = original->committed_tip;
+        return made.release();
     });
 }
 
-int32_t rsc_friction_destroy(rsc_friction** friction) {
-    return guarded(0, [&] { destroy(friction, "friction"); });
-}
+int32_t rsc_friction_destroy(rsc_friction** friction) { return destroyed(friction, "friction"); }
 
 int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x, double* force_y,
                             double* lost) {

@@ -1,10 +1,7 @@
 #include "api/guard.hpp"
 
-#include <algorithm>
-#include <cstring>
-
+#include "rough/asperities.hpp"
 #include "rough/library_lock.hpp"
-#include "rough/magnitude.hpp"
 #include "version.h"
 
 namespace rsc::api {

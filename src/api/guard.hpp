@@ -1,13 +1,6 @@
 // The boundary: every entry of rsc.h runs inside guarded(), which turns whatever is thrown into a status and a message.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <new>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-
 #include "error.hpp"
 #include "rsc.h"
 #include "run/signals.hpp"
@@ -46,10 +39,10 @@ std::int32_t guarded(int input, Body&& body) noexcept {
         remember(error.what());
         return status_of(error, input);
     } catch (const std::bad_alloc&) {
-        remember("the machine refused memory");
+        remember("out of memory");
         return RSC_NO_MEMORY;
     } catch (const std::length_error&) {  // an array longer than any memory
-        remember("the machine refused memory");
+        remember("out of memory");
         return RSC_NO_MEMORY;
     } catch (const Interrupted& stop) {
         remember(stop.what());
@@ -88,20 +81,25 @@ void put(T* output, const U& value) {
 // Text into a caller's buffer: arguments number `first` (buffer) and first + 1 (size).
 void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first);
 
-// Makes a handle: the constructor's argument 1. The handle is null unless everything succeeds.
+// An entry that makes a handle, its argument 1, as guarded(). The handle is null unless everything succeeds.
 template <class Handle, class Make>
-void construct(Handle** handle, const char* name, Make&& make) {
-    require(handle, 1, name);
-    *handle = nullptr;
-    *handle = make();
+std::int32_t constructed(int input, Handle** handle, const char* name, Make&& make) noexcept {
+    return guarded(input, [&] {
+        require(handle, 1, name);
+        *handle = nullptr;
+        *handle = make();
+    });
 }
 
+// An entry that releases a handle and sets it to null.
 template <class Handle>
-void destroy(Handle** handle, const char* name) {
-    require(handle, 1, name);
-    if (*handle) require(*handle, 1, name);
-    delete *handle;
-    *handle = nullptr;
+std::int32_t destroyed(Handle** handle, const char* name) noexcept {
+    return guarded(0, [&] {
+        require(handle, 1, name);
+        if (*handle) require(*handle, 1, name);
+        delete *handle;
+        *handle = nullptr;
+    });
 }
 
 }  // namespace rsc::api

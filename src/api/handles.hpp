@@ -1,12 +1,5 @@
-// What is behind the handles of rsc.h.
+// The objects behind the handles of rsc.h.
 #pragma once
-
-#include <array>
-#include <cstdint>
-#include <initializer_list>
-#include <memory>
-#include <optional>
-#include <string_view>
 
 #include "case/case.hpp"
 #include "contact/contact_curve.hpp"
@@ -43,15 +36,15 @@ struct rsc_surface {
 
 struct rsc_asperities {
     rsc::api::Tag<0x7273635f61737065> tag;
-    std::shared_ptr<const rsc::Ground> ground;  // shared with the contacts made from it
+    std::shared_ptr<const rsc::SurfaceModel> model;  // shared with the contacts made from it
 };
 
 struct rsc_contact {
     rsc::api::Tag<0x7273635f636f6e74> tag;
     // The keys of the case decide on all but the indenter. Throws Error(bad_input) for keys that are refused.
-    rsc_contact(std::shared_ptr<const rsc::Ground> on, std::shared_ptr<const rsc::Case> keys, const rsc::Indenter& indenter);
+    rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on, std::shared_ptr<const rsc::Case> keys, const rsc::Indenter& indenter);
     explicit rsc_contact(const rsc_contact& like);  // the same one without a result
-    std::shared_ptr<const rsc::Ground> on;
+    std::shared_ptr<const rsc::SurfaceModel> on;
     std::shared_ptr<const rsc::Case> keys;
     std::optional<std::array<double, 2>> given;  // E* and R where rsc_contact_create was told them; none: they are the case's
     rsc::SolverOptions options;
@@ -107,6 +100,6 @@ int threads_of(const Case& settings);
 void require_place(const rsc_contact& contact, double x0, double y0);
 
 // For asperities given one by one the case says how large the surface is (surface%L).
-Site site_of(const Case& settings, const Ground& on);
+SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on);
 
 }  // namespace rsc::api

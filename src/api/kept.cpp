@@ -2,14 +2,6 @@
 //
 // A save is a line that says what it is, a checksum, and named entries: texts and arrays of numbers, as this machine stores them. What is
 // added to rsc later gets names of its own, so that later versions read what earlier ones saved.
-#include <bit>
-#include <cstring>
-#include <fstream>
-#include <map>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
@@ -34,7 +26,7 @@ std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV
 constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;
 
 // Tells whether a contact stood on the same asperities, or points of a surface. Columns that are not there do not count.
-double digest(const Ground& on) {
+double digest(const SurfaceModel& on) {
     std::uint64_t hash = kHash;
     for (const AsperityColumn& column : kAsperityColumns) {
         const auto& values = on.asperities.*column.values;
@@ -126,17 +118,17 @@ void put_making(Entries& to, const rsc_contact& contact) {
 }
 
 std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperities& asperities) {
-    const Ground& on = *asperities.ground;
-    if (from.one("ground") != digest(on)) refuse(2, "asperities", "must be those the file was saved with");
+    const SurfaceModel& on = *asperities.model;
+    if (from.one("ground") != digest(on)) refuse(2, "asperities", "must be the ones that the file was saved with");
     const Numbers& tip = from.of("tip");
     if (tip.size() != 2 || !from.texts.contains("case")) throw Error(Failure::bad_input, kBroken);
     const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
-    const Site site = site_of(*keys, on);
+    const SurfaceDomain domain = domain_of(*keys, on);
     const bool told = from.numbers.contains("given");
     Indenter indenter =
-        told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0, period_of(*keys, site)} : indenter_of(*keys, site);
+        told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0, period_of(*keys, domain)} : indenter_of(*keys, domain);
     indenter.x0 = tip[0], indenter.y0 = tip[1];
-    auto made = std::make_unique<rsc_contact>(asperities.ground, keys, indenter);
+    auto made = std::make_unique<rsc_contact>(asperities.model, keys, indenter);
     if (told) made->given = {from.of("given")[0], from.of("given")[1]};
     return made;
 }
@@ -244,17 +236,15 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
 }
 
 int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path) {
-    return guarded(3, [&] {
-        construct(contact, "contact", [&] {
-            require(asperities, 2, "asperities");
-            require_path(path, 3);
-            const Entries entries = read(path, kContact);
-            auto made = get_making(entries, *asperities);
-            made->go_back(get_state(entries, "", *made));
-            if (!made->recalled) made->recall();
-            made->committed = get_state(entries, "committed.", *made);
-            return made.release();
-        });
+    return constructed(3, contact, "contact", [&] {
+        require(asperities, 2, "asperities");
+        require_path(path, 3);
+        const Entries entries = read(path, kContact);
+        auto made = get_making(entries, *asperities);
+        made->go_back(get_state(entries, "", *made));
+        if (!made->recalled) made->recall();
+        made->committed = get_state(entries, "committed.", *made);
+        return made.release();
     });
 }
 
@@ -276,20 +266,18 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
 }
 
 int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities, const char* path) {
-    return guarded(3, [&] {
-        construct(friction, "friction", [&] {
-            require(asperities, 2, "asperities");
-            require_path(path, 3);
-            const Entries entries = read(path, kFriction);
-            const Numbers& with = entries.of("friction");
-            if (with.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
-            auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities), rsc::Friction{with[0], with[1]});
-            const Numbers& tip = entries.of("committed_tip");
-            if (tip.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
-            made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
-            made->committed_tip = {tip[0], tip[1]};
-            return made.release();
-        });
+    return constructed(3, friction, "friction", [&] {
+        require(asperities, 2, "asperities");
+        require_path(path, 3);
+        const Entries entries = read(path, kFriction);
+        const Numbers& with = entries.of("friction");
+        if (with.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
+        auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities), rsc::Friction{with[0], with[1]});
+        const Numbers& tip = entries.of("committed_tip");
+        if (tip.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
+        made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
+        made->committed_tip = {tip[0], tip[1]};
+        return made.release();
     });
 }
 

@@ -1,12 +1,8 @@
 // Many contacts at once.
-#include <algorithm>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc::api {
 namespace {
@@ -69,7 +65,7 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
                           double* separation, double* force, double* stiffness, double* lateral_x, double* lateral_y, double* moment_x,
                           double* moment_y, int32_t* level_status, int32_t* status, int32_t threads) {
     const int32_t sound = guarded(0, [&] {
-        if (!x0 != !y0) refuse(x0 ? 4 : 3, x0 ? "y0" : "x0", "must be null where the other is");
+        if (!x0 != !y0) refuse(x0 ? 4 : 3, x0 ? "y0" : "x0", "must be null if the other is");
         if (by_force != 0 && by_force != 1) refuse(5, "by_force", "must be 0 or 1");
     });
     if (sound != RSC_SUCCESS) return sound;

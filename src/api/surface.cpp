@@ -1,13 +1,9 @@
 // Surfaces and their asperities.
-#include <algorithm>
-#include <limits>
-#include <string>
-#include <utility>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "rough/filter.hpp"
-#include "rough/magnitude.hpp"
+#include "rough/asperities.hpp"
+#include "rough/form.hpp"
 #include "rough/measured.hpp"
 
 namespace rsc::api {
@@ -19,9 +15,9 @@ void copy_to(double* output, const std::vector<double>& values) {
     if (output) std::copy(values.begin(), values.end(), output);
 }
 
-rsc_asperities* share(Ground&& ground) {
+rsc_asperities* share(SurfaceModel&& model) {
     auto handle = std::make_unique<rsc_asperities>();
-    handle->ground = std::make_shared<const Ground>(std::move(ground));
+    handle->model = std::make_shared<const SurfaceModel>(std::move(model));
     return handle.release();
 }
 
@@ -55,84 +51,57 @@ using namespace rsc::api;
 extern "C" {
 
 int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization) {
-    return guarded(2, [&] {
-        construct(surface, "surface", [&] {
-            const rsc::Case& settings = settings_of(a_case);
-            require_sound(settings, {"surface", "run"});
-            auto made = std::make_unique<rsc_surface>();
-            made->surface = rsc::make_surface(settings, realization, threads_of(settings));
-            return made.release();
-        });
+    return constructed(2, surface, "surface", [&] {
+        const rsc::Case& settings = settings_of(a_case);
+        require_sound(settings, {"surface", "run"});
+        auto made = std::make_unique<rsc_surface>();
+        made->surface = rsc::make_surface(settings, realization, threads_of(settings));
+        return made.release();
     });
 }
 
 int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0, int32_t periodic,
                          const double* heights) {
-    return guarded(0, [&] {
-        construct(surface, "surface", [&] {
-            if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
-            if (ny < 3 || ny > kMost) refuse(3, "ny", "must be from 3 to 2147483647");
-            if (!rsc::usable_positive(dx)) refuse(4, "dx", rsc::kPositiveBounds);
-            if (!rsc::usable_positive(dy)) refuse(5, "dy", rsc::kPositiveBounds);
-            require_finite(x0, 6, "x0");
-            require_finite(y0, 7, "y0");
-            if (periodic != 0 && periodic != 1) refuse(8, "periodic", "must be 0 or 1");
-            if (nx > std::numeric_limits<std::int64_t>::max() / 8 / ny) throw std::bad_alloc();
-            require_finite(heights, nx * ny, 9, "heights");
-            auto made = std::make_unique<rsc_surface>();
-            rsc::HeightMap& map = made->surface.map;
-            map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
-            map.dx = dx;
-            map.dy = dy;
-            map.x0 = x0;
-            map.y0 = y0;
-            map.periodic = periodic == 1;
-            std::copy(heights, heights + nx * ny, map.row(0));
-            made->surface.origin.sigma = rsc::detrend(map, rsc::Detrend::none).rms;
-            return made.release();
-        });
+    return constructed(0, surface, "surface", [&] {
+        if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
+        if (ny < 3 || ny > kMost) refuse(3, "ny", "must be from 3 to 2147483647");
+        if (!rsc::usable_positive(dx)) refuse(4, "dx", rsc::kPositiveBounds);
+        if (!rsc::usable_positive(dy)) refuse(5, "dy", rsc::kPositiveBounds);
+        require_finite(x0, 6, "x0");
+        require_finite(y0, 7, "y0");
+        if (periodic != 0 && periodic != 1) refuse(8, "periodic", "must be 0 or 1");
+        if (nx > std::numeric_limits<std::int64_t>::max() / 8 / ny) throw std::bad_alloc();
+        require_finite(heights, nx * ny, 9, "heights");
+        auto made = std::make_unique<rsc_surface>();
+        rsc::HeightMap& map = made->surface.map;
+        map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
+        map.dx = dx, map.dy = dy, map.x0 = x0, map.y0 = y0;
+        map.periodic = periodic == 1;
+        std::copy(heights, heights + nx * ny, map.row(0));
+        made->surface.origin.sigma = rsc::detrend(map, rsc::Detrend::none).rms;
+        return made.release();
     });
 }
 
 int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
-    return guarded(0, [&] {
-        construct(surface, "surface", [&] {
-            require(original, 2, "original");
-            const rsc::HeightMap& from = original->surface.map;
-            auto made = std::make_unique<rsc_surface>();
-            made->surface.origin = original->surface.origin;
-            rsc::HeightMap& map = made->surface.map;
-            map.allocate(from.nx, from.ny, from.stride);
-            map.dx = from.dx;
-            map.dy = from.dy;
-            map.x0 = from.x0;
-            map.y0 = from.y0;
-            map.periodic = from.periodic;
-            for (int j = 0; j < from.ny; ++j) std::copy(from.row(j), from.row(j) + from.nx, map.row(j));
-            return made.release();
-        });
+    return constructed(0, surface, "surface", [&] {
+        require(original, 2, "original");
+        return new rsc_surface{{}, {original->surface.map.copy(), original->surface.origin}};
     });
 }
 
-int32_t rsc_surface_destroy(rsc_surface** surface) {
-    return guarded(0, [&] { destroy(surface, "surface"); });
-}
+int32_t rsc_surface_destroy(rsc_surface** surface) { return destroyed(surface, "surface"); }
 
 int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_left) {
     return guarded(0, [&] {
         require(surface, 1, "surface");
         require(how, 2, "how");
         const std::string_view word = how;
-        constexpr std::pair<std::string_view, rsc::Detrend> kForms[] = {{"none", rsc::Detrend::none},
-                                                                        {"mean", rsc::Detrend::mean},
-                                                                        {"plane", rsc::Detrend::plane},
-                                                                        {"quadratic", rsc::Detrend::quadratic},
-                                                                        {"sphere", rsc::Detrend::sphere}};
-        const auto* const form = std::find_if(std::begin(kForms), std::end(kForms), [&](const auto& f) { return f.first == word; });
-        if (form == std::end(kForms)) refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
+        const auto form = std::find(rsc::kDetrendNames.begin(), rsc::kDetrendNames.end(), word) - rsc::kDetrendNames.begin();
+        if (form == std::ssize(rsc::kDetrendNames)) refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
         const double left = [&] {
             try {
-                return rsc::detrend(surface->surface.map, form->second).rms;
+                return rsc::detrend(surface->surface.map, static_cast<rsc::Detrend>(form)).rms;
             } catch (const rsc::Error& error) {
                 refuse(2, "how", error.what());
             }
@@ -187,88 +156,78 @@ int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, 
 }
 
 int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case) {
-    return guarded(2, [&] {
-        construct(asperities, "asperities", [&] {
-            require(surface, 2, "surface");
-            const rsc::Case& settings = settings_of(a_case);
-            return share(rsc::make_ground(surface->surface, settings, threads_of(settings)));
-        });
+    return constructed(2, asperities, "asperities", [&] {
+        require(surface, 2, "surface");
+        const rsc::Case& settings = settings_of(a_case);
+        return share(rsc::make_surface_model(surface->surface, settings, threads_of(settings)));
     });
 }
 
 int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization) {
-    return guarded(2, [&] {
-        construct(asperities, "asperities", [&] {
-            const rsc::Case& settings = settings_of(a_case);
-            require_sound(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
-            return share(rsc::make_ground(settings, realization, threads_of(settings)));
-        });
+    return constructed(2, asperities, "asperities", [&] {
+        const rsc::Case& settings = settings_of(a_case);
+        require_sound(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
+        return share(rsc::make_surface_model(settings, realization, threads_of(settings)));
     });
 }
 
 int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z, const double* radius,
                             const double* kappa1, const double* kappa2, const double* angle, const double* biharmonic) {
-    return guarded(0, [&] {
-        construct(asperities, "asperities", [&] {
-            if (n < 1 || n > kMost) refuse(2, "n", "must be from 1 to 2147483647");
-            if ((kappa1 || kappa2 || angle) && !(kappa1 && kappa2 && angle)) {
-                refuse(!kappa1 ? 7 : !kappa2 ? 8 : 9, "curvature", "is missing: kappa1, kappa2 and angle go together");
+    return constructed(0, asperities, "asperities", [&] {
+        if (n < 1 || n > kMost) refuse(2, "n", "must be from 1 to 2147483647");
+        if ((kappa1 || kappa2 || angle) && !(kappa1 && kappa2 && angle)) {
+            refuse(!kappa1 ? 7 : !kappa2 ? 8 : 9, "curvature", "is missing: kappa1, kappa2 and angle go together");
+        }
+        rsc::SurfaceModel model;
+        rsc::Asperities& a = model.asperities;
+        const auto take = [n](std::vector<double>& to, const double* from, int argument, const char* name) {
+            require_finite(from, n, argument, name);
+            to.assign(from, from + n);
+        };
+        take(a.x, x, 3, "x");
+        take(a.y, y, 4, "y");
+        take(a.z, z, 5, "z");
+        take(a.radius, radius, 6, "radius");
+        require_positive(a.radius, 6, "radius");
+        if (kappa1) {
+            take(a.kappa1, kappa1, 7, "kappa1");
+            take(a.kappa2, kappa2, 8, "kappa2");
+            take(a.angle, angle, 9, "angle");
+            require_positive(a.kappa2, 8, "kappa2");
+            for (std::size_t k = 0; k < a.size(); ++k) {
+                if (!(a.kappa1[k] >= a.kappa2[k]))
+                    refuse(7, "kappa1", ("must be at least kappa2: entry " + std::to_string(k) + " is less").c_str());
             }
-            rsc::Ground ground;
-            rsc::Asperities& a = ground.asperities;
-            const auto take = [n](std::vector<double>& to, const double* from, int argument, const char* name) {
-                require_finite(from, n, argument, name);
-                to.assign(from, from + n);
-            };
-            take(a.x, x, 3, "x");
-            take(a.y, y, 4, "y");
-            take(a.z, z, 5, "z");
-            take(a.radius, radius, 6, "radius");
-            require_positive(a.radius, 6, "radius");
-            if (kappa1) {
-                take(a.kappa1, kappa1, 7, "kappa1");
-                take(a.kappa2, kappa2, 8, "kappa2");
-                take(a.angle, angle, 9, "angle");
-                require_positive(a.kappa2, 8, "kappa2");
-                for (std::size_t k = 0; k < a.size(); ++k) {
-                    if (!(a.kappa1[k] >= a.kappa2[k]))
-                        refuse(7, "kappa1", ("must be at least kappa2: entry " + std::to_string(k) + " is less").c_str());
-                }
-            }
-            if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
-            require_apart(a);
-            ground.site = rsc::list_site(a, {}, "the asperities");
-            ground.list = true;
-            return share(std::move(ground));
-        });
+        }
+        if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
+        require_apart(a);
+        model.domain = rsc::list_domain(a, {}, "the asperities");
+        model.list = true;
+        return share(std::move(model));
     });
 }
 
 int32_t rsc_asperities_copy(rsc_asperities** asperities, const rsc_asperities* original) {
-    return guarded(0, [&] {
-        construct(asperities, "asperities", [&] {
-            require(original, 2, "original");
-            return new rsc_asperities(*original);
-        });
+    return constructed(0, asperities, "asperities", [&] {
+        require(original, 2, "original");
+        return new rsc_asperities(*original);
     });
 }
 
-int32_t rsc_asperities_destroy(rsc_asperities** asperities) {
-    return guarded(0, [&] { destroy(asperities, "asperities"); });
-}
+int32_t rsc_asperities_destroy(rsc_asperities** asperities) { return destroyed(asperities, "asperities"); }
 
 int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
     return guarded(0, [&] {
         require(asperities, 1, "asperities");
         require(n, 2, "n");
-        put(n, asperities->ground->asperities.size());
+        put(n, asperities->model->asperities.size());
     });
 }
 
 int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius) {
     return guarded(0, [&] {
         require(asperities, 1, "asperities");
-        const rsc::Asperities& a = asperities->ground->asperities;
+        const rsc::Asperities& a = asperities->model->asperities;
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(x, a.x);
         copy_to(y, a.y);
@@ -280,7 +239,7 @@ int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* 
 int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle) {
     return guarded(0, [&] {
         require(asperities, 1, "asperities");
-        const rsc::Asperities& a = asperities->ground->asperities;
+        const rsc::Asperities& a = asperities->model->asperities;
         if (a.kappa1.empty()) refuse(1, "asperities", "were given without curvatures");
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(kappa1, a.kappa1);

@@ -1,8 +1,5 @@
 #include "api/tickets.h"
 
-#include <mutex>
-#include <unordered_map>
-
 #include "api/guard.hpp"
 
 namespace rsc::api {

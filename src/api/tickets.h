@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/* What is behind a ticket. */
+/* The kinds of objects behind tickets. */
 #define RSC_KIND_LIST(X)                    \
     X(RSC_KIND_CASE, 1, "a case")           \
     X(RSC_KIND_SURFACE, 2, "heights")       \

@@ -1,12 +1,6 @@
 // A case: every key of the namelist, with its value. The registry (registry.hpp) names, checks, prints and describes them.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "contact/indentation.hpp"
 #include "rough/form.hpp"
 #include "rough/measured.hpp"
@@ -15,7 +9,7 @@
 namespace rsc {
 
 // Enumerations with the spellings of their values, in their order. Those of the contact stand in contact/indentation.hpp.
-// What source = 'spectrum' keeps of the map the spectrum came from.
+// Properties of the measured map that surfaces with source = 'spectrum' keep.
 enum class Twins { radial, directional };
 inline constexpr std::array kTwinsNames = {"radial", "directional"};
 enum class TwinHeights { gaussian, measured };
@@ -124,7 +118,7 @@ struct Case {
     static constexpr double kInfinity = __builtin_huge_val();
 };
 
-// What solver%model means for this case, and why: a model is either asked for, or `auto` chose it.
+// The model that solves this case: the one asked for by solver%model, or the choice of 'auto' and its reason.
 struct ModelChoice {
     Model model;           // asperities or elements
     const char* why = "";  // of `auto`, for the screen

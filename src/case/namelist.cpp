@@ -1,7 +1,5 @@
 #include "case/namelist.hpp"
 
-#include <algorithm>
-
 namespace rsc::namelist {
 namespace {
 
@@ -14,7 +12,7 @@ bool is_name(int c) { return is_letter(c) || is_digit(c) || c == '_' || c == '%'
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 bool is_blank(int c) { return c == ' ' || c == '\t'; }
 bool is_line_end(int c) { return c == '\n' || c == '\r'; }
-// What ends a value. A comment does, too.
+// Characters that end a value; '!' begins a comment.
 bool is_separator(int c) { return is_blank(c) || is_line_end(c) || c == ',' || c == ';' || c == '/' || c == '!' || c == kEnd; }
 
 bool is_infinity_or_nan(std::string_view word) {
@@ -120,7 +118,8 @@ private:
             }
             if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$')
                 return;  // a comment to the end, or a group that was complained about
-            fault(i, "'" + excerpt(i) + "' after the last group would be ignored: write keys between &name and '/', remarks behind '!'");
+            fault(i,
+                  "'" + excerpt(i) + "' after the last group would be ignored: write keys between &name and '/', and comments after '!'");
             return;
         }
     }
@@ -345,7 +344,7 @@ private:
         }
     }
 
-    // Whether the separator just skipped went over the end of a line and stopped at a comma.
+    // True if the separator just skipped went over the end of a line and stopped at a comma.
     bool passed_line_end(std::size_t start) const {
         if (peek() != ',' || at_eol_) return false;
         std::size_t i = at_;
@@ -435,7 +434,7 @@ private:
         return false;
     }
 
-    // Whether a key, perhaps with a subscript, and '=' stand here.
+    // True if a key, with or without a subscript, and '=' follow.
     bool key_follows() const {
         std::size_t i = at_;
         const auto look = [&](std::size_t k) { return k < text_.size() ? static_cast<int>(static_cast<unsigned char>(text_[k])) : kEnd; };

@@ -5,14 +5,11 @@
 // do not say where it stands.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "std.hpp"
 
 namespace rsc::namelist {
 
-// Where something stands in the text; both count from 1, line 0 means nowhere.
+// A place in the text, counted from 1; line 0 means no place.
 struct Position {
     int line = 0, column = 0;
 };

@@ -1,9 +1,5 @@
 #include "case/namelist_value.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <limits>
-
 #include "case/namelist.hpp"
 
 namespace rsc::namelist {

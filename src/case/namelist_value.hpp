@@ -1,10 +1,7 @@
 // Values of namelist input: from their spelling and back. Both ways are independent of the locale and exact for doubles.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
+#include "std.hpp"
 
 namespace rsc::namelist {
 

@@ -1,8 +1,5 @@
 #include "case/options.hpp"
 
-#include <charconv>
-#include <string_view>
-
 #include "case/namelist.hpp"
 #include "error.hpp"
 #include "version.h"
@@ -134,7 +131,7 @@ Options parse_options(int argc, const char* const* argv) {
         if (paths.size() < 2) refuse("--merge needs two result files or more");
         if (!options.output) refuse("--merge needs --output FILE, the result to write");
         if (!options.set.empty() || options.check || options.list || options.member || options.resume || options.show_case)
-            refuse("--merge computes nothing: it goes with --output, --quiet and --progress alone");
+            refuse("--merge can only be combined with --output, --quiet and --progress");
         options.merge = paths;
         return options;
     }
@@ -153,16 +150,16 @@ std::string usage_text() {
            "  -s, --set 'group%key=value'      override one key, the value in namelist syntax; repeatable\n"
            "      --check                      read and check the case, print it with every default, run nothing\n"
            "      --case FILE.nc               print the case inside a result file\n"
-           "      --describe [group[%key]]     every key: type, unit, default, bounds, meaning\n"
-           "      --list                       the members of a &study, one a line\n"
+           "      --describe [group[%key]]     describe keys: type, unit, default, bounds, meaning\n"
+           "      --list                       list the members of a &study\n"
            "      --member K                   run only member K of a &study\n"
-           "      --resume                     go on with an interrupted campaign, or add realizations to a finished one\n"
-           "      --merge FILE.nc FILE.nc ...  put results of parts of a campaign together, into the FILE of --output\n"
+           "      --resume                     resume an interrupted campaign, or add realizations to a finished one\n"
+           "      --merge FILE.nc FILE.nc ...  merge results of parts of a campaign into the FILE of --output\n"
            "      --progress auto|always|never show progress on stderr (auto: on a terminal)\n"
            "  -q, --quiet                      no table on stdout\n"
-           "  -h, --help                       this text\n"
-           "      --man                        the manual page, for man: rsc --man | man -l -\n"
-           "      --version                    the version\n"
+           "  -h, --help                       print this text\n"
+           "      --man                        print the manual page: rsc --man | man -l -\n"
+           "      --version                    print the version\n"
            "Exit status: 0 done, 1 ran and failed, 2 refused before running, 130/143 stopped by a signal.\n";
 }
 

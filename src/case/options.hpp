@@ -11,9 +11,7 @@
 //     if (options.list) ...                                       // expand_study(read.settings, *read.study), case/study.hpp
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 

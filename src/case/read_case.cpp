@@ -1,10 +1,5 @@
 #include "case/read_case.hpp"
 
-#include <algorithm>
-#include <fstream>
-#include <iostream>
-#include <iterator>
-
 #include "error.hpp"
 
 namespace rsc {
@@ -13,7 +8,7 @@ namespace {
 using namelist::Fault;
 using namelist::Position;
 
-// Where a key, or an element of it, was given; nowhere when it was not.
+// The place where a key, or an element of it, was given; line 0 when it was not.
 Position place(const Ledger& ledger, const Problem& problem) {
     for (const Key* key : problem.keys) {
         const Ledger::Entry* entry = ledger.find(*key);
@@ -34,7 +29,7 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     });
 }
 
-// Whether the study varies a key that the problem names. Then the members, each of which is checked as a whole, show whether there is one;
+// True if the study varies a key that the problem names. Each member is checked as a whole later, so the problem is reported there;
 // the case itself is not run.
 bool varied(const Study& study, const Problem& problem) {
     return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
@@ -134,7 +129,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
         throw Error(Failure::bad_input, name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
-        throw Error(Failure::bad_input, name + ": is a NetCDF file; the case in a result of rsc runs by the file's name: rsc FILE.nc");
+        throw Error(Failure::bad_input, name + ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
     faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
@@ -176,9 +171,8 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     }
     const auto& indentation = read.settings.indentation;
     if (indentation.levels.empty() && indentation.control == Control::separation && indentation.start < indentation.stop)
-        read.warnings.push_back(name + ": &indentation: start = " + get_key(read.settings, "indentation%start") +
-                                " is less than stop = " + get_key(read.settings, "indentation%stop") +
-                                ": separations grow, the sphere is drawn back from level to level");
+        read.warnings.push_back(name + ": &indentation: start = " + get_key(read.settings, "indentation%start") + " is less than stop = " +
+                                get_key(read.settings, "indentation%stop") + ": separations increase, so that the levels are an unloading");
     return read;
 }
 

@@ -1,12 +1,6 @@
 // From text to a checked case.
 #pragma once
 
-#include <iosfwd>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "case/case.hpp"
 #include "case/options.hpp"
 #include "case/registry.hpp"

@@ -1,8 +1,5 @@
 #include "case/registry.hpp"
 
-#include <array>
-#include <cmath>
-
 #include "case/namelist_value.hpp"
 #include "contact/indenter/shapes.hpp"
 

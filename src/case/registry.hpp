@@ -2,15 +2,6 @@
 // result file and set and get by name.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include "case/case.hpp"
 #include "case/namelist.hpp"
 
@@ -20,12 +11,12 @@ namespace rsc {
 // erf(sqrt(2) p/(E* h')).
 inline constexpr double kClosingPressure = 1;
 
-// What another value of a key may change in a result: its numbers; only how the file holds them; nothing at all.
+// The effect of a key on a result: on its numbers, only on how the file stores them, or none.
 enum class Changes { numbers, file, nothing };
 
 enum class Type { logical, integer, long_integer, real, string, choice };
 
-// What a real or integer may be. NaN never passes; Infinity only where `infinity` says so.
+// Bounds of a real or integer. NaN is always refused, Infinity unless `infinity` is set.
 struct Bounds {
     double low = -Case::kInfinity, high = Case::kInfinity;
     bool open = false;      // low itself is excluded
@@ -41,7 +32,7 @@ struct ChoiceSlot {
     void (*set)(void*, int);
 };
 
-// Where a key lives in a Case: the value, the first of `size` values, or a list.
+// The place of a key in a Case: the value, the first of `size` values, or a list.
 using Slot = std::variant<bool*, int*, std::int64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*, ChoiceSlot>;
 
 struct Key {
@@ -75,7 +66,7 @@ std::string keys_named(std::string_view name);
 
 // --- values by name -----------------------------------------------------------------------------------------------------------
 
-// Which elements of which keys have been given, and where: for duplicates and for the position of a later complaint.
+// The elements of keys that have been given, with their places: finds duplicates, and gives messages their position.
 class Ledger {
 public:
     // The elements given are remembered per key; for a list the values, too, until finish().
@@ -111,7 +102,7 @@ std::string get_key(const Case& settings, std::string_view name);
 
 // --- a whole case -------------------------------------------------------------------------------------------------------------
 
-// What is wrong with a case as a whole or with single values, and which keys ("surface%n") that concerns, the first foremost.
+// Something wrong with a case or a single value, and the keys ("surface%n") it concerns, the most important first.
 struct Problem {
     std::vector<const Key*> keys;
     long element;      // 1-based for arrays, 0 otherwise
@@ -129,5 +120,8 @@ std::string effective_namelist(const Case& settings);
 
 // Text about everything (empty name), a group or a group%key. Throws Error(bad_input) for an unknown one.
 std::string describe(std::string_view name);
+
+// The manual page rsc(1) in roff, made of what --help and --describe print.
+std::string manual_page();
 
 }  // namespace rsc

@@ -1,14 +1,12 @@
-// What a case must be, key by key and as a whole.
-#include <algorithm>
-#include <cmath>
-#include <cstring>
+// The checks of a case, key by key and as a whole.
 
+#include "case/case.hpp"
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
-#include "rough/magnitude.hpp"
+#include "rough/asperities.hpp"
 
 namespace rsc {
 namespace {
@@ -111,16 +109,16 @@ private:
         if (std::isfinite(c_.solids.hardness)) {
             if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]))
                 complain({"solids%hardness", "solids%E"},
-                         "hardness: body 1 carries the asperities that yield, E(1) = Infinity makes it rigid");
+                         "hardness: the asperities of body 1 yield, so that it must not be rigid (E(1) = Infinity)");
             if (c_.solids.friction > 0)
                 complain({"solids%hardness", "solids%friction"},
-                         "hardness: friction is computed for elastic asperities only; give one of the two");
+                         "hardness: not available together with friction, which needs elastic asperities");
             const char* elements = by_elements(c_) ? "solver%model" : "compare%levels";
             if (by_elements(c_) || c_.compare.listed()) {
                 if (c_.solids.size_effect > 0)
                     complain(
                         {"solids%size_effect", elements},
-                        "size_effect: elements have no radius to scale the hardness by; give the hardness that holds for asperities of "
+                        "size_effect: not available for elements, which have no radius; give the hardness that holds for asperities of "
                         "this size");
             }
         }
@@ -140,10 +138,10 @@ private:
             complain({"solids%friction", "solids%layer_thickness"}, "friction: on a body with layers it is not available yet");
         if (s.resistivity[0] > 0 || s.resistivity[1] > 0)
             complain({"solids%resistivity", "solids%layer_thickness"},
-                     "resistivity: the stiffness of a body with layers says nothing of its conductance; this is not available yet");
+                     "resistivity: not available yet for a body with layers, whose conductance does not follow from its stiffness");
         if (c_.indentation.boundary == Boundary::periodic && !by_elements(c_))
             complain({"solids%layer_thickness", "solver%model"},
-                     "layer_thickness: asperities between two flats with layers are not available yet; model = 'elements' has them");
+                     "layer_thickness: with boundary = 'periodic' not available yet for asperities; use model = 'elements'");
     }
 
     void check_surface() {
@@ -155,7 +153,7 @@ private:
             if (c_.run.realizations > 1 && !several)
                 complain(
                     {"run%realizations", "surface%source"},
-                    "realizations: a surface that is read is one realization (several height maps: a pattern such as maps/*.gwy as the file)");
+                    "realizations: a surface that is read is one realization; for several height maps give a pattern such as maps/*.gwy as the file");
             return;
         }
         if (!(s.kurtosis > s.skewness * s.skewness + 1))
@@ -165,10 +163,10 @@ private:
         if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
         if (s.twin_heights == TwinHeights::measured && (s.skewness != 0 || s.kurtosis != 3))
             complain({"surface%twin_heights", "surface%skewness", "surface%kurtosis"},
-                     "twin_heights = 'measured': gives the heights their distribution; skewness and kurtosis would, too");
+                     "twin_heights = 'measured': excludes skewness and kurtosis, because the file gives the height distribution");
         if (s.twins == Twins::directional && s.aspect != 1)
             complain({"surface%twins", "surface%aspect"},
-                     "twins = 'directional': the spectrum has its direction; aspect would give it another");
+                     "twins = 'directional': excludes aspect, because the spectrum has its own direction");
         if (s.source == Source::spectrum) return;
         if (s.twins != Twins::radial) complain({"surface%twins", "surface%source"}, "twins = 'directional': needs source = 'spectrum'");
         if (s.twin_heights != TwinHeights::gaussian)
@@ -200,12 +198,12 @@ private:
             complain({key, "surface%source"}, what + ": elements need a surface, and source = 'asperities' has only summits");
         if (elements && compare)
             complain({"compare%levels", "solver%model"},
-                     "levels: &compare sets elements beside the asperity model; with model = 'elements' there is nothing to compare");
+                     "levels: &compare compares asperities with elements; with model = 'elements' there is nothing to compare");
         if (elements && c_.solver.method != Method::automatic)
-            complain({"solver%method", "solver%model"}, "method = " + get_key(c_, "solver%method") +
-                                                            ": is a method of model = 'asperities'; with elements only 'auto' is possible");
+            complain({"solver%method", "solver%model"},
+                     "method = " + get_key(c_, "solver%method") + ": is for model = 'asperities'; with elements only 'auto' is possible");
         if (c_.solver.interaction != Interaction::point)
-            complain({key, "solver%interaction"}, what + ": interaction = 'none' is for asperities; elements always act on each other");
+            complain({key, "solver%interaction"}, what + ": interaction = 'none' is for asperities; elements always interact");
         const double shortest = c_.surface.L_lambda_s * std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect));
         if (c_.surface.source == Source::synthetic && c_.elements.points_per_wave * shortest > 32768)
             complain({"elements%points_per_wave", "surface%L_lambda_s"},
@@ -242,7 +240,7 @@ private:
             complain({"solids%R", "indenter%shape"}, "R(1) = " + namelist::from_real(c_.solids.R[0]) +
                                                          ": a curved body 1 is for shape = 'sphere' and 'paraboloid'; give Infinity");
         if (c_.indentation.selection == Selection::paper)
-            complain({"indentation%selection", "indenter%shape"}, "selection = 'paper': takes the asperities in a circle under a sphere");
+            complain({"indentation%selection", "indenter%shape"}, "selection = 'paper': is defined for a sphere only");
     }
 
     void check_levels() {
@@ -281,9 +279,9 @@ private:
                      "boundary = 'periodic': is for two flats, and R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
         if (periodic && i.selection == Selection::paper)
             complain({"indentation%selection", "indentation%boundary"},
-                     "selection = 'paper': takes the asperities in a circle under the sphere, and two flats have no sphere");
+                     "selection = 'paper': is defined for a sphere only, not for two flats");
         if (periodic && c_.surface.source == Source::asperities && !c_.surface.L)
-            complain({"surface%L", "indentation%boundary"}, "L: a list of asperities does not say with which period it repeats; give L");
+            complain({"surface%L", "indentation%boundary"}, "L: give the period of the list of asperities");
         if (i.control == Control::pressure && !periodic)
             complain({"indentation%control", "indentation%boundary"},
                      "control = 'pressure': a nominal pressure needs a nominal area, that of boundary = 'periodic'");
@@ -298,8 +296,8 @@ private:
             complain(
                 {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
                 "a pressure of " + namelist::from_real(most) +
-                    " E* sqrt(2 m2): from 1 on less than 5 % of the area is gap, and no asperities are left to speak of; solver%model = "
-                    "'elements' goes on until the gap is closed");
+                    " E* sqrt(2 m2): from 1 on less than 5 % of the area is gap, too little for the asperity model; use solver%model = "
+                    "'elements', which is valid up to full contact");
     }
 
     void check_sizes() {
@@ -316,8 +314,7 @@ private:
             complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " + count(levels) +
                                                    " levels more than " + count(kMostLevelValues) + " values of each curve");
         if (c_.solids.friction > 0 && c_.run.realizations > 1)
-            complain({"run%realizations"},
-                     "realizations: with solids%friction > 0 the loops of one realization are written; give friction = 0");
+            complain({"run%realizations"}, "realizations: only one with solids%friction > 0");
         if (double(c_.run.first_realization) + c_.run.realizations - 1 > 2147483647.0)
             complain({"run%first_realization", "run%realizations"}, "first_realization: the last realization would be beyond 2147483647");
         if (c_.output.file.empty()) complain({"output%file"}, "file: must not be empty");
@@ -338,6 +335,27 @@ void require_valid(const Case& settings) {
     for (const Problem& problem : check_case(settings))
         text += (text.empty() ? "&" : "\n&") + std::string(problem.keys.front()->group) + ": " + problem.text;
     if (!text.empty()) throw Error(Failure::bad_input, text);
+}
+
+ModelChoice model_of(const Case& settings) {
+    if (settings.solver.model != Model::automatic) return {settings.solver.model};
+    switch (settings.surface.source) {
+        case Source::synthetic:
+        case Source::spectrum: return {Model::asperities, "the surface is synthetic"};
+        case Source::asperities: return {Model::asperities, "only summits are given"};
+        case Source::heights: break;
+    }
+    // Keys that elements do not support.
+    if (settings.compare.listed()) return {Model::asperities, "compare%levels compares them with elements"};
+    if (settings.solids.friction > 0) return {Model::asperities, "solids%friction needs them"};
+    if (settings.solids.hardness < Case::kInfinity && settings.solids.size_effect > 0)
+        return {Model::asperities, "solids%size_effect needs them"};
+    if (settings.asperities.law != LawKind::hertz || settings.asperities.curvature != Curvature::geometric)
+        return {Model::asperities, "&asperities is set"};
+    if (settings.solver.method != Method::automatic) return {Model::asperities, "solver%method needs them"};
+    if (settings.solver.interaction != Interaction::point) return {Model::asperities, "solver%interaction needs them"};
+    if (settings.indentation.selection != Selection::overlap) return {Model::asperities, "indentation%selection needs them"};
+    return {Model::elements, "the heights are read from a file"};
 }
 
 }  // namespace rsc

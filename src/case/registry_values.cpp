@@ -1,7 +1,4 @@
 // Values by name: what an assignment of a namelist does to a Case, and the way back.
-#include <algorithm>
-#include <cctype>
-#include <limits>
 
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
@@ -42,7 +39,7 @@ std::string unit_written(const Item& item) {
 std::string likely_cause(const Assignment& a, const Item& item) {
     const std::string& text = item.text;
     if (item.quoted || text.empty()) return {};
-    if (text.front() == '#') return "; remarks begin with '!'";
+    if (text.front() == '#') return "; comments begin with '!'";
     const auto digits = [](const std::string& t) { return !t.empty() && t.find_first_not_of("0123456789") == std::string::npos; };
     for (std::size_t k = 1; k < a.items.size(); ++k) {
         const Item& before = a.items[k - 1];
@@ -141,7 +138,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     }
     // gfortran takes a text without quotes when a digit or a repeat count comes first.
     if (!item.quoted && (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
-        return "a text must stand in quotes, found " + quote(item);
+        return "text must be in quotes, found " + quote(item);
     std::string text = trimmed(item.text);
     if (static_cast<long>(text.size()) > key.length) return "a text of more than " + std::to_string(key.length) + " characters";
     if (key.type == Type::string) {
@@ -208,10 +205,10 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         std::string problem;
         if (is_text) {
             if (!a.subscript->section)
-                problem = "a part of a text is (first:last)";
+                problem = "a substring needs a subscript (first:last)";
             else
                 problem = resolve(a, key.length, walk, "the text");
-            if (problem.empty() && walk.step != 1) problem = "a part of a text has no step";
+            if (problem.empty() && walk.step != 1) problem = "a substring must not have a step";
         } else if (key.size == 1) {
             problem = "this key is no array: it takes no subscript";
         } else {

@@ -1,7 +1,5 @@
 #include "case/study.hpp"
 
-#include <algorithm>
-
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"

@@ -1,10 +1,6 @@
 // A &study: lists of values for keys, and the cases they make.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "case/case.hpp"
 #include "case/namelist.hpp"
 
@@ -35,7 +31,7 @@ inline constexpr std::size_t kMostLevels = 10'000'000;  // of indentation%levels
 // Reads a &study group; faults name the place.
 Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& faults);
 
-// What is wrong with the study's keys, values and lengths, tried one by one on `base`.
+// Faults in the study's keys, values and lengths, each tried alone on `base`.
 std::vector<namelist::Fault> check_study(const Case& base, const Study& study);
 
 // All members in order, each of them checked (check_case). Throws Error(bad_input) naming the members that are wrong.

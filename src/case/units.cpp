@@ -1,12 +1,5 @@
 #include "case/units.hpp"
 
-#include <cctype>
-#include <clocale>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <mutex>
-
 #include <locale.h>
 #include <udunits2.h>
 

@@ -1,13 +1,13 @@
 // Units as UDUNITS-2 spells and knows them. May be called by several threads.
 #pragma once
 
-#include <string>
+#include "std.hpp"
 
 namespace rsc {
 
 enum class Quantity { length, force };
 
-// What is wrong with `text` as the unit of a quantity; empty when it is one. '1' and '' (pure numbers, for calculations without
+// An error message if `text` is no unit of the quantity, otherwise empty. '1' and '' (pure numbers, for calculations without
 // dimensions) are taken for any quantity. Units whose zero lies elsewhere ("m @ 5") are refused.
 std::string unit_problem(const std::string& text, Quantity quantity);
 

@@ -1,7 +1,5 @@
 #include "contact/answers.hpp"
 
-#include <cmath>
-
 namespace rsc {
 
 double conductance_length(double stiffness, double E_star) { return 0 - 2 * stiffness / E_star; }

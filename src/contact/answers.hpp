@@ -1,4 +1,4 @@
-// What a contact answers besides force and area: stiffness, energy, lateral force, conductance.
+// Results of a contact besides force and area: stiffness, energy, lateral force, conductance.
 #pragma once
 
 #include "contact/contact.hpp"

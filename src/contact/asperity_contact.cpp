@@ -1,11 +1,5 @@
 #include "contact/asperity_contact.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
-
 #include "contact/candidates.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/interaction/mesh.hpp"
@@ -46,7 +40,7 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
     return moved_summits(asperities, indenter);
 }
 
-// How far a tip may move before the summits of the difference are others.
+// Distance that a tip may move before the summits of the difference are searched again.
 double summits_keep(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     double curvature = 0;
     for (std::size_t i = 0; i < asperities.kappa1.size(); ++i) curvature += std::sqrt(asperities.kappa1[i] * asperities.kappa2[i]);
@@ -443,7 +437,7 @@ double AsperityContact::stiffness() {
     return slope / (1 + shift() * slope);
 }
 
-// What the shift c adds to F'BF/2 is no energy of the bodies: c N^2/2.
+// The shift c adds c N^2/2 to F'BF/2, which is no energy of the bodies.
 double AsperityContact::energy() const {
     if (impl_->solution.v.empty()) return 0;
     double N = 0;

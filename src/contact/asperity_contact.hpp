@@ -1,8 +1,6 @@
 // The asperities of a rough surface pressed by an indenter: the deterministic multi-asperity model (paper, section 4).
 #pragma once
 
-#include <memory>
-
 #include "contact/contact.hpp"
 #include "contact/touching.hpp"
 #include "rough/asperities.hpp"

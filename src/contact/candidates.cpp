@@ -1,8 +1,5 @@
 #include "contact/candidates.hpp"
 
-#include <algorithm>
-#include <limits>
-
 namespace rsc {
 
 Candidates select_candidates(Ranking& ranking, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,

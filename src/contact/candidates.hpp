@@ -1,9 +1,6 @@
 // The asperities a level is solved for.
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include "contact/indentation.hpp"
 #include "contact/interaction/kernel.hpp"
 #include "contact/law/law.hpp"

@@ -3,11 +3,6 @@
 // cells of all others.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include "contact/period.hpp"
 
 namespace rsc {

@@ -1,11 +1,6 @@
 // The contact of a rough surface with an indenter, level by level, whatever it is made of: asperities (asperity_contact.hpp) or elements.
 #pragma once
 
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <vector>
-
 #include "contact/level.hpp"
 
 namespace rsc {
@@ -46,7 +41,7 @@ public:
         forget_levels();
     }
 
-    // Whether a level depends on those before it. Energy is then what would come back, and stiffness that of unloading.
+    // True if a level depends on those before it. energy() is then the recoverable energy, and stiffness() that of unloading.
     virtual bool path_dependent() const { return false; }
     // All that accepted levels leave behind, as numbers that only a contact made alike understands; empty where nothing stays.
     virtual std::vector<double> memory() const { return {}; }
@@ -54,13 +49,13 @@ public:
     // speak of that level, and later levels start from it. The tip is to be where it was.
     virtual void recall(const std::vector<double>& memory, const Level* level) = 0;
 
-    // How far each asperity stays pressed down without force [length]; empty where nothing does.
+    // Residual depth of each asperity without force [length]; empty if none yielded.
     virtual std::vector<double> residual_depths() const { return {}; }
     // Elements: the points that yielded, and how far each stays lowered.
     virtual ResidualProfile residual_profile() const { return {}; }
 
 protected:
-    // What a model keeps of earlier levels.
+    // State that a model keeps of earlier levels.
     virtual void forget_levels() = 0;
 
     // A trial: the answer at Z0, which stiffness() and energy() then speak of.
@@ -80,17 +75,17 @@ protected:
     }
     // dN/dZ0 of the last trial as solve() counts separations, good enough for Newton's method on Z0.
     virtual double slope();
-    // The last level solved is accepted: a model with a path stores it, and adds to the level the work that does not come back.
+    // The last level solved is accepted: a model with a path stores it, and adds the plastic work to the level.
     virtual void accept(Level& level) { (void)level; }
 
     // Between flats that repeat, solve() counts separations from where no force raises the surface (Kernel::shift()): the level at
     // the separation Z0 of the mean planes is its Z0 - shift() N. first_touch() is the same.
     virtual double shift() const { return 0; }
 
-    // Separations from which on down nothing is left of the gap, and solve() has no answer.
+    // The separation of full contact: at and below it solve() has no solution.
     virtual double closed() const { return -std::numeric_limits<double>::infinity(); }
 
-    // What force control asks of a model.
+    // Functions of a model that force control needs.
     virtual double tolerance() const = 0;                         // relative, of the force
     virtual double force_at_most(double depth) = 0;               // pressed in so far from the first touch; a bound, exact for one place
     virtual std::optional<double> likely_separation() const = 0;  // where to begin; none: near first touch

@@ -1,7 +1,5 @@
 #include "contact/contact_curve.hpp"
 
-#include <cmath>
-
 namespace rsc {
 
 // The contact whose last level lies nearer; one that has no level yet is taken first.

@@ -1,8 +1,6 @@
 // The load curve of a contact, level by level, at any order of approaches.
 #pragma once
 
-#include <memory>
-
 #include "contact/contact.hpp"
 #include "contact/friction.hpp"
 #include "contact/load_curve.hpp"
@@ -37,7 +35,7 @@ private:
     long levels_ = 0, failed_ = 0;
 };
 
-// What friction does at the spots of the level at hand: q_i = -m sum over the pieces of u' [f_i(s_end) - f_i(s_begin)], and the stick
+// Friction at the spots of the present level: q_i = -m sum over the pieces of u' [f_i(s_end) - f_i(s_begin)], and the stick
 // radius, that of the spot at stick_approach() (0 where all of it slips): its area sticks, the rest of the spot slips.
 struct SpotSlip {
     int asperity = 0;  // 0-based, in increasing order: the contacts of the level at history.approach()

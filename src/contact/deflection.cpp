@@ -1,9 +1,5 @@
 #include "contact/deflection.hpp"
 
-#include <array>
-#include <cmath>
-#include <numbers>
-
 namespace rsc {
 namespace {
 

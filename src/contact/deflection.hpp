@@ -1,4 +1,4 @@
-// How far the contact forces lower the surface between and under the spots.
+// Deflection of the surface by the contact forces, between and under the spots.
 #pragma once
 
 #include "contact/interaction/kernel.hpp"
@@ -14,7 +14,7 @@ double spot_deflection(double force, double radius, double distance, double E_st
 // The sum over the contacts of a level at (x, y) [length], positive down. Spots that are no circles, and pressures that are not
 // Hertz's (laws 'elliptic', 'fourth_order'), are taken as Hertz's over the circle of the same area: exact far away. Of pixels it is Love's. Layers are
 // felt by a spot as by a point.
-// Where everything repeats, images act as points and the mean of the deflection is 0: it is that from the mean plane.
+// With periodic boundaries images act as points, and the deflection is measured from the mean plane: its mean is 0.
 double deflection(const Level& level, const Kernel& kernel, double x, double y);
 
 }  // namespace rsc

@@ -1,10 +1,5 @@
 #include "contact/element_contact.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <deque>
-#include <limits>
-
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"
 #include "contact/pressed_out.hpp"
@@ -236,7 +231,7 @@ double ElementContact::stiffness() {
     return slope / (1 + shift() * slope);
 }
 
-// What the shift adds to p'Kp/2 is no energy of the bodies.
+// The part of p'Kp/2 that comes from the shift is no energy of the bodies.
 double ElementContact::energy() const {
     const Impl& my = *impl_;
     const double pixel = my.heights.dx * my.heights.dy;

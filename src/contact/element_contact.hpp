@@ -5,8 +5,6 @@
 // the level is accepted. Then H times the volume pressed out is the work lost, and what is left is elastic: W = p'Kp/2 comes back.
 #pragma once
 
-#include <memory>
-
 #include "contact/contact.hpp"
 #include "rough/surface.hpp"
 

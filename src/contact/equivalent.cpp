@@ -1,8 +1,5 @@
 #include "contact/equivalent.hpp"
 
-#include <limits>
-#include <string>
-
 #include "error.hpp"
 
 namespace rsc {

@@ -1,9 +1,5 @@
 #include "contact/expected_error.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "contact/expected_error_table.hpp"
 
 namespace rsc {

@@ -11,7 +11,7 @@ namespace rsc {
 // A bound on N above this makes a level out_of_validity.
 inline constexpr double kMuchError = 0.1;
 
-// What LevelValues::error_cause names, in words; empty for 0.
+// LevelValues::error_cause in words; empty for 0.
 const char* error_cause(std::int32_t cause);
 
 // Fills force_error_expected, area_error_expected and error_cause of a level whose contacts and counts are there. Nothing where nothing touches,

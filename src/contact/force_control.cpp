@@ -1,7 +1,4 @@
 // Pressing with a force: one unknown, Z0, and one equation, N(Z0) = N, more than a level at a separation.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "contact/contact.hpp"
 #include "error.hpp"
@@ -13,7 +10,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnresolved = 1e-6;  // a relative error of the force that rounding of the separation may have
 constexpr double kFarAbove = 100;     // times the force asked for
-constexpr int kPasses = 2;            // times that passing trials may lead to another solution than the answer; then answers alone lead
+constexpr int kPasses = 2;            // failures of predicted starts after which only full solves are used
 
 }  // namespace
 

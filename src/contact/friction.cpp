@@ -1,11 +1,5 @@
 #include "contact/friction.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-
 #include "error.hpp"
 
 namespace rsc {

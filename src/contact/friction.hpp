@@ -11,15 +11,14 @@
 // so that the load at the ends of the pieces, the memory of the contact, is all that is needed: no level is interpolated. A larger
 // reversal, or less load, wipes out the pieces above the point where it meets the limit.
 //
-// What it leaves out: the coupling of normal and tangential by unlike bodies (Poisson's ratio), and that the direction of slip varies
+// Not included: the coupling of normal and tangential problem for unlike bodies (Poisson's ratio), and that the direction of slip varies
 // within a spot. With slides in two directions, all that slips at a time is taken to pull in one direction, that of the spring at the
 // inner edge of the slip: the slipping part of Q has the magnitude mu [N(delta) - N(s*)] (circular disc rule for the sum). The work
 // lost is positive whatever the path; slides along one line are exact.
 #pragma once
 
-#include <vector>
-
 #include "contact/load_curve.hpp"
+#include "std.hpp"
 
 namespace rsc {
 
@@ -129,7 +128,7 @@ struct SlideCycle {
 // `steps` of the first loading, 20 or more in multiples of 10; amplitude = 0.9.
 inline constexpr double kCycleAmplitude = 0.9;
 SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, int steps);
-// How many points slide_cycle() gives, those of the first loading included.
+// Number of points of slide_cycle(), those of the first loading included.
 std::size_t slide_cycle_points(int steps);
 
 }  // namespace rsc

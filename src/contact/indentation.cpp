@@ -1,7 +1,5 @@
 #include "contact/indentation.hpp"
 
-#include <cmath>
-
 #include "error.hpp"
 
 namespace rsc {

@@ -1,9 +1,6 @@
 // A rough surface pressed by an indenter: the problem (paper, section 4).
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include "contact/indenter/shape.hpp"
 #include "contact/period.hpp"
 #include "rough/asperities.hpp"

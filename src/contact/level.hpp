@@ -1,16 +1,11 @@
 // The answer at one separation: what a contact model gives and observations, files and libraries take from it.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
 #include "contact/indentation.hpp"
 
 namespace rsc {
 
-// How a level ended. Values are those of `status` in the result file. The more serious hides the less serious, in the order converged,
+// Outcome of a level, with the values of `status` in the result file. The more serious hides the less serious, in the order converged,
 // overlapping, not_unique, out_of_validity, not_converged: that spots overlap, or that there may be other solutions, says nothing of size.
 enum class LevelStatus : std::int32_t { converged = 0, out_of_validity = 1, overlapping = 2, not_unique = 3, not_converged = 4 };
 inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping", "not_unique", "not_converged"};
@@ -44,7 +39,7 @@ struct LevelValues {
     double area_fraction = kNotComputed;       // two flats: A/A0
     double residual = 0;                       // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     double pixels_per_contact = kNotComputed;  // elements: half the area belongs to contacts of fewer pixels than this
-    // How far N and A may be from the truth (asperities: from elements; elements: from finer grids), relative; run/expected_error.hpp.
+    // Expected relative errors of N and A: of asperities against elements (contact/expected_error.hpp), of elements against finer grids.
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
     std::int32_t error_cause = 0;        // asperities: what raises that most (contact/expected_error.hpp); 0: nothing does
     double slope_ratio = kNotComputed;   // asperities: largest slope of the indenter at a contact over the surface's rms slope
@@ -60,8 +55,8 @@ struct LevelValues {
     std::int64_t overlapping_pairs = 0;                         // pairs with d < a_i + a_j
     std::int64_t beyond_law = 0;                                // contacts past the range in which the law's profile describes a summit
     double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
-    double plastic_work = kNotComputed;  // done on asperities that yielded, since the beginning, that does not come back [force length]
-    std::int32_t plastic_contacts = 0;   // contacts that yield at this level
+    double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
+    std::int32_t plastic_contacts = 0;                          // contacts that yield at this level
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
     std::int32_t iterations = 0;  // Newton steps

@@ -1,8 +1,7 @@
 // Two directions in which everything may repeat.
 #pragma once
 
-#include <cmath>
-#include <limits>
+#include "std.hpp"
 
 namespace rsc {
 

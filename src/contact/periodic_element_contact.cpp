@@ -1,9 +1,5 @@
 #include "contact/periodic_element_contact.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "contact/pixel_spots.hpp"
 #include "contact/pressed_out.hpp"
 #include "contact/solver/periodic_elements.hpp"
@@ -26,7 +22,7 @@ struct PeriodicElementContact::Impl {
 
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
         : surface(heights_),
-          own(std::isfinite(options_.hardness.H0) || !indenter_.shape->flat() ? copy(heights_) : HeightMap{}),
+          own(std::isfinite(options_.hardness.H0) || !indenter_.shape->flat() ? heights_.copy() : HeightMap{}),
           heights(own.data ? own : heights_),
           indenter(indenter_),
           options(options_),
@@ -36,13 +32,6 @@ struct PeriodicElementContact::Impl {
         place_indenter();
     }
 
-    static HeightMap copy(const HeightMap& from) {
-        HeightMap to;
-        to.allocate(from.nx, from.ny, from.nx);
-        to.dx = from.dx, to.dy = from.dy, to.x0 = from.x0, to.y0 = from.y0;
-        for (int j = 0; j < from.ny; ++j) std::copy_n(from.row(j), from.nx, to.row(j));
-        return to;
-    }
     // The heights less the indenter's face, where it has one.
     void place_indenter() {
         for (int j = 0; j < heights.ny && !indenter.shape->flat(); ++j)

@@ -1,8 +1,6 @@
 // Two rough flats that repeat, by the points of the surface: element_contact.hpp with boundary = 'periodic' (Johnson 1985, chapter 13).
 #pragma once
 
-#include <memory>
-
 #include "contact/contact.hpp"
 #include "rough/surface.hpp"
 

@@ -1,9 +1,5 @@
 #include "contact/pixel_spots.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "contact/interaction/kernel.hpp"
 #include "contact/solver/spot_blocks.hpp"
 #include "error.hpp"

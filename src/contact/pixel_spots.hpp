@@ -1,7 +1,5 @@
-// What contacts of elements have in common: what they ask of their input, and what is told of the pixels under pressure.
+// Common to contacts of elements: checks of their input, and the contact spots that the pixels under pressure form.
 #pragma once
-
-#include <vector>
 
 #include "contact/indentation.hpp"
 #include "contact/interaction/pixel_products.hpp"

@@ -1,9 +1,5 @@
-// How far the points of a surface are pressed out for good: elements that yielded.
+// Plastic residual: the permanent lowering of the points of a surface whose elements yielded.
 #pragma once
-
-#include <cstddef>
-#include <memory>
-#include <vector>
 
 #include "rough/surface.hpp"
 

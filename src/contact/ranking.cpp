@@ -1,8 +1,5 @@
 #include "contact/ranking.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace rsc {
 namespace {
 

@@ -1,10 +1,6 @@
 // Asperities by falling height under the indenter, so that the candidates of a level are the first ones.
 #pragma once
 
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 #include "contact/indentation.hpp"
 #include "rough/asperities.hpp"
 

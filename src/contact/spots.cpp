@@ -1,11 +1,5 @@
 #include "contact/spots.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-
 #include "contact/close_pairs.hpp"
 
 namespace rsc {
@@ -53,7 +47,7 @@ const Samples& samples() {
     return all;
 }
 
-// Where the border of p lies inside q. With p's point at t being centre + (major cos t, minor sin t) in its axes, the border of q is
+// The part of the border of p inside q. With p's point at t being centre + (major cos t, minor sin t) in its axes, the border of q is
 // f(t) = |c + u cos t + v sin t|^2 - 1 = 0, a trigonometric polynomial of second degree: four roots at most.
 class Border {
 public:
@@ -207,7 +201,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     for (Place& p : places)
         std::sort(p.covered.begin(), p.covered.end(),
                   [](const Cover& a, const Cover& b) { return a.from != b.from ? a.from < b.from : a.by < b.by; });
-    // What is swept along a part of the border of p, seen from the origin, where spots before number `later` do not cover it.
+    // Area swept along a part of the border of p, seen from the origin, as far as spots before number `later` do not cover it.
     const auto open_part = [&](const Place& p, const Vector& centre, Interval part, std::size_t later) {
         Ellipse e = p.ellipse;
         e.centre = centre;

@@ -4,8 +4,6 @@
 // slower than the doubles used here.
 #pragma once
 
-#include <vector>
-
 #include "contact/period.hpp"
 
 namespace rsc {
@@ -23,7 +21,7 @@ struct Spot {
 // Area of the union of the spots [length^2]: what several share is counted once. Exact to rounding; spots without area are allowed.
 // `close` (optional) receives what count_overlapping gives for circles of the spots' areas.
 // `own` (optional) receives for each spot the area that those before it do not cover.
-// Where everything repeats, spots are narrower than half a period.
+// With periodic boundaries, spots must be narrower than half a period.
 double union_area(const std::vector<Spot>& spots, long* close = nullptr, const Period& period = {}, std::vector<double>* own = nullptr);
 
 }  // namespace rsc

@@ -1,9 +1,5 @@
 #include "contact/start.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace rsc {
 namespace {
 

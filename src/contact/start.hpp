@@ -1,11 +1,6 @@
-// Where the solution of a level begins: from earlier levels where that is a safe shortcut, otherwise from the rule that defines the
+// The start of the solution of a level: predicted from earlier levels where that is safe, otherwise given by the rule that defines the
 // answer.
 #pragma once
-
-#include <cstddef>
-#include <deque>
-#include <optional>
-#include <vector>
 
 #include "contact/candidates.hpp"
 #include "contact/interaction/products.hpp"
@@ -28,7 +23,7 @@ public:
     // Penetrations to start from at Z0; candidates that no earlier level knew are taken not to touch (which is checked at the end). False: none.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
-    // Where force control may begin, if below `first_touch`.
+    // A start for force control, if there is one below `first_touch`.
     std::optional<double> likely_separation(double first_touch) const;
     std::size_t size() const { return solved_; }  // remembered since the tip moved
 

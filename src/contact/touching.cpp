@@ -1,9 +1,5 @@
 #include "contact/touching.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "rough/summits.hpp"
 
 namespace rsc {

@@ -1,11 +1,9 @@
 // The summits that an indenter touches: those of the difference between the surface and the indenter's face, not those of the surface.
 #pragma once
 
-#include <functional>
-
 #include "contact/level.hpp"
 #include "rough/asperities.hpp"
-#include "rough/body_above.hpp"
+#include "rough/detection.hpp"
 
 namespace rsc {
 

@@ -1,9 +1,5 @@
 #include "contact/validity.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "contact/expected_error.hpp"
 
 namespace rsc {

@@ -1,4 +1,4 @@
-// Where a level leaves the range of the model: what is counted, and what makes its status out_of_validity.
+// Validity of the asperity model at a level: the counts, and the conditions for status out_of_validity.
 #pragma once
 
 #include "contact/indentation.hpp"

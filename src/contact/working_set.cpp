@@ -1,7 +1,5 @@
 #include "contact/working_set.hpp"
 
-#include <algorithm>
-
 namespace rsc {
 
 NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Products& products, const WorkingSetOptions& options,

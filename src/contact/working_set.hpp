@@ -1,8 +1,6 @@
 // A level's solution over all candidates by Newton's method on those near contact.
 #pragma once
 
-#include <vector>
-
 #include "contact/candidates.hpp"
 #include "contact/solver/newton.hpp"
 

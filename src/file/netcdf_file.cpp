@@ -4,18 +4,9 @@
 #include <netcdf_mem.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <span>
-#include <system_error>
-
 #include "error.hpp"
-#include "file/output_path.hpp"
 #include "file/whole_file.hpp"
-#include "read/checksum.hpp"
+#include "read/input_netcdf.hpp"
 #include "rough/library_lock.hpp"
 
 namespace rsc {
@@ -55,7 +46,7 @@ std::vector<char> make_empty(const std::string& path, int mode) {
         std::vector<char> bytes(1 << 16);
         int status = NC_NOERR, ncid = -1;
         const ssize_t written = ::write(fd, bytes.data(), bytes.size()), size = static_cast<ssize_t>(bytes.size());
-        // What stopped a write in the middle, the next one tells.
+        // A write that was cut short does not say why; the next one does.
         const bool whole =
             written == size || (written >= 0 && ::write(fd, bytes.data(), static_cast<std::size_t>(size - written)) == size - written);
         const bool room = whole && ::ftruncate(fd, 0) == 0 && ::lseek(fd, 0, SEEK_SET) == 0;

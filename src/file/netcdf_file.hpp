@@ -1,13 +1,6 @@
 // A NetCDF file in the making: described first, written in one go, and under its final name only when it is whole.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include "case/case.hpp"
 
 namespace rsc {

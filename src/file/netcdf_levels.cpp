@@ -1,8 +1,4 @@
 // The first half of the table: what the file is, its axes, the levels, the surfaces, closed forms.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 #include "file/netcdf_table.hpp"
 #include "observe/quantities.hpp"
@@ -206,7 +202,7 @@ void ResultTable::theory() {
     add_absent("sigma_reference", {}, unit(1), "rms height that separations are divided by", {r_.sigma});
 }
 
-// Where body 2 meets what reaches 4 rms heights above the mean plane, hardly anything being higher, at the deepest level.
+// The part of body 2 that can meet heights of up to 4 rms heights above the mean plane at the deepest level; hardly any point is higher.
 void ResultTable::outline() {
     double lowest = std::numeric_limits<double>::infinity();
     for (const double Z0 : of_rows<double>([](const LevelValues& row) { return row.separation; }))

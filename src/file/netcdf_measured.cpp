@@ -1,5 +1,4 @@
-// What was done to a measured map, its height parameters and its spectrum.
-#include <cmath>
+// The treatment of a measured map, its height parameters and its spectrum.
 
 #include "file/netcdf_table.hpp"
 #include "rough/measured.hpp"

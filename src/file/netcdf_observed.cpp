@@ -1,9 +1,6 @@
 // The second half of the table: maps, radial means, distributions, asperities, contacts, heights.
 #include <netcdf.h>
 
-#include <cmath>
-#include <numeric>
-
 #include "file/netcdf_table.hpp"
 #include "observe/regimes.hpp"
 

@@ -1,13 +1,6 @@
 // The table of variables of a result file, one function a group of them. Internal to the writer.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "case/units.hpp"
 #include "file/netcdf_file.hpp"
 #include "file/result.hpp"
@@ -101,7 +94,7 @@ private:
              std::vector<std::int32_t> values, NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
     }
-    // Places, heights, forces, one after another as chance has them.
+    // Incompressible data: positions, heights, forces in no order.
     void add_disorder(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
                       std::vector<double> values, NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false, true});

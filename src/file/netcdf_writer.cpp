@@ -1,8 +1,5 @@
 #include "file/netcdf_writer.hpp"
 
-#include <cstdlib>
-#include <ctime>
-
 #include "error.hpp"
 #include "file/netcdf_table.hpp"
 #include "version.h"

@@ -1,8 +1,6 @@
 // The result file: every variable, dimension and attribute, CF-1.10, described so that `ncdump -h` reads like documentation.
 #pragma once
 
-#include <string>
-
 #include "file/netcdf_file.hpp"
 #include "file/result.hpp"
 

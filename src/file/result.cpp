@@ -1,11 +1,8 @@
 #include "file/result.hpp"
 
-#include <cmath>
-
-#include <limits>
-#include <utility>
-
 #include "error.hpp"
+#include "observe/quantities.hpp"
+#include "read/input_netcdf.hpp"
 
 namespace rsc {
 
@@ -99,6 +96,145 @@ Moments regime_moments(const Result& result) {
     }
     const auto n = static_cast<double>(surfaces.size());
     return {mean.m0 / n, mean.m2 / n, mean.m4 / n, {}, {}};  // NaN for no surface, and when one lacks them
+}
+
+namespace {
+
+// Variables of known shapes.
+class Columns {
+public:
+    explicit Columns(const std::string& path) : file_(path), variables_(file_.variables()) {}
+
+    const NetcdfInput::Variable* find(const std::string& name) const {
+        const auto found = std::find_if(variables_.begin(), variables_.end(), [&](const auto& v) { return v.name == name; });
+        return found == variables_.end() ? nullptr : &*found;
+    }
+    // Absent values are NaN.
+    std::vector<double> values(const std::string& name, const std::vector<std::size_t>& lengths) const {
+        const NetcdfInput::Variable* variable = find(name);
+        if (!variable) refuse("it has no variable " + name + ", by which campaigns are put together");
+        if (variable->lengths != lengths) refuse("variable " + variable->shape() + " has not the shape that its case gives it");
+        std::size_t count = 1;
+        for (const std::size_t n : lengths) count *= n;
+        std::vector<double> values(count);
+        file_.read(*variable, values.data(), true);
+        return values;
+    }
+    std::size_t length(const std::string& name) const {
+        const NetcdfInput::Variable* variable = find(name);
+        if (!variable || variable->lengths.size() != 1) refuse("it has no list " + name);
+        return variable->lengths.front();
+    }
+    [[noreturn]] void refuse(const std::string& why) const { throw Error(Failure::bad_input, "'" + file_.path() + "': " + why); }
+
+private:
+    NetcdfInput file_;
+    std::vector<NetcdfInput::Variable> variables_;
+};
+
+// Both are worked out from the surface: where that is read from files, it may have been another one.
+void require_same_axes(const Columns& file, const ObserveOptions& options) {
+    const auto require = [&](const std::string& name, std::size_t count, double first) {
+        if (file.values(name, {count}).front() != first)
+            file.refuse(name + " begins at another value than the case gives: the surfaces were not the same");
+    };
+    require("x", static_cast<std::size_t>(options.map.nx), options.map.x(0));
+    require("y", static_cast<std::size_t>(options.map.ny), options.map.y(0));
+    if (options.pdf_levels.empty()) return;
+    require("pressure_mean_bin", static_cast<std::size_t>(options.pdf.bins), 0.5 * options.pdf.mean_pressure_width());
+    require("spot_area_bin", static_cast<std::size_t>(options.pdf.bins), 0.5 * options.pdf.area_width());
+}
+
+void read_levels(const Columns& file, Accumulators& sums) {
+    const std::size_t count = sums.realization.size(), steps = sums.steps;
+    sums.rows.resize(count * steps);
+    const bool of_each = file.find("separation") && file.find("separation")->lengths.size() == 2;
+    const std::vector<double> separation =
+        file.values("separation", of_each ? std::vector<std::size_t>{count, steps} : std::vector<std::size_t>{steps});
+    for (std::size_t k = 0; k < sums.rows.size(); ++k) sums.rows[k].separation = separation[of_each ? k : k % steps];
+    for (const LevelQuantity& q : level_quantities()) {
+        if (!file.find(q.name) && !q.always) continue;  // no level has it
+        const std::size_t parts = q.y ? 2 : 1;
+        std::vector<std::size_t> lengths{count, steps};
+        if (q.y) lengths.push_back(parts);
+        const std::vector<double> values = file.values(q.name, lengths);
+        for (std::size_t k = 0; k < sums.rows.size(); ++k) {
+            q.put(sums.rows[k], values[k * parts]);
+            if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
+        }
+    }
+}
+
+void read_surfaces(const Columns& file, Accumulators& sums) {
+    sums.surface.resize(sums.realization.size());
+    const auto read = [&](const char* name, auto SurfaceStatistics::*member) {
+        const std::vector<double> values = file.values(name, {sums.surface.size()});
+        using Value = std::remove_reference_t<decltype(sums.surface.front().*member)>;
+        for (std::size_t k = 0; k < values.size(); ++k) sums.surface[k].*member = static_cast<Value>(values[k]);
+    };
+    const auto read_moment = [&](const char* name, double MomentTensor::*of) {
+        const std::vector<double> values = file.values(name, {sums.surface.size()});
+        for (std::size_t k = 0; k < values.size(); ++k) sums.surface[k].tensor.*of = values[k];
+    };
+    read("sigma", &SurfaceStatistics::sigma);
+    read_moment("m20", &MomentTensor::m20), read_moment("m11", &MomentTensor::m11), read_moment("m02", &MomentTensor::m02);
+    read_moment("m40", &MomentTensor::m40), read_moment("m31", &MomentTensor::m31), read_moment("m22", &MomentTensor::m22);
+    read_moment("m13", &MomentTensor::m13), read_moment("m04", &MomentTensor::m04);
+    if (file.find("skewness")) read("skewness", &SurfaceStatistics::skewness), read("kurtosis", &SurfaceStatistics::kurtosis);
+    read("m2", &SurfaceStatistics::m2);
+    read("m4", &SurfaceStatistics::m4);
+    read("m2_grid", &SurfaceStatistics::m2_grid);
+    read("m4_grid", &SurfaceStatistics::m4_grid);
+    read("mean_kappa_g", &SurfaceStatistics::mean_kappa_g);
+    read("mean_kappa_a", &SurfaceStatistics::mean_kappa_a);
+    if (!file.find("summits")) return;  // elements do not look for summits
+    read("summits", &SurfaceStatistics::summits);
+    read("saddles", &SurfaceStatistics::saddles);
+}
+
+void read_distributions(const Columns& file, Accumulators& sums) {
+    const std::size_t levels = sums.distributions.size();
+    if (levels == 0) return;
+    const std::vector<double> step = file.values("pdf_step", {levels});
+    Distributions one = rounded({}, sums.options.pdf, 0);
+    std::size_t count = 0;
+    for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
+    const std::vector<double> parts = file.values("pdf_sums", {levels, count, 2});
+    for (std::size_t d = 0; d < levels; ++d) {
+        sums.distributions[d].step = static_cast<std::int32_t>(step[d]) - 1;
+        for (std::size_t k = d * count; k < (d + 1) * count; ++k) sums.distributions[d].numbers.push_back({parts[2 * k], parts[2 * k + 1]});
+    }
+}
+
+}  // namespace
+
+Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps) {
+    const Columns file(path);
+    Accumulators sums(options, steps);
+    for (const double number : file.values("realization", {file.length("realization")}))
+        sums.realization.push_back(static_cast<std::int64_t>(number));
+    require_same_axes(file, options);
+    read_levels(file, sums);
+    read_surfaces(file, sums);
+    const auto map = [&](const std::string& name) {
+        const MapGrid& g = options.map;
+        const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny), static_cast<std::size_t>(g.nx)};
+        const std::vector<double> rests = file.values(name + "_rest", lengths);
+        return map_sums(g, sums.realization.size(), file.values(name, lengths), rests);
+    };
+    sums.map_area = map("map_area_fraction");
+    sums.map_force = map("map_pressure");
+    read_distributions(file, sums);
+    return sums;
+}
+
+std::optional<LevelCount> count_levels(const std::string& path) {
+    const Columns file(path);
+    const NetcdfInput::Variable* status = file.find("status");
+    if (!status) return {};
+    const std::vector<double> values = file.values("status", status->lengths);
+    const auto failed = std::count(values.begin(), values.end(), static_cast<double>(LevelStatus::not_converged));
+    return LevelCount{static_cast<long>(values.size()), static_cast<long>(failed)};
 }
 
 }  // namespace rsc

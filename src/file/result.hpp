@@ -16,12 +16,6 @@
 //     write_result(result, c.output.file, {c.output.format, c.output.compression, command});     // netcdf_writer.hpp
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "case/case.hpp"
 #include "observe/record.hpp"
 #include "rough/measured.hpp"
@@ -84,7 +78,7 @@ struct Result {
     ComparedLevels compared;                   // empty: not written
 };
 
-// What the case keeps of the contacts: `automatic` resolved to all for one realization and none for more.
+// output%contacts, with `automatic` resolved: all for one realization, none for more.
 // Throws Error(bad_input) when contacts or heights are asked for with several realizations.
 Contacts contacts_kept(const Case& c);
 
@@ -104,5 +98,18 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
 // The moments the regimes are drawn with: the closed forms, otherwise the means of m2 and m4 over the realizations; NaN if there
 // are none.
 Moments regime_moments(const Result& result);
+
+// The way back from the result file of a campaign to its sums over realizations, so that others can be added to them.
+
+// The sums as they were, bit for bit, when the file was written; `options` and `steps` are those of its case. Throws Error(bad_input),
+// naming the file, for one that lacks them (it holds one realization, or is of an earlier version), whose bins, map or levels are
+// others, or that is damaged.
+Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps);
+
+// Levels of all realizations in a result, and how many of them did not converge. None for a file that does not tell.
+struct LevelCount {
+    long levels = 0, failed = 0;
+};
+std::optional<LevelCount> count_levels(const std::string& path);
 
 }  // namespace rsc

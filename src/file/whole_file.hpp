@@ -5,8 +5,7 @@
 // wins.
 #pragma once
 
-#include <span>
-#include <string>
+#include "std.hpp"
 
 namespace rsc {
 
@@ -52,5 +51,27 @@ private:
 
 // All of it in one call.
 void write_whole(const std::string& path, const FileKind& kind, std::span<const char> bytes);
+
+// Checks of the place of a result: a file that rsc has not written is never replaced.
+
+// The global attributes of a NetCDF file written by rsc, a result or the manifest of a study.
+struct ResultHead {
+    std::string source;     // "rsc 0.2.0, deterministic ..."
+    std::string case_text;  // the effective namelist
+    bool this_version() const;
+};
+// None for any other file, or where there is none.
+std::optional<ResultHead> head_of_result(const std::string& path);
+// The case alone.
+std::optional<std::string> case_in_result(const std::string& path);
+
+// Results and manifests, the files that head_of_result() knows.
+extern const FileKind kResultFile;
+
+// Can a result be written there? Changes nothing on the disk. `inputs`: files the run reads; names that are no plain file are
+// ignored (so that "/dev/stdin" may be among them). Returns whether a result of rsc is there and will be replaced. Throws
+// Error(bad_input) saying what is in the way: no name, an address of the net, a folder that is missing above an absolute path, is no folder, or
+// may not be written to, one of the inputs under whatever name, or what reason_to_leave() says.
+bool check_output(const std::string& path, const std::vector<std::string>& inputs = {});
 
 }  // namespace rsc

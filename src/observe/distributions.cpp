@@ -1,11 +1,5 @@
 #include "observe/distributions.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <type_traits>
-
 #include "error.hpp"
 
 namespace rsc {

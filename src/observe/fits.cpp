@@ -1,9 +1,6 @@
 #include "observe/fits.hpp"
 
-#include <algorithm>
-#include <array>
 #include <boost/math/special_functions/gamma.hpp>
-#include <cmath>
 
 namespace rsc {
 namespace {

@@ -2,8 +2,7 @@
 // pressure. A value that cannot be had (no contacts, too few bins) is NaN: absent.
 #pragma once
 
-#include <limits>
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 

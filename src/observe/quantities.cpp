@@ -1,7 +1,5 @@
 #include "observe/quantities.hpp"
 
-#include <type_traits>
-
 namespace rsc {
 namespace {
 
@@ -80,7 +78,7 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "mean pressure at the hardness H = H0 sqrt(1 + l/r), and as deep as ever or deeper; elements: contacts with a pixel at the "
                 "hardness", .always = false},
     {.name = "plastic_work", .member = &V::plastic_work, .length_power = 1, .force_power = 1,
-     .meaning = "work done on what yields that does not come back, since the first level",
+     .meaning = "plastic work of the contacts that yielded, since the first level",
      .comment = "elements: H times the volume pressed out; levels depend on those before them where something yields", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",

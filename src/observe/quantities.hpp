@@ -2,11 +2,6 @@
 // needs: result files, checkpoints, the screen, campaigns' means and the libraries' calls by name follow from it.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <string_view>
-#include <variant>
-
 #include "contact/level.hpp"
 
 namespace rsc {

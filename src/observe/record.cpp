@@ -1,11 +1,6 @@
 #include "observe/record.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "error.hpp"
-#include "observe/radial.hpp"
 
 namespace rsc {
 namespace {

@@ -1,14 +1,10 @@
-// What is kept of one realization, and how realizations add up (paper, section 5).
+// The record of one realization, and the sums over realizations (paper, section 5).
 //
 // observe() reduces one realization to a RealizationRecord: plain numbers and vectors without references, which a checkpoint holds as they
 // are. Accumulators::add() takes records in the order of their realizations, whatever thread, rank or interrupted run made them; sums over
 // realizations are exact (exact_sum.hpp), so that those of two campaigns can be added, too. finish() turns the sums into means, radial
 // means and fits.
 #pragma once
-
-#include <cstdint>
-#include <functional>
-#include <vector>
 
 #include "contact/level.hpp"
 #include "observe/distributions.hpp"
@@ -80,7 +76,7 @@ struct LevelStatistics {
     std::vector<std::int32_t> count;  // M
 };
 
-// What the realizations added amount to.
+// Means and statistics over the realizations added.
 struct Observations {
     ObserveOptions options;
     std::size_t realizations = 0, steps = 0;
@@ -92,7 +88,7 @@ struct Observations {
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
     std::vector<FittedDistributions> distributions;             // [pdf level]
-    // What makes a sum over realizations again of the means above (map_sums): [step][j][i]
+    // Rounding errors of the means above, which restore the exact sums over realizations (map_sums): [step][j][i]
     std::vector<double> map_area_rest, map_force_rest;  // [length^2], [force]
     std::vector<DistributionSums> distribution_sums;    // [pdf level]
     const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }

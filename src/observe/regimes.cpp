@@ -1,8 +1,5 @@
 #include "observe/regimes.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "error.hpp"
 
 namespace rsc {

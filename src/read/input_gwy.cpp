@@ -1,17 +1,9 @@
-#include "read/input_gwy.hpp"
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <map>
-#include <optional>
-#include <vector>
+#include "read/formats.hpp"
 
 #include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
 #include "read/bytes.hpp"
-#include "read/grid.hpp"
 
 namespace rsc {
 namespace {
@@ -76,7 +68,7 @@ std::vector<Component> components(ByteReader& in, const std::string& wanted) {
     return all;
 }
 
-// What a GwyDataField holds.
+// The contents of a GwyDataField.
 struct Field {
     std::size_t nx = 0, ny = 0;
     double Lx = 0, Ly = 0;

@@ -1,17 +1,28 @@
-// A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds library_lock(): the library
-// is not made for several threads.
+// The checksum of result files: a last line of text behind what NetCDF and HDF5 know of, "\nrsc: CRC-32 of all before this line: 0a1b2c3d\n".
+// It is looked at before these libraries get the file: HDF5 crashes on some damaged ones, and classic files have no checksums of their own.
 #pragma once
 
 #include <netcdf.h>
 
-#include <mutex>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "rough/library_lock.hpp"
 
 namespace rsc {
+
+// That line for the `size` bytes of a file.
+std::string checksum_line(const char* bytes, std::size_t size);
+
+// Throws Error(bad_input) for a file with such a line whose bytes are not those it was made for. Files without one pass: those of earlier versions
+// and of other programs.
+void require_sound(const std::string& path);
+
+// The length a NetCDF file of the classic formats must have.
+
+// Reads the header of a classic, 64-bit offset or CDF-5 file and throws Error(bad_input) if the file ends before the header or
+// the data it announces: the NetCDF library gives zeros or worse there without a word. Does nothing with other files.
+void check_classic_length(const std::string& path);
+
+// A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds library_lock(): the library
+// is not made for several threads.
 
 class NetcdfInput {
 public:
@@ -51,7 +62,7 @@ private:
     int id_ = -1;
 };
 
-// Whether a file begins as NetCDF files do (classic, 64-bit, CDF-5, or HDF5 with or without a user block). Throws
+// True if the first bytes are those of a NetCDF file (classic, 64-bit, CDF-5, or HDF5 with or without a user block). Throws
 // Error(bad_input) if there is no such file, it cannot be read, or it is empty.
 bool is_netcdf(const std::string& path);
 

@@ -1,17 +1,9 @@
-#include "read/input_sdf.hpp"
-
-#include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
-#include <limits>
-#include <map>
+#include "read/formats.hpp"
 
 #include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
 #include "read/bytes.hpp"
-#include "read/grid.hpp"
 
 namespace rsc {
 namespace {

@@ -1,10 +1,10 @@
-#include "read/input_spectrum.hpp"
+#include "read/inputs.hpp"
 
 #include "case/units.hpp"
 #include "error.hpp"
-#include "read/grid.hpp"
+#include "read/bytes.hpp"
+#include "read/formats.hpp"
 #include "read/input_netcdf.hpp"
-#include "read/input_text.hpp"
 
 namespace rsc {
 namespace {

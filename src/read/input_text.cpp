@@ -1,11 +1,4 @@
-#include "read/input_text.hpp"
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <string_view>
+#include "read/formats.hpp"
 
 #include "error.hpp"
 
@@ -14,7 +7,7 @@ namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
-// What separates the numbers of a file, and its decimal mark; each unknown (0) until first seen, and then the same throughout.
+// The separator of the numbers of a file, and its decimal mark; each is unknown (0) until first seen, and then the same throughout.
 struct Style {
     char separator = 0;  // ' ', ',' or ';'
     char decimal = 0;    // '.' or ','
@@ -130,7 +123,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
     while (std::getline(file, text)) {
         ++line;
         std::string_view view(text);
-        if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // the mark some editors put before UTF-8
+        if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // UTF-8 byte order mark
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
             throw Error(Failure::bad_input, path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
         if (view.find('\0') != std::string_view::npos) refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");

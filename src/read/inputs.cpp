@@ -1,22 +1,36 @@
 #include "read/inputs.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <limits>
-#include <vector>
+#include <glob.h>
 
 #include "case/units.hpp"
 #include "error.hpp"
-#include "read/grid.hpp"
-#include "read/input_gwy.hpp"
+#include "read/bytes.hpp"
+#include "read/formats.hpp"
 #include "read/input_netcdf.hpp"
-#include "read/input_sdf.hpp"
-#include "read/input_text.hpp"
-#include "rough/magnitude.hpp"
-#include "rough/missing.hpp"
+#include "rough/defects.hpp"
 
 namespace rsc {
+
+bool is_pattern(const std::string& name) { return name.find_first_of("*?[") != std::string::npos; }
+
+std::vector<std::string> matching_files(const std::string& name) {
+    if (!is_pattern(name)) return {name};
+    glob_t found{};
+    const int status = glob(name.c_str(), GLOB_NOSORT, nullptr, &found);
+    std::vector<std::string> files;
+    try {
+        if (status == 0) files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    } catch (...) {
+        globfree(&found);
+        throw;
+    }
+    globfree(&found);
+    if (status == GLOB_NOSPACE) throw Error(Failure::no_memory, "no memory for the files of " + name);
+    if (files.empty()) throw Error(Failure::bad_input, name + ": no file matches this pattern");
+    std::sort(files.begin(), files.end());  // not by the locale: the same everywhere
+    return files;
+}
+
 namespace {
 
 constexpr double kUniform = 1e-6;      // of a step: how far a coordinate may be from where a uniform grid has it
@@ -259,7 +273,7 @@ constexpr InstrumentFormat kInstrumentFormats[] = {
     {".sdf", is_sdf, [](const std::string& path, const std::string&, const std::string& unit) { return read_sdf(path, unit); }, false},
 };
 
-// What no reader here knows and is no text is refused, with the way to read it nevertheless.
+// A binary file of no known format is refused; the message says how to convert it.
 void refuse_unknown(const std::string& path, const std::string& start) {
     if (start.find('\0') == std::string::npos || start.substr(0, 2) == "\xff\xfe" || start.substr(0, 2) == "\xfe\xff") return;
     std::string names = ": neither NetCDF, ";

@@ -1,16 +1,20 @@
-// Surfaces from files: height maps and lists of asperities, NetCDF, .gwy, .sdf or text. What a file is, is told by its first bytes, not by
-// its name. Anything wrong is Error(bad_input) naming the file, the line or index, and what was expected.
-// May be called by several threads; NetCDF files are read one at a time.
+// Surfaces from files: height maps, lists of asperities and spectra in NetCDF, .gwy, .sdf or text. The format is recognised by the first bytes
+// of a file, not by its name. Anything wrong is Error(bad_input) naming the file, the line or index, and what was expected. May be called
+// by several threads; NetCDF files are read one at a time.
 #pragma once
-
-#include <optional>
-#include <string>
 
 #include "rough/asperities.hpp"
 #include "rough/measured.hpp"
+#include "rough/spectrum.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
+
+// True if a name has wildcards of the shell (*, ?, [).
+bool is_pattern(const std::string& name);
+
+// The files that a pattern matches, in byte order; a name without wildcards gives itself. Throws Error(bad_input) when nothing matches.
+std::vector<std::string> matching_files(const std::string& name);
 
 // Heights from `path`.
 // NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable there is. scale_factor and
@@ -19,11 +23,11 @@ namespace rsc {
 //   only, in another unit than length_unit, they are refused. The spacing comes from the coordinate variables of the two dimensions, which must be uniform to 1e-6
 //   of a step (or to the rounding of their own type); x0, y0 are the first coordinates; falling coordinates are turned round.
 //   Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. With both, nx dx must be L to 1e-6.
-// Text (input_text.hpp): a matrix in length_unit, a line a y, rising; needs L. Or three columns x y z, in any order of the lines: the
+// Text (formats.hpp): a matrix in length_unit, a line a y, rising; needs L. Or three columns x y z, in any order of the lines: the
 //   points of a full grid whose coordinates are uniform to a hundredth of a step, as text is rounded. Four columns are refused:
 //   they are a list of asperities.
 // L: extent in x [length_unit], a point being a cell (L = nx dx). At least 3 x 3 points. The map is not periodic.
-// Gwyddion's .gwy (input_gwy.hpp) and .sdf of ISO 25178-71 (input_sdf.hpp): sizes and units are theirs; L, if given, must agree.
+// Gwyddion's .gwy and .sdf of ISO 25178-71 (formats.hpp): sizes and units are theirs; L, if given, must agree.
 // `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first that holds heights. With Missing::fill missing
 // points are NaN in the map; otherwise they are refused. In a text `nan` and `bad` are missing points, and so are points that triples
 // do not list.
@@ -42,5 +46,17 @@ struct Extent {
     double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
 };
 Extent extent(const Asperities& asperities);
+
+// Properties of a measured map that made surfaces keep.
+struct InputSpectrum {
+    std::shared_ptr<const SpectrumTable> table;         // the radial spectrum
+    std::shared_ptr<const PlaneSpectrum> plane;         // by direction, if asked for
+    std::shared_ptr<const HeightDistribution> heights;  // if asked for
+};
+
+// NetCDF: the variables wavenumber and psd over one dimension, as result files of measured maps have them, converted from their units
+// (1/length, length^4) to length_unit; plane_wavenumber, angle, psd_plane if `by_direction`, normal_score and height_quantile if `heights`.
+// Text: two columns, wavenumber and psd in powers of length_unit. Throws Error(bad_input) naming the file and what is wrong or missing.
+InputSpectrum read_spectrum(const std::string& path, const std::string& length_unit, bool by_direction = false, bool heights = false);
 
 }  // namespace rsc

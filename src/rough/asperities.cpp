@@ -1,13 +1,6 @@
 #include "rough/asperities.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <numeric>
-#include <tuple>
-
 #include "error.hpp"
-#include "rough/magnitude.hpp"
 
 namespace rsc {
 

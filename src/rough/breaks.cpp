@@ -1,9 +1,5 @@
 #include "rough/breaks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 namespace rsc {
 namespace {
 

@@ -1,10 +1,6 @@
 // Places where a map is not smooth from point to point: pits, spikes, steps. Polynomials through the points around them overshoot.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "rough/surface.hpp"
 
 namespace rsc {

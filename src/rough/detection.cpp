@@ -1,12 +1,6 @@
 #include "rough/detection.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <exception>
-#include <functional>
-
-#include "rough/omp_team.hpp"
-#include "rough/stopping.hpp"
+#include "rough/parallel.hpp"
 #include "rough/subgrid.hpp"
 #include "rough/summits.hpp"
 #include "rough/synthesis.hpp"
@@ -14,7 +8,7 @@
 namespace rsc {
 namespace {
 
-// What one thread found in its rows; `found` or `refined`, as the detail is.
+// The summits that one thread found in its rows: `found` or `refined`, depending on the detail.
 struct Part {
     Asperities found;
     long saddles = 0;

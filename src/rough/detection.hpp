@@ -1,22 +1,36 @@
-// Finding asperities: the summits of a height map with their curvatures (paper, section 3).
+// The face of the body above a surface, which is subtracted before summits are looked for: only the difference decides
+// what touches.
 #pragma once
 
-#include <cstdint>
-
 #include "rough/asperities.hpp"
-#include "rough/body_above.hpp"
 #include "rough/breaks.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
 
-// What a summit is taken from.
+class BodyAbove {
+public:
+    // Height, derivatives and nabla^4 at a place.
+    struct Form {
+        double height = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, biharmonic = 0;
+    };
+    virtual ~BodyAbove() = default;
+    // Heights at the places (x0 + k dx, y), k = 0 ... n-1; Infinity where there is none. The face does not repeat, whatever the surface does,
+    // unless periodic().
+    virtual void row(int n, double x0, double dx, double y, double* height) const = 0;
+    virtual Form at(double x, double y) const = 0;
+    virtual bool periodic() const = 0;
+};
+
+// Finding asperities: the summits of a height map with their curvatures (paper, section 3).
+
+// How a summit is located.
 enum class Detail {
     grid,     // the grid point and second differences (the paper): enough for Hertz asperities
     subgrid,  // the summit between the points, its derivatives by long stencils, the biharmonic with them
 };
 
-// What was counted on the way.
+// Counts of a search for summits.
 struct SummitCount {
     long summits = 0;         // asperities kept
     long saddles = 0;         // grid maxima that are no summits: saddles by their curvatures, or none in reach; not kept

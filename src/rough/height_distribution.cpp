@@ -1,12 +1,7 @@
 #include "rough/height_distribution.hpp"
 
-#include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <string>
 
 #include "error.hpp"
 
@@ -52,7 +47,7 @@ Shape shape_of(const std::function<double(double)>& of) {
     return {mean, std::sqrt(m2), m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
 }
 
-// Where a function of one sign at `low` and the other at `high` vanishes; the end with the smaller value if it does not.
+// Root of a function between `low` and `high`; if it has the same sign at both, the end with the smaller value.
 double root(const std::function<double(double)>& f, double low, double high) {
     const double at_low = f(low), at_high = f(high);
     if (at_low * at_high >= 0) return std::abs(at_low) < std::abs(at_high) ? low : high;
@@ -113,7 +108,7 @@ HeightDistribution HeightDistribution::of_moments(double skewness, double kurtos
 HeightDistribution HeightDistribution::of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights) {
     bool rising = scores.size() == heights.size() && scores.size() >= 2 && heights.front() < heights.back();
     for (std::size_t i = 1; rising && i < scores.size(); ++i) rising = scores[i] > scores[i - 1] && heights[i] >= heights[i - 1];
-    if (!rising) throw Error(Failure::bad_input, "the distribution of heights: heights that rise with the normal score were expected");
+    if (!rising) throw Error(Failure::bad_input, "the distribution of heights: heights must increase with the normal score");
     std::vector<double> values(kValues);
     for (int i = 0; i < kValues; ++i) {
         const double u = std::clamp(score(i), scores.front(), scores.back());

@@ -1,7 +1,7 @@
 // Distributions of heights that are not Gaussian.
 #pragma once
 
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 

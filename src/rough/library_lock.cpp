@@ -2,8 +2,6 @@
 
 #include <pthread.h>
 
-#include <mutex>
-
 extern "C" void fftw_make_planner_thread_safe();  // of libfftw3_threads; fftw3.h declares more than this needs
 extern "C" void fftwf_make_planner_thread_safe();
 

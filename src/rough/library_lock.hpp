@@ -2,6 +2,10 @@
 // in them, and rsc_lock (rsc.h) gives it to programs that use these libraries, too.
 #pragma once
 
+#include "std.hpp"
+
+#include <fftw3.h>
+
 namespace rsc {
 
 // A mutex that its owner may lock again. A fork waits until no other thread holds it, so that the libraries are in order in the child.
@@ -13,5 +17,38 @@ public:
 };
 
 LibraryLock& library_lock();
+
+// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds
+// library_lock(). Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
+
+// To be held while plans are made. FFTW ends the program where it is refused memory: some of it is asked for here first. Throws
+// std::bad_alloc.
+inline std::unique_lock<LibraryLock> fftw_planning() {
+    constexpr std::size_t most = std::size_t{8} << 20;  // tables of the longest transforms included
+    std::unique_lock lock(library_lock());
+    void* const probe = std::malloc(most);
+    if (!probe) throw std::bad_alloc();
+    std::free(probe);
+    return lock;
+}
+
+struct FftwPlanDestroyer {
+    void operator()(fftw_plan plan) const noexcept {
+        const std::lock_guard lock(library_lock());
+        fftw_destroy_plan(plan);
+    }
+};
+
+// Owns a plan; executing it from several threads at once, each on its own arrays, is safe (fftw_execute_dft and its kin).
+using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwPlanDestroyer>;
+
+// The same in single precision.
+struct FftwfPlanDestroyer {
+    void operator()(fftwf_plan plan) const noexcept {
+        const std::lock_guard lock(library_lock());
+        fftwf_destroy_plan(plan);
+    }
+};
+using FftwfPlan = std::unique_ptr<std::remove_pointer_t<fftwf_plan>, FftwfPlanDestroyer>;
 
 }  // namespace rsc

@@ -1,28 +1,11 @@
 #include "rough/measured.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "error.hpp"
 #include "format.hpp"
-#include "rough/filter.hpp"
-#include "rough/missing.hpp"
-#include "rough/rounding.hpp"
+#include "rough/defects.hpp"
 
 namespace rsc {
 namespace {
-
-const char* name(Detrend how) {
-    switch (how) {
-        case Detrend::none: return "none";
-        case Detrend::mean: return "mean";
-        case Detrend::plane: return "plane";
-        case Detrend::quadratic: return "quadratic";
-        case Detrend::sphere: return "sphere";
-    }
-    return "?";
-}
 
 void refuse_missing(const HeightMap& map, long missing) {
     for (int j = 0; j < map.ny; ++j)
@@ -109,8 +92,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.filled = fill_missing(map);
     for (int j = 0; j < map.ny; ++j)
         if (!std::all_of(map.row(j), map.row(j) + map.nx, [](double z) { return std::isfinite(z); }))
-            throw Error(Failure::bad_input,
-                        "the heights are too small or too large to be worked with: their squares leave the range of numbers");
+            throw Error(Failure::bad_input, "the heights are too small or too large: their squares overflow or underflow double precision");
     m.without_form = m.filtered = roughness(map);
     m.filter_cutoff = options.filter_cutoff;
     if (options.filter_cutoff > 0) {
@@ -135,7 +117,7 @@ std::vector<std::string> told(const Measured& m, const std::string& length_unit)
     if (m.missing > 0)
         lines.push_back(format("missing points: %ld (%.3g %%) filled; summits nearer to them than the shortest wave are left out",
                                m.missing, 100 * m.missing_share));
-    std::string form = std::string("form '") + name(m.form.how) + "': ";
+    std::string form = std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
         form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);
     if (m.form.how == Detrend::sphere)
@@ -157,12 +139,12 @@ std::vector<std::string> told(const Measured& m, const std::string& length_unit)
                                fit.hurst.value, fit.hurst.error, two_pi / fit.kl.value, l, fit.plateau ? " (plateau above)" : "",
                                two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (the grid's: no end seen)", m.points_per_wave()));
     } else {
-        lines.push_back("spectrum: none, the map is too small or flat");
+        lines.push_back("spectrum: not fitted, the map is too small or too flat");
     }
     if (m.points_per_wave() < kFewPointsPerWave)
         lines.push_back(format(
-            "warning: fewer than %.0f points in the shortest wave: the grid, or noise at the pixel, makes the slopes, curvatures and "
-            "summits; surface%%filter_cutoff takes out what is no roughness",
+            "warning: fewer than %.0f points in the shortest wave: the grid, or noise at the pixel, determines the slopes, curvatures and "
+            "summits; surface%%filter_cutoff removes such waves",
             kFewPointsPerWave));
     const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
     if (directional)
@@ -170,7 +152,7 @@ std::vector<std::string> told(const Measured& m, const std::string& length_unit)
                                m.texture.str_bounded ? "at most " : "", m.texture.str));
     if (directional || !gaussian)
         lines.push_back(std::string("the map ") + (directional ? "has a direction" : "") + (directional && !gaussian ? " and " : "") +
-                        (gaussian ? "" : "has heights that are not Gaussian") + ": surfaces like it keep that with " +
+                        (gaussian ? "" : "has heights that are not Gaussian") + ": to keep that in synthetic surfaces, use " +
                         (directional ? "surface%twins = 'directional'" : "") + (directional && !gaussian ? ", " : "") +
                         (gaussian ? "" : "surface%twin_heights = 'measured'"));
     return lines;

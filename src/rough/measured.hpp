@@ -1,12 +1,6 @@
 // From a measured map to a rough surface: missing points, form, filter, and what is left when they are done (physics, section 11).
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "rough/breaks.hpp"
 #include "rough/form.hpp"
 #include "rough/measured_spectrum.hpp"
@@ -24,7 +18,7 @@ struct MeasureOptions {
     double filter_cutoff = 0;  // 0: no filter [length]
 };
 
-// What the steps change.
+// Roughness before and after each step.
 struct Roughness {
     double height = 0;     // rms about the mean [length]
     double slope = 0;      // rms gradient
@@ -32,7 +26,7 @@ struct Roughness {
 };
 Roughness roughness(const HeightMap& map);
 
-// What was done to a map, and what it is now.
+// The treatment of a measured map, and its properties afterwards.
 struct Measured {
     int nx = 0, ny = 0;
     double dx = 0, dy = 0, x0 = 0, y0 = 0;

@@ -1,12 +1,7 @@
 #include "rough/measured_spectrum.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <numbers>
-
 #include "error.hpp"
-#include "rough/fftw_planner.hpp"
+#include "rough/library_lock.hpp"
 
 namespace rsc {
 namespace {
@@ -326,7 +321,7 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     const double variance = spectrum.coupled * std::max(line.left / std::max(points - 2, 1.0), BandSearch::kScatter);
     fit.hurst = {-0.5 * line.slope - 1, 0.5 * std::sqrt(variance * line.slope_variance)};
 
-    // How far a break may move before the residual grows by one variance.
+    // Distance that a break may move before the residual grows by one variance.
     const auto reach = [&](auto moved, std::size_t at) {
         const double limit = search.left(best).square + variance;
         const auto allowed = [&](std::size_t to) {

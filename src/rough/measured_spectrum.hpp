@@ -1,7 +1,5 @@
-// What the spectrum of a height map is, and its height distribution: the numbers a synthetic surface like it is made with.
+// Spectrum and height distribution of a height map: the numbers from which similar synthetic surfaces are made.
 #pragma once
-
-#include <vector>
 
 #include "rough/surface.hpp"
 

@@ -1,14 +1,25 @@
-// The modes of a random surface, drawn column by column of the half plane kx > 0, or kx = 0 and ky > 0 (the other half is its
-// mirror image: the surface is real). A surface is z(x, y) = sum over the half plane of 2 Re[c exp(2 pi i (kx x + ky y)/L)].
+// White noise of the modes of a random surface: counter-based, so that a mode's noise depends on nothing but its name.
 #pragma once
 
-#include <complex>
-#include <vector>
-
-#include "rough/noise.hpp"
 #include "rough/spectrum.hpp"
 
 namespace rsc {
+
+// Identifies the noise: realization number `realization` of `seed`. All 128 bits count.
+struct NoiseKey {
+    std::int64_t seed = 1;
+    std::int64_t realization = 1;
+};
+
+// Complex Gaussian noise of the mode with integer wavevector (kx, ky): mean 0, mean square modulus 1, uniform phase.
+// Philox4x32-10 (Salmon et al., SC 2011) with key = seed and counter = (kx, ky, realization), then Box and Muller.
+std::complex<double> mode_noise(const NoiseKey& key, std::int32_t kx, std::int32_t ky);
+
+// The same for ky = ky_first, ky_first + 1, ... ky_first + count - 1: re[i], im[i]. Same bits as mode_noise.
+void column_noise(const NoiseKey& key, std::int32_t kx, std::int32_t ky_first, int count, double* re, double* im);
+
+// The modes of a random surface, drawn column by column of the half plane kx > 0, or kx = 0 and ky > 0 (the other half is its
+// mirror image: the surface is real). A surface is z(x, y) = sum over the half plane of 2 Re[c exp(2 pi i (kx x + ky y)/L)].
 
 // Sums over modes, wavevectors in integers, amplitudes relative to Phi0 = 1.
 struct ModeSums {
@@ -23,7 +34,7 @@ struct ModeSums {
     void add(const ModeSums& other);
 };
 
-// What a finite difference makes of a mode: the wavevector component k, integer, becomes 2 sin(pi k/n)/h on n steps of h = L/n.
+// Finite differences of a mode: the integer wavevector component k becomes 2 sin(pi k/n)/h on n steps of h = L/n.
 class Differences {
 public:
     // For |k| <= most; h in L.

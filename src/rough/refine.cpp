@@ -1,8 +1,5 @@
 #include "rough/refine.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "rough/dispatch.hpp"
 #include "rough/neighbours.hpp"
 

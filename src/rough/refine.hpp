@@ -1,9 +1,7 @@
 // From a maximum of the grid to the summit between its points.
 #pragma once
 
-#include <optional>
-
-#include "rough/body_above.hpp"
+#include "rough/detection.hpp"
 #include "rough/stencil.hpp"
 
 namespace rsc {

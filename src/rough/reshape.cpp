@@ -1,15 +1,10 @@
 #include "rough/reshape.hpp"
 
-#include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <vector>
 
 #include "error.hpp"
-#include "rough/fftw_planner.hpp"
 #include "rough/height_distribution.hpp"
+#include "rough/library_lock.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {

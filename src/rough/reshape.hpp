@@ -1,9 +1,6 @@
 // A surface of other heights with the same spectrum.
 #pragma once
 
-#include <complex>
-#include <cstddef>
-
 #include "rough/spectrum.hpp"
 
 namespace rsc {

@@ -1,12 +1,7 @@
 #include "rough/spectrum.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-
 #include "error.hpp"
-#include "rough/magnitude.hpp"
+#include "rough/asperities.hpp"
 
 namespace rsc {
 namespace {

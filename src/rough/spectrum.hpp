@@ -1,9 +1,6 @@
 // Power spectral density of a self-affine surface and its spectral moments (paper, section 2).
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "rough/height_distribution.hpp"
 
 namespace rsc {
@@ -56,7 +53,7 @@ private:
     double largest_ = 0;
 };
 
-// What defines the statistics of a synthetic rough surface on a square L x L.
+// The parameters of a synthetic rough surface on a square L x L.
 struct Spectrum {
     double L = 1.0;             // side of the square [length]
     double hurst = 0.8;         // Hurst exponent H, 0 <= H <= 1

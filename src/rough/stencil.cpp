@@ -1,11 +1,5 @@
 #include "rough/stencil.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "error.hpp"
 #include "rough/dispatch.hpp"
 

@@ -1,15 +1,11 @@
 #include "rough/subgrid.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "rough/neighbours.hpp"
 
 namespace rsc {
 namespace {
 
-// How many grid steps a summit may lie from a start that is no maximum; its paraboloid has its top within one step.
+// Largest distance, in grid steps, of a summit from a start that is no maximum; the top of its paraboloid is within one step.
 constexpr int kShortTravel = 1;
 
 template <class T>
@@ -107,7 +103,7 @@ void SummitClimber::cut_out(int i, int j, const Rows& row) {
         }
 }
 
-// Whether a maximum of the grid beside (i, j) sees the same top: nothing else is to be found from (i, j) then.
+// True if a grid maximum beside (i, j) leads to the same summit, so that (i, j) need not be a start.
 bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const {
     constexpr double kSameTop = 0.75;  // grid steps; second differences place a top to some tenths
     const int nx = place.nx;
@@ -140,7 +136,7 @@ double SummitClimber::difference(int i, int j, int di, int dj) const {
     return above_ ? z - above_->at(place_.x0 + (i + di) * place_.dx, y0_ + (j + dj) * place_.dy).height : z;
 }
 
-// How far the surface bends within a grid step around (i, j): the medians of its second differences along x and along y, added. Pits,
+// Bending of the surface within a grid step around (i, j): the medians of its second differences along x and along y, added. Pits,
 // grooves and steps have a minority of the points and do not count.
 double SummitClimber::usual_bend() const {
     constexpr int reach = 3, points = (2 * reach + 1) * (2 * reach + 1), m = Patch::kMargin;
@@ -157,7 +153,7 @@ double SummitClimber::usual_bend() const {
     return along_x[points / 2] + along_y[points / 2];
 }
 
-// Whether a summit rises above the highest point around it by no more than a surface that bends like this can. A polynomial through a pit,
+// True if a summit rises above the highest point around it by no more than a surface with this bending can. A polynomial through a pit,
 // a step or a seam overshoots by some tenths of its depth.
 bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, double bend) const {
     // A summit half a step from its point both ways rises by bend/8, and its own curvature is up to some times the median.

@@ -1,9 +1,6 @@
 // Summits between the points of the grid: what asperity detection does where the law looks closer than Hertz's.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "rough/asperities.hpp"
 #include "rough/breaks.hpp"
 #include "rough/refine.hpp"

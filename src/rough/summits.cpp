@@ -1,9 +1,5 @@
 #include "rough/summits.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-
 #include "rough/dispatch.hpp"
 #include "rough/neighbours.hpp"
 

@@ -1,13 +1,11 @@
 // Summits of three neighbouring rows of heights: the inner loop of asperity detection.
 #pragma once
 
-#include <vector>
-
 #include "rough/asperities.hpp"
 
 namespace rsc {
 
-// Where a row lies and how its ends are treated.
+// Position of a row, and the treatment of its ends.
 struct RowPlace {
     int nx = 0;
     double x0 = 0, dx = 0, dy = 0;  // x of point 0; grid steps
@@ -20,7 +18,7 @@ struct RowPlace {
 long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
                     Asperities& found);
 
-// Where to look for a summit between the points: at the maxima of the grid, and at the points from which a paraboloid through the
+// Starts of the search for summits between the points: the maxima of the grid, and the points from which a paraboloid through the
 // neighbours has its top a fraction of a step away. The latter know of summits beside a higher one that no point is a maximum of.
 struct Start {
     int column = 0;

@@ -1,9 +1,5 @@
-// A height map and how a synthetic one is made.
+// Height maps, their moments, and maps on a finer grid.
 #pragma once
-
-#include <array>
-#include <cstddef>
-#include <memory>
 
 #include "rough/spectrum.hpp"
 
@@ -27,6 +23,7 @@ struct HeightMap {
 
     // Allocates (uninitialised, SIMD aligned); throws Error(no_memory) with the size asked for.
     void allocate(int nx_, int ny_, std::ptrdiff_t stride_);
+    HeightMap copy() const;  // with rows next to each other
     double* row(int j) { return data.get() + j * stride; }
     const double* row(int j) const { return data.get() + j * stride; }
     double operator()(int i, int j) const { return row(j)[i]; }
@@ -42,5 +39,10 @@ inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 // A map that is not periodic gives what lies inside it; too small a map gives zeros. Points whose height is NaN are missing: the
 // differences that need them are left out.
 Moments grid_moments(const HeightMap& map);
+
+// The map with twice as many points along each side, by its own cosine series (the map mirrored at its borders): the surface through
+// the points that has no waves shorter than theirs. Every point, which is a cell, becomes four. A periodic map is taken to end at its
+// borders, too. Throws Error(no_memory).
+HeightMap twice_as_fine(const HeightMap& map);
 
 }  // namespace rsc

@@ -1,13 +1,8 @@
 #include "rough/synthesis.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-
 #include "error.hpp"
 #include "rough/modes.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 #include "rough/reshape.hpp"
 
 namespace rsc {

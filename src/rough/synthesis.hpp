@@ -3,11 +3,7 @@
 // and a row can be used while it is in the cache.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-
-#include "rough/fftw_planner.hpp"
+#include "rough/library_lock.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -21,7 +17,7 @@ public:
 
     int n() const { return n_; }
     const Moments& sampled() const { return sampled_; }  // exact sums over the modes drawn
-    // What finite differences give on a grid of that step (grid_moments), by exact sums over the modes drawn.
+    // Moments by finite differences on a grid of that step (grid_moments), as exact sums over the modes drawn.
     const Moments& differences() const { return differences_; }
 
     // Memory a thread needs to make rows.

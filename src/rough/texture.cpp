@@ -1,14 +1,8 @@
 #include "rough/texture.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <numbers>
-
 #include "error.hpp"
-#include "rough/fftw_planner.hpp"
 #include "rough/height_distribution.hpp"
+#include "rough/library_lock.hpp"
 
 namespace rsc {
 namespace {

@@ -1,8 +1,6 @@
 // The texture of a height map: how far heights resemble each other along and across its lay, and how high and low they reach.
 #pragma once
 
-#include <vector>
-
 #include "rough/surface.hpp"
 
 namespace rsc {

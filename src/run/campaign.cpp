@@ -2,22 +2,14 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <functional>
-#include <map>
-#include <optional>
-#include <vector>
-
+#include "case/read_case.hpp"
+#include "case/registry.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
-#include "file/output_path.hpp"
-#include "file/result_sums.hpp"
-#include "run/campaign_archive.hpp"
-#include "run/campaign_screen.hpp"
-#include "run/campaign_sums.hpp"
+#include "file/whole_file.hpp"
+#include "read/inputs.hpp"
 #include "run/checkpoint.hpp"
+#include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 
@@ -25,7 +17,7 @@ namespace rsc {
 namespace fs = std::filesystem;
 namespace {
 
-const char* const kGoesOn = "the same command with --resume goes on from there";
+const char* const kGoesOn = "to continue, run the same command with --resume";
 
 using Clock = std::chrono::steady_clock;
 
@@ -93,9 +85,58 @@ private:
     Checkpoint& checkpoint_;
 };
 
+// True if a file that the surfaces are read from is not older than the result.
+bool input_is_newer(const Case& settings) {
+    if (settings.surface.source == Source::synthetic) return false;
+    std::error_code error;
+    const fs::file_time_type written = fs::last_write_time(settings.output.file, error);
+    for (const std::string& input : matching_files(settings.surface.file))
+        if (!(fs::last_write_time(input, error) < written)) return true;
+    return false;
+}
+
+// The sums in the result file of the case, if it holds the first realizations of the same campaign and no others. Otherwise `messages` says
+// why not, because that result is going to be replaced.
+std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages) {
+    const std::string& file = job.settings.output.file;
+    std::string why;
+    try {
+        const std::optional<ResultHead> head = head_of_result(file);
+        if (!head) return {};
+        const Reading there = read_namelist(head->case_text);
+        if (there.study) throw Error(Failure::bad_input, "it is not the result of a campaign");
+        if (!head->this_version() || !there.faults.empty()) throw Error(Failure::bad_input, "it was written by another version of rsc");
+        if (input_is_newer(job.settings)) throw Error(Failure::bad_input, "an input has changed since");
+        for (const std::string& line : Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
+            why += (why.empty() ? "" : "; ") + line;
+        if (why.empty()) return read_sums(file, job.observe, job.levels.size());
+    } catch (const Error& error) {
+        why = error.what();
+    }
+    if (messages)
+        *messages << "rsc: '" << file << "' is not the first part of this campaign (" << why
+                  << "): all realizations are computed, and the file is replaced\n";
+    return {};
+}
+
+// The contents of a campaign's result file. Levels of &compare are solved by elements here and reported on `table`. After a signal that is
+// caught meanwhile the result is not whole.
+Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* table) {
+    const Case& settings = job.settings;
+    Observations observations = sums.finish();
+    const std::vector<LevelValues> first(observations.rows.begin(),
+                                         observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
+    ComparedLevels compared;
+    if (compares(job, false))
+        compared = compare_levels(job, settings.run.first_realization, 1, first, table, [] { return caught_signal() != 0; });
+    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, std::move(observations));
+    result.compared = std::move(compared);
+    return result;
+}
+
 std::string how_far(const Progressing& state, const Case& settings) {
     return std::to_string(state.finished()) + " of " + std::to_string(settings.run.realizations) +
-           " realizations are finished and kept in '" + checkpoint_name(settings.output.file) + "'";
+           " realizations are finished and saved in '" + checkpoint_name(settings.output.file) + "'";
 }
 
 }  // namespace
@@ -157,7 +198,7 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
         write_result(result, file, {settings.output.format, settings.output.compression, options.command});
     } catch (const Error& error) {
         throw Error(error.kind(), std::string(error.what()) + "\n" + how_far(state, settings) +
-                                      ": the same command with --resume writes the file without computing them again");
+                                      ": run the same command with --resume to write the file without computing them again");
     }
     checkpoint.remove();
     const RunSummary summary = campaign_summary(result);
@@ -173,6 +214,82 @@ std::optional<RunSummary> finished_result(const Case& settings) {
     if (!count) return {};
     RunSummary summary;
     summary.levels = count->levels, summary.failed = count->failed;
+    return summary;
+}
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, "--merge: " + text); }
+
+struct Part {
+    std::string file;
+    Case settings;
+    std::int64_t first() const { return settings.run.first_realization; }
+    std::int64_t last() const { return first() + settings.run.realizations - 1; }
+};
+
+std::string numbers(std::int64_t from, std::int64_t to) {
+    return (from == to ? "realization " : "realizations ") + std::to_string(from) + (from == to ? "" : " to " + std::to_string(to));
+}
+
+Part open_part(const std::string& file) {
+    const std::optional<ResultHead> head = head_of_result(file);
+    if (!head) refuse("'" + file + "' is no result of rsc");
+    const ReadCase read = read_case_text(head->case_text, file);
+    if (read.study) refuse("'" + file + "' is the manifest of a study, not the result of a campaign");
+    if (!head->this_version()) refuse("'" + file + "' is of another version (" + head->source.substr(0, head->source.find(',')) + ")");
+    if (read.settings.run.realizations == 1) refuse("'" + file + "' holds a single realization, not a campaign");
+    return {file, read.settings};
+}
+
+void require_same_case(const Part& first, Part other) {
+    other.settings.run.first_realization = first.settings.run.first_realization;
+    other.settings.run.realizations = first.settings.run.realizations;
+    std::string changed;
+    for (const std::string& line :
+         Checkpoint::differences(first.settings, other.settings, "in '" + first.file + "'", "in '" + other.file + "'"))
+        changed += "\n  " + line;
+    if (!changed.empty()) refuse("'" + other.file + "' is of another case than '" + first.file + "':" + changed);
+}
+
+void require_adjacent(const Part& before, const Part& after) {
+    if (after.first() <= before.last())
+        refuse(numbers(after.first(), std::min(before.last(), after.last())) + " are in '" + before.file + "' and in '" + after.file + "'");
+    if (after.first() > before.last() + 1)
+        refuse(numbers(before.last() + 1, after.first() - 1) + " of the campaign are missing from the files");
+}
+
+}  // namespace
+
+RunSummary merge_campaigns(const std::vector<std::string>& files, const std::string& output, const RunOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Part> parts;
+    for (const std::string& file : files) parts.push_back(open_part(file));
+    for (const Part& part : parts) require_same_case(parts.front(), part);
+    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first() < b.first(); });
+    for (std::size_t k = 1; k < parts.size(); ++k) require_adjacent(parts[k - 1], parts[k]);
+    const bool replaces = check_output(output, files);
+
+    Case whole = parts.front().settings;
+    whole.output.file = output;
+    whole.run.realizations = static_cast<int>(parts.back().last() - parts.front().first() + 1);
+    const Job job = prepare(whole);
+    Accumulators sums = read_sums(parts.front().file, job.observe, job.levels.size());
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+        const Accumulators more = read_sums(parts[k].file, job.observe, job.levels.size());
+        if (whole.indentation.control == Control::separation && more.rows.front().separation != sums.rows.front().separation)
+            refuse("the levels of '" + parts[k].file + "' are others than those of '" + parts.front().file + "'");
+        sums.append(more);
+    }
+    std::ostream* const table = options.quiet ? nullptr : options.table;
+    const Result result = campaign_result(job, sums, table);
+    if (const int signal = caught_signal())
+        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+    write_result(result, output, {whole.output.format, whole.output.compression, options.command});
+    const RunSummary summary = campaign_summary(result);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (table) print_campaign_summary(*table, job, result.observations, seconds, output, replaces);
+    tell_failed(options, summary);
     return summary;
 }
 

@@ -1,26 +1,29 @@
-// A campaign: the realizations of a case, spread over a team, added up in their order, interruptible at any moment.
+// Campaigns: the realizations of a case, shared out to a team and added up in their order; they may be interrupted at any moment.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
 #include "case/case.hpp"
-#include "run/campaign_team.hpp"
+#include "file/result.hpp"
 #include "run/job.hpp"
-#include "run/run_options.hpp"
+#include "run/run.hpp"
+#include "run/team.hpp"
 
 namespace rsc {
 
-// Runs the realizations of `settings`, which the team knows as its member `member`, and writes the result file. `job`: the case
-// made ready. Bits do not depend on the team, nor on interruptions. While it runs, and until it is finished, its state is in
-// `<result file>.checkpoint`; options.resume goes on with it, or with the result file of the same campaign with fewer realizations.
-// Throws Error(bad_input) before anything is run (output not writable, a checkpoint in the way or of another case), Error with
-// the number of the realization that failed, Interrupted. After any of the last two the checkpoint holds all realizations that
-// were finished.
+// Runs the realizations of `settings`, number `member` of the team's members and prepared as `job`, and writes the result file. The bits
+// of the result depend neither on the team nor on interruptions. Until the campaign is finished its state is in
+// `<result file>.checkpoint`; options.resume continues from it, or from the result file of the same campaign with fewer realizations.
+// Throws Error(bad_input) before anything is run (output not writable, an earlier checkpoint, one of another case), Error with the number
+// of the realization that failed, and Interrupted; after the last two the checkpoint holds all realizations that were finished.
 RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member, std::shared_ptr<const Job> job);
 
-// Of a campaign or a single case: is its result file there and whole, made from the same case and inputs by this version? The summary of
-// what it holds then (of which only levels and failed are known).
+// The summary of a campaign or a single case (levels and failed alone) if its result file is complete, and was made from the same case and
+// inputs by this version.
 std::optional<RunSummary> finished_result(const Case& settings);
+
+// rsc --merge. `files`: results of one case, in any order, whose realizations follow each other. The result file `output` equals, bit for
+// bit in its variables, that of one campaign over all of them. Throws Error(bad_input), before anything is written, naming the file that
+// is no result of a campaign, of another version or of another case (with the keys that differ), and realizations that are in two files
+// or in none.
+RunSummary merge_campaigns(const std::vector<std::string>& files, const std::string& output, const RunOptions& options);
 
 }  // namespace rsc

@@ -1,8 +1,5 @@
 #include "run/compare.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "contact/element_contact.hpp"
 #include "error.hpp"
 #include "format.hpp"
@@ -20,9 +17,7 @@ constexpr double kAutoSeconds = 2;
 constexpr double kWithFiner = 5, kWithCoarser = 1.25;
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
-std::string itself(double error) {
-    return std::isnan(error) ? " (its own error is not known)" : format(" (itself +- %.2g %%)", 100 * error);
-}
+std::string itself(double error) { return std::isnan(error) ? " (error unknown)" : format(" (itself +- %.2g %%)", 100 * error); }
 
 void print(std::ostream& out, const Job& job, const ComparedLevels& c, const LevelValues& asperities, bool by_force) {
     const std::size_t k = c.step.size() - 1;
@@ -42,7 +37,7 @@ void print(std::ostream& out, const Job& job, const ComparedLevels& c, const Lev
         out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
                       100 * c.contacts_error[k]);
     if (c.force_error_expected[k] > kUnresolved)
-        out << format("  a finer grid may change N of the elements by %.2g %%: it is no sure reference.\n",
+        out << format("  warning: a finer grid may change N of the elements by %.2g %%, so that they are not a reliable reference.\n",
                       100 * c.force_error_expected[k]);
 }
 
@@ -67,7 +62,7 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
     return steps;
 }
 
-// Whether the sphere turns round at a level, or goes up from the first one.
+// True if the direction of the path is reversed at a level, or the path begins with unloading.
 bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
     if (k + 1 >= levels.size()) return false;
     const double on = levels[k + 1].separation - levels[k].separation;
@@ -103,8 +98,8 @@ private:
         Case settings = job_.settings;
         settings.elements.points_per_wave = points_per_wave;
         auto map = std::make_unique<HeightMap>(make_element_surface(settings, number_, threads_).map);
-        map->x0 = job_.site.domain.x0;  // of several measured maps the first one says where they lie
-        map->y0 = job_.site.domain.y0;
+        map->x0 = job_.domain.x0;  // of several measured maps the first one says where they lie
+        map->y0 = job_.domain.y0;
         return map;
     }
 

@@ -1,17 +1,12 @@
 // &compare: levels of the asperity model once more by elements, on the same surface at the same separation.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <ostream>
-#include <vector>
-
 #include "file/result.hpp"
 #include "run/job.hpp"
 
 namespace rsc {
 
-// Whether the case compares levels: those listed, or with compare%levels = 'auto', where `automatically`, the last one if the forecast
+// True if levels are compared: those listed, or with compare%levels = 'auto' and `automatically`, the last one if the forecast
 // for it is short.
 bool compares(const Job& job, bool automatically);
 

@@ -1,9 +1,5 @@
 #include "run/forecast.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-
 #include "contact/interaction/mesh.hpp"
 #include "error.hpp"
 
@@ -29,7 +25,7 @@ double under_indenter(const Job& job, double Z0, double power) {
     constexpr int side = 96, steps = 32;
     const double step = std::max(1.0, 6 - Z0 / job.sigma) * job.sigma / steps;
     double area[steps] = {};
-    const Domain& d = job.site.domain;
+    const Domain& d = job.domain;
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i) {
             const double x = d.x0 + (i + 0.5) * d.Lx / side - job.indenter.x0, y = d.y0 + (j + 0.5) * d.Ly / side - job.indenter.y0;
@@ -45,7 +41,7 @@ double under_indenter(const Job& job, double Z0, double power) {
 // Greenwood and Tripp's sum without interaction: force of an indenter at Z0 on Gaussian summits. More than it carries.
 double greenwood_force(const Job& job, double Z0) {
     const double r = job.theory ? job.theory->mean_radius() : 1.0;
-    const double density = 1 / (job.site.mean_spacing * job.site.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
+    const double density = 1 / (job.domain.mean_spacing * job.domain.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
     return density * k * under_indenter(job, Z0, 1.5);
 }
 
@@ -84,7 +80,7 @@ double points_of_elements(const Job& job, double points_per_wave) {
 // A level by elements: so much for each point under the sphere, or, between flats that repeat, for each of the period.
 double element_level_seconds(const Job& job, double Z0, double points) {
     if (job.indenter.period.finite()) return 1e-6 * points;
-    return 5e-6 * points * area_under(job, Z0) / (job.site.domain.Lx * job.site.domain.Ly);
+    return 5e-6 * points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);
 }
 
 // Seconds for a surface, its summits included.
@@ -101,7 +97,7 @@ double surface_seconds(const Case& settings) {
     }
     const auto start = Clock::now();
     try {
-        make_ground(sample, 1, 1);
+        make_surface_model(sample, 1, 1);
     } catch (const Error&) {  // a piece of the surface so small that it has no summit
     }
     return std::chrono::duration<double>(Clock::now() - start).count() * scale * scale;
@@ -116,7 +112,7 @@ double expected_candidates(const Job& job, double Z0) {
         for (std::size_t i = 0; i < a.size(); ++i) count += job.indenter.clearance(a.x[i], a.y[i], a.z[i]) > Z0 ? 1 : 0;
         return count;
     }
-    return area_under(job, Z0) / (job.site.mean_spacing * job.site.mean_spacing);
+    return area_under(job, Z0) / (job.domain.mean_spacing * job.domain.mean_spacing);
 }
 
 double likely_separation(const Job& job, double level) {

@@ -1,4 +1,4 @@
-// How long a case is going to take, told before it runs.
+// Estimate of the time that a case takes.
 #pragma once
 
 #include "run/job.hpp"

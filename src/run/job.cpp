@@ -1,8 +1,5 @@
 #include "run/job.hpp"
 
-#include <cmath>
-#include <memory>
-
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
@@ -11,10 +8,8 @@
 #include "contact/ranking.hpp"
 #include "error.hpp"
 #include "format.hpp"
-#include "read/file_list.hpp"
+#include "read/inputs.hpp"
 #include "rough/synthesis.hpp"
-#include "run/friction_loops.hpp"
-#include "run/level_checks.hpp"
 #include "run/resolution.hpp"
 
 namespace rsc {
@@ -38,29 +33,29 @@ void require_maps(const Case& settings) {
     const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
     const std::int64_t last = std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
     if (last > files)
-        throw Error(Failure::bad_input, settings.surface.file + ": realizations up to " + std::to_string(last) + " are asked for, and " +
+        throw Error(Failure::bad_input, settings.surface.file + ": realizations up to " + std::to_string(last) + " are requested, but " +
                                             std::to_string(files) + " files match");
 }
 
 // The sphere comes down on the same place of every map: they must be of one size; where one lies says nothing.
-void move_to(const Domain& place, Ground& ground, std::int64_t number) {
+void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     constexpr double kSame = 1e-6;
-    const Domain& d = ground.site.domain;
+    const Domain& d = model.domain;
     if (!(std::abs(d.Lx - place.Lx) <= kSame * place.Lx && std::abs(d.Ly - place.Ly) <= kSame * place.Ly))
         throw Error(Failure::bad_input, "the map of realization " + std::to_string(number) + " is " + std::to_string(d.Lx) + " x " +
                                             std::to_string(d.Ly) + ", the first is " + std::to_string(place.Lx) + " x " +
                                             std::to_string(place.Ly) + "; maps of one size are expected");
-    for (double& x : ground.asperities.x) x += place.x0 - d.x0;
-    for (double& y : ground.asperities.y) y += place.y0 - d.y0;
-    if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; ground.search && (dx != 0 || dy != 0))
-        ground.search = [dx, dy, search = std::move(ground.search)](Indenter indenter) {
+    for (double& x : model.asperities.x) x += place.x0 - d.x0;
+    for (double& y : model.asperities.y) y += place.y0 - d.y0;
+    if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; model.search && (dx != 0 || dy != 0))
+        model.search = [dx, dy, search = std::move(model.search)](Indenter indenter) {
             indenter.x0 -= dx, indenter.y0 -= dy;
             Asperities found = search(indenter);
             for (double& x : found.x) x += dx;
             for (double& y : found.y) y += dy;
             return found;
         };
-    ground.site.domain = place;
+    static_cast<Domain&>(model.domain) = place;
 }
 
 // The m2 that relative pressures are measured by, the same for all realizations: of the map read, of the one surface made, or of several
@@ -73,7 +68,7 @@ double m2_of_pressures(const Job& job) {
     return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1).sampled().m2;
 }
 
-// How much the heights of a map jump across the seam where it repeats, over what they do between its points (rms).
+// Jump of the heights across the border of a periodic map, relative to that between neighbouring points (rms).
 double seam(const HeightMap& map) {
     double across = 0, within = 0;
     long n_across = 0, n_within = 0;
@@ -98,34 +93,34 @@ Job prepare(const Case& settings) {
     if (has_spectrum(settings)) {
         job.spectrum = spectrum_of(settings);
         if (elements || settings.compare.listed()) require_element_memory(settings, *job.spectrum);
-        job.site = synthetic_site(*job.spectrum);
-        job.site.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
+        job.domain = synthetic_domain(*job.spectrum);
+        job.domain.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
     } else {
-        Ground ground;
+        SurfaceModel model;
         if (settings.surface.source == Source::heights) {
             Surface surface = make_surface(settings, settings.run.first_realization, 1);
-            ground = elements ? make_bare_ground(surface) : make_ground(surface, settings, 1);
+            model = elements ? make_bare_model(surface) : make_surface_model(surface, settings, 1);
             if (surface.map.periodic) job.seam = seam(surface.map);
             job.given_heights = std::move(surface.map);
         } else {
-            ground = make_ground(settings, 1, 1);
+            model = make_surface_model(settings, 1, 1);
         }
-        job.site = ground.site;
-        job.measured = ground.measured;
-        sqrt_m4 = ground.statistics.m4 > 0 ? std::sqrt(ground.statistics.m4) : elements ? 0.0 : typical_sqrt_m4(ground.asperities);
-        if (!differs_by_realization(settings) || settings.run.realizations == 1) job.given = std::move(ground);
+        job.domain = model.domain;
+        job.measured = model.measured;
+        sqrt_m4 = model.statistics.m4 > 0 ? std::sqrt(model.statistics.m4) : elements ? 0.0 : typical_sqrt_m4(model.asperities);
+        if (!differs_by_realization(settings) || settings.run.realizations == 1) job.given = std::move(model);
         if (differs_by_realization(settings)) require_maps(settings);
     }
-    job.sigma = sigma_of(settings, job.site);
+    job.sigma = sigma_of(settings, job.domain);
     if (!(job.sigma > 0)) {
         throw Error(Failure::bad_input,
                     "surface%sigma: the rms height of what was read is 0; give a sigma > 0 (it scales unit='sigma' "
                     "and solver%delta0), and unit='length' if the levels are lengths");
     }
-    job.solver = solver_of(settings, job.site);
-    job.indenter = indenter_of(settings, job.site);
+    job.solver = solver_of(settings, job.domain);
+    job.indenter = indenter_of(settings, job.domain);
 
     if (!elements && job.given && job.given_heights) {
         const HeightMap& map = *job.given_heights;
@@ -147,15 +142,17 @@ Job prepare(const Case& settings) {
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
             if (!elements && level * unit >= kClosingPressure * full)
-                throw Error(Failure::bad_input,
-                            format("indentation: a pressure of %g: from E* sqrt(2 m2) = %g on less than 5 %% of the area is gap, and no "
-                                   "asperities are left to speak of; solver%%model = 'elements' goes on until the gap is closed",
-                                   level * unit, full));
+                throw Error(
+                    Failure::bad_input,
+                    format(
+                        "indentation: a pressure of %g: from E* sqrt(2 m2) = %g on less than 5 %% of the area is gap, too little for the "
+                        "asperity model; use solver%%model = 'elements', which is valid up to full contact",
+                        level * unit, full));
         }
         job.level_unit = unit * job.indenter.period.area();
     }
     for (double& level : job.levels) level *= job.level_unit;
-    job.observe = observe_options(settings, job.site.domain, job.indenter, job.sigma, sqrt_m4);
+    job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
 
@@ -171,12 +168,12 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             r.statistics = job.given->statistics;
         } else {
             Surface surface = make_element_surface(settings, number, threads);
-            Ground ground = make_bare_ground(surface);
+            SurfaceModel model = make_bare_model(surface);
             if (!job.spectrum) {  // one of several maps
-                move_to(job.site.domain, ground, number);
-                surface.map.x0 = job.site.domain.x0, surface.map.y0 = job.site.domain.y0;
+                move_to(job.domain, model, number);
+                surface.map.x0 = job.domain.x0, surface.map.y0 = job.domain.y0;
             }
-            r.statistics = ground.statistics;
+            r.statistics = model.statistics;
             r.heights = std::move(surface.map);
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
@@ -184,14 +181,14 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (settings.run.realizations == 1) resolution.emplace(job, number, threads, map);
     } else {
         if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
-        Ground ground = job.spectrum ? make_ground(settings, *job.spectrum, number, threads)
-                        : job.given  ? *job.given
-                                     : make_ground(settings, number, threads);
-        if (settings.surface.source == Source::heights) move_to(job.site.domain, ground, number);
-        r.asperities = std::move(ground.asperities);
-        r.statistics = ground.statistics;
-        search = ground.search;
-        solver.rms_slope = ground.site.rms_slope;
+        SurfaceModel model = job.spectrum ? make_surface_model(settings, *job.spectrum, number, threads)
+                             : job.given  ? *job.given
+                                          : make_surface_model(settings, number, threads);
+        if (settings.surface.source == Source::heights) move_to(job.domain, model, number);
+        r.asperities = std::move(model.asperities);
+        r.statistics = model.statistics;
+        search = model.search;
+        solver.rms_slope = model.domain.rms_slope;
         contact = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
     }
     std::optional<FrictionRows> friction;
@@ -209,7 +206,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         Level& level = r.levels.back();
         add_answers(*contact, level, settings.solids.resistivity);
         if (resolution) resolution->judge(k, level);
-        if (job.measured && job.given) judge_filled(level, *job.measured, job.site.domain);
+        if (job.measured && job.given) judge_filled(level, *job.measured, job.domain);
         if (level.force == 0 && level.separation < job.points_touch)  // points touch where no summit is
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
@@ -229,6 +226,37 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& r) {
     return observe(job.observe, number, r.statistics, r.levels);
+}
+
+namespace {
+
+constexpr int kSteps = 40;  // of first loading
+
+}  // namespace
+
+FrictionRows::FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other)
+    : friction_(friction), one_(std::move(one)), other_(std::move(other)), curve_(*one_, *other_) {}
+
+bool FrictionRows::add(const Level& level, FrictionLoops& loops) {
+    const double delta = -level.separation;
+    const long failed = curve_.failed();
+    loops.points = slide_cycle_points(kSteps);
+    loops.first = kSteps + 1;
+    SlideCycle cycle;
+    if (delta > curve_.first_touch()) {
+        cycle = slide_cycle(curve_, friction_, delta, kSteps);
+        loops.stiffness.push_back(-friction_.ratio * level.stiffness);
+        loops.cycle_work.push_back(cycle.work);
+    } else {
+        const double absent = std::numeric_limits<double>::quiet_NaN();
+        cycle.displacement.assign(loops.points, absent);
+        cycle.force = cycle.displacement;
+        loops.stiffness.push_back(absent);
+        loops.cycle_work.push_back(absent);
+    }
+    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(), cycle.displacement.end());
+    loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
+    return curve_.failed() == failed;
 }
 
 }  // namespace rsc

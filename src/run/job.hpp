@@ -1,14 +1,9 @@
 // A case made ready: what is read, computed and checked once, and how one realization of it is run.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <vector>
-
 #include "case/case.hpp"
 #include "contact/contact.hpp"
+#include "contact/contact_curve.hpp"
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
@@ -18,7 +13,7 @@ namespace rsc {
 
 struct Job {
     Case settings;
-    Site site;
+    SurfaceDomain domain;
     Indenter indenter;
     SolverOptions solver;
     double sigma = 0;                  // the length unit='sigma' and delta0 mean
@@ -27,8 +22,8 @@ struct Job {
     std::optional<Spectrum> spectrum;  // of a synthetic surface
     std::optional<Moments> theory;     // its moments
     ObserveOptions observe;
-    // What was read, if it is the same in every realization.
-    std::optional<Ground> given;
+    // The surface that was read, if it is the same in every realization.
+    std::optional<SurfaceModel> given;
     std::shared_ptr<const Measured> measured;                        // of a measured map, the first of several
     double points_touch = -std::numeric_limits<double>::infinity();  // of a map read, by asperities: Z0 at which one of its points touches
     double seam = 0;                         // of a map that is to repeat: its jump across the border over those between points
@@ -54,5 +49,20 @@ struct Realization {
 Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level = {});
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& realization);
+
+// The friction of a run's levels: what a contact held at each separation answers to a slide.
+
+// Adds the loops of a level. `one` and `other` are contacts of their own, like the one that found the level: its path is not disturbed.
+class FrictionRows {
+public:
+    FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other);
+    // Returns false if a level did not converge on the way: the row is then not to be used.
+    bool add(const Level& level, FrictionLoops& loops);
+
+private:
+    Friction friction_;
+    std::unique_ptr<Contact> one_, other_;
+    ContactCurve curve_;
+};
 
 }  // namespace rsc

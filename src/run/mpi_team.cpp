@@ -5,12 +5,6 @@
 
 #include <mpi.h>
 
-#include <chrono>
-#include <cstring>
-#include <deque>
-#include <limits>
-#include <new>
-
 #include "error.hpp"
 #include "run/signals.hpp"
 
@@ -43,7 +37,7 @@ class Outbox {
 public:
     void send(int rank, Tag tag, std::string bytes) {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw Error(Failure::internal, "an answer of more than 2 GiB cannot be sent by MPI; take fewer map_cells or levels");
+            throw Error(Failure::internal, "a result of more than 2 GiB cannot be sent by MPI; use fewer map_cells or levels");
         Letter& letter = letters_.emplace_back(Letter{std::move(bytes), MPI_REQUEST_NULL});
         MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD, &letter.request);
     }
@@ -86,7 +80,7 @@ std::string packed(const std::exception_ptr& error) {
     } catch (const Error& e) {
         return raw(static_cast<std::int32_t>(e.kind())) + e.what();
     } catch (const std::bad_alloc&) {
-        return raw(static_cast<std::int32_t>(Failure::no_memory)) + "the machine refused memory";
+        return raw(static_cast<std::int32_t>(Failure::no_memory)) + "out of memory";
     } catch (const std::exception& e) {
         return raw(static_cast<std::int32_t>(Failure::internal)) + e.what();
     }
@@ -168,7 +162,7 @@ MpiJob::MpiJob(int& argc, char**& argv) {
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     if (provided >= MPI_THREAD_FUNNELED) return;
     MPI_Finalize();
-    throw Error(Failure::internal, "this MPI library cannot be used by a program with threads");
+    throw Error(Failure::internal, "this MPI library does not support programs with threads");
 }
 
 MpiJob::~MpiJob() { MPI_Finalize(); }

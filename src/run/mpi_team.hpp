@@ -5,11 +5,7 @@
 // and it sleeps between looking for messages, so that the processors are left to the threads that compute.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string>
-
-#include "run/campaign_team.hpp"
+#include "run/team.hpp"
 
 namespace rsc {
 

@@ -2,26 +2,16 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
-#include <string>
-
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "contact/law/law.hpp"
 #include "error.hpp"
-#include "read/file_list.hpp"
-#include "read/input_spectrum.hpp"
 #include "read/inputs.hpp"
+#include "rough/defects.hpp"
 #include "rough/detection.hpp"
-#include "rough/magnitude.hpp"
-#include "rough/missing.hpp"
 #include "rough/reshape.hpp"
-#include "rough/rounding.hpp"
 #include "rough/synthesis.hpp"
 
 namespace rsc {
@@ -51,8 +41,8 @@ void made_heights(const Moments& sampled, SurfaceStatistics& s) {
     s.skewness = sampled.heights.skewness, s.kurtosis = sampled.heights.kurtosis;
 }
 
-void require_summits(const Ground& ground, const std::string& name, const std::string& where) {
-    if (ground.asperities.size() > 0) return;
+void require_summits(const SurfaceModel& model, const std::string& name, const std::string& where) {
+    if (model.asperities.size() > 0) return;
     throw Error(Failure::bad_input, name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
 }
 
@@ -80,24 +70,16 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
     return surface;
 }
 
-HeightMap copy_of(const HeightMap& map) {
-    HeightMap copy;
-    copy.allocate(map.nx, map.ny, map.nx);
-    copy.dx = map.dx, copy.dy = map.dy, copy.x0 = map.x0, copy.y0 = map.y0, copy.periodic = map.periodic;
-    for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, copy.row(j));
-    return copy;
-}
-
-Ground read_list(const Case& settings) {
+SurfaceModel read_list(const Case& settings) {
     const auto& keys = settings.surface;
-    Ground ground;
-    ground.asperities = read_asperities(keys.file, settings.run.length_unit);
-    make_law(settings.asperities.law, ground.asperities, 1);  // refuses asperities that lack what the law needs
-    ground.site = list_site(ground.asperities, keys.L, "the asperities in " + keys.file);
-    ground.statistics.summits = static_cast<std::int64_t>(ground.asperities.size());
-    ground.statistics.sigma = ground.site.sigma;
-    ground.list = true;
-    return ground;
+    SurfaceModel model;
+    model.asperities = read_asperities(keys.file, settings.run.length_unit);
+    make_law(settings.asperities.law, model.asperities, 1);  // refuses asperities that lack what the law needs
+    model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
+    model.statistics.summits = static_cast<std::int64_t>(model.asperities.size());
+    model.statistics.sigma = model.domain.sigma;
+    model.list = true;
+    return model;
 }
 
 }  // namespace
@@ -170,7 +152,7 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
     constexpr double beside = 1.5;  // the modes of the surface while it is made, the pixels in contact later
     if (!(memory > 0) || beside * bytes <= memory) return;
     std::snprintf(text, sizeof text,
-                  "&elements points_per_wave = %g: %s, %d x %d points, take %.3g GB, and the machine has %.3g GB of memory; take "
+                  "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has %.3g GB of memory; use "
                   "fewer points a wave or a smaller surface%%L_lambda_s",
                   settings.elements.points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes,
                   1e-9 * memory);
@@ -195,40 +177,40 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
     return make_surface(finer, spectrum, number, threads);
 }
 
-Site synthetic_site(const Spectrum& spectrum) {
+SurfaceDomain synthetic_domain(const Spectrum& spectrum) {
     const Moments theory = theoretical_moments(spectrum);
-    Site site{{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
-    site.rms_slope = theory.rms_slope();
-    return site;
+    SurfaceDomain domain{{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
+    domain.rms_slope = theory.rms_slope();
+    return domain;
 }
 
-Site list_site(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
+SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
     const Extent box = extent(asperities);
     const double extent = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
     if (L && extent > *L) {
         throw Error(Failure::bad_input,
                     "surface%L = " + std::to_string(*L) + " is less than the extent of " + whose + ", " + std::to_string(extent));
     }
-    Site site;
-    site.sigma = rms(asperities.z);
-    site.guessed = !L;
+    SurfaceDomain domain;
     if (L && std::min(box.x_min, box.y_min) >= 0 && std::max(box.x_max, box.y_max) <= *L) {
-        site.domain = {0, 0, *L, *L};
+        domain = {0, 0, *L, *L};
     } else {
         const double side = L.value_or(extent > 0 ? extent : 1.0);
-        site.domain = {0.5 * (box.x_min + box.x_max) - 0.5 * side, 0.5 * (box.y_min + box.y_max) - 0.5 * side, side, side};
+        domain = {0.5 * (box.x_min + box.x_max) - 0.5 * side, 0.5 * (box.y_min + box.y_max) - 0.5 * side, side, side};
     }
-    if (L || extent > 0) site.mean_spacing = std::sqrt(site.domain.Lx * site.domain.Ly / static_cast<double>(asperities.size()));
-    return site;
+    domain.sigma = rms(asperities.z);
+    domain.guessed = !L;
+    if (L || extent > 0) domain.mean_spacing = std::sqrt(domain.Lx * domain.Ly / static_cast<double>(asperities.size()));
+    return domain;
 }
 
-Ground make_ground(const Surface& surface, const Case& settings, int threads) {
+SurfaceModel make_surface_model(const Surface& surface, const Case& settings, int threads) {
     const HeightMap& map = surface.map;
-    Ground ground;
+    SurfaceModel model;
     if (by_elements(settings)) {
-        ground = make_bare_ground(surface);
-        ground.points = std::make_shared<HeightMap>(copy_of(map));
-        return ground;
+        model = make_bare_model(surface);
+        model.points = std::make_shared<HeightMap>(map.copy());
+        return model;
     }
     SummitCount count;
     const auto& measured = surface.origin.measured;
@@ -237,43 +219,43 @@ Ground make_ground(const Surface& surface, const Case& settings, int threads) {
     auto breaks = std::make_shared<Breaks>();
     if (!surface.origin.theory) *breaks = measured ? measured->breaks : find_breaks(map, step);
     auto seen = std::make_shared<HeightMap>();
-    if (step > 0 || !breaks->pits.empty() || detail_of(settings) == Detail::subgrid) *seen = copy_of(map);
+    if (step > 0 || !breaks->pits.empty() || detail_of(settings) == Detail::subgrid) *seen = map.copy();
     if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
     if (step > 0) smooth_within_step(*seen, step);
-    ground.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
-                                        surface.origin.points_per_wave, nullptr, breaks.get());
+    model.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
+                                       surface.origin.points_per_wave, nullptr, breaks.get());
     if (measured) {
-        drop_near_filled(ground.asperities, count, map, measured->filled, measured->shortest_wave());
+        drop_near_filled(model.asperities, count, map, measured->filled, measured->shortest_wave());
     }
     if (detail_of(settings) == Detail::subgrid)
-        ground.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
-                         waves = surface.origin.points_per_wave, measured, breaks](const Indenter& indenter) {
+        model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
+                        waves = surface.origin.points_per_wave, measured, breaks](const Indenter& indenter) {
             const Face face(indenter);
             SummitCount unused;
             Asperities found = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
             if (measured) drop_near_filled(found, unused, *kept, measured->filled, measured->shortest_wave());
             return found;
         };
-    require_summits(ground, surface.origin.name, map.periodic ? "" : " inside the map");
-    const Ground bare = make_bare_ground(surface);
-    ground.site = bare.site;
-    ground.statistics = bare.statistics;
-    ground.measured = bare.measured;
-    if (!surface.origin.theory) ground.site.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(ground.asperities.size()));
-    count_summits(count, ground.statistics);
-    return ground;
+    require_summits(model, surface.origin.name, map.periodic ? "" : " inside the map");
+    const SurfaceModel bare = make_bare_model(surface);
+    model.domain = bare.domain;
+    model.statistics = bare.statistics;
+    model.measured = bare.measured;
+    if (!surface.origin.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
+    count_summits(count, model.statistics);
+    return model;
 }
 
-Ground make_bare_ground(const Surface& surface) {
+SurfaceModel make_bare_model(const Surface& surface) {
     const HeightMap& map = surface.map;
-    Ground ground;
-    ground.measured = surface.origin.measured;
-    ground.site.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
-    if (!surface.origin.theory) ground.site.half_step_x = 0.5 * map.dx, ground.site.half_step_y = 0.5 * map.dy;
-    ground.site.sigma = surface.origin.sigma;
-    ground.site.points_per_wave = ground.measured ? ground.measured->points_per_wave() : surface.origin.points_per_wave;
-    if (surface.origin.theory) ground.site.mean_spacing = surface.origin.theory->mean_spacing();
-    auto& s = ground.statistics;
+    SurfaceModel model;
+    model.measured = surface.origin.measured;
+    model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
+    if (!surface.origin.theory) model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
+    model.domain.sigma = surface.origin.sigma;
+    model.domain.points_per_wave = model.measured ? model.measured->points_per_wave() : surface.origin.points_per_wave;
+    if (surface.origin.theory) model.domain.mean_spacing = surface.origin.theory->mean_spacing();
+    auto& s = model.statistics;
     const Moments grid = grid_moments(map);
     s.sigma = surface.origin.sigma;
     s.m2 = s.m2_grid = grid.m2;
@@ -286,21 +268,21 @@ Ground make_bare_ground(const Surface& surface) {
         s.tensor = surface.origin.sampled->tensor;
         made_heights(*surface.origin.sampled, s);
     }
-    ground.site.rms_slope = std::sqrt(2 * s.m2);
-    return ground;
+    model.domain.rms_slope = std::sqrt(2 * s.m2);
+    return model;
 }
 
-Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
+SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
     const auto& keys = settings.surface;
-    Ground ground;
-    ground.site = synthetic_site(spectrum);
-    ground.site.points_per_wave = keys.n / spectrum.L_lambda_s;
+    SurfaceModel model;
+    model.domain = synthetic_domain(spectrum);
+    model.domain.points_per_wave = keys.n / spectrum.L_lambda_s;
     SummitCount count;
     Moments sampled, differences;
-    ground.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
-                                        &sampled, threads, detail_of(settings), &differences);
-    require_summits(ground, "the surface", "");
-    auto& s = ground.statistics;
+    model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
+                                       &sampled, threads, detail_of(settings), &differences);
+    require_summits(model, "the surface", "");
+    auto& s = model.statistics;
     s.sigma = std::sqrt(sampled.m0);
     s.m2 = sampled.m2;
     s.m4 = sampled.m4;
@@ -309,36 +291,36 @@ Ground make_ground(const Case& settings, const Spectrum& spectrum, std::int64_t 
     s.m2_grid = differences.m2;
     s.m4_grid = differences.m4;
     count_summits(count, s);
-    ground.site.rms_slope = std::sqrt(2 * s.m2);
+    model.domain.rms_slope = std::sqrt(2 * s.m2);
     if (detail_of(settings) == Detail::subgrid)
-        ground.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
-                         threads](const Indenter& indenter) {
+        model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
+                        threads](const Indenter& indenter) {
             const Face face(indenter);
             return make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads, Detail::subgrid,
                                    nullptr, &face);
         };
-    return ground;
+    return model;
 }
 
-Ground make_ground(const Case& settings, std::int64_t number, int threads) {
+SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int threads) {
     if (by_elements(settings)) {
         Surface surface = make_element_surface(settings, number, threads);
-        Ground ground = make_bare_ground(surface);
-        ground.points = std::make_shared<HeightMap>(std::move(surface.map));
-        return ground;
+        SurfaceModel model = make_bare_model(surface);
+        model.points = std::make_shared<HeightMap>(std::move(surface.map));
+        return model;
     }
     switch (settings.surface.source) {
         case Source::synthetic:
-        case Source::spectrum: return make_ground(settings, spectrum_of(settings), number, threads);
-        case Source::heights: return make_ground(make_surface(settings, number, threads), settings, threads);
+        case Source::spectrum: return make_surface_model(settings, spectrum_of(settings), number, threads);
+        case Source::heights: return make_surface_model(make_surface(settings, number, threads), settings, threads);
         case Source::asperities: return read_list(settings);
     }
     throw Error(Failure::internal, "an unknown source of asperities");
 }
 
-void require_tip_above(const Site& site, const Shape& shape, double x, double y) {
-    const Domain& d = site.domain;
-    const double beyond = site.guessed ? shape->reach() : 0;
+void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x, double y) {
+    const Domain& d = domain;
+    const double beyond = domain.guessed ? shape->reach() : 0;
     const auto text = [](double v) {
         char buffer[40];
         std::snprintf(buffer, sizeof buffer, "%.9g", v);
@@ -352,7 +334,7 @@ void require_tip_above(const Site& site, const Shape& shape, double x, double y)
     throw Error(Failure::bad_input, "the tip at x = " + text(x) + ", y = " + text(y) +
                                         " is not above the surface, which reaches from x = " + text(d.x0) + " to " + text(d.x0 + d.Lx) +
                                         " and from y = " + text(d.y0) + " to " + text(d.y0 + d.Ly) +
-                                        (site.guessed ? " (the asperities' own extent; surface%L would say)" : ""));
+                                        (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
 }
 
 Shape shape_of(const Case& settings) {
@@ -391,32 +373,32 @@ LayeredBody layers_in(const Case::Solids& solids) {
 
 }  // namespace
 
-Indenter indenter_of(const Case& settings, const Site& site) {
+Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
     const auto& centre = settings.indentation.centre;
-    const Domain& d = site.domain;
-    Indenter indenter{surface_modulus(settings.solids), shape_of(settings), centre[0].value_or(d.x0 + 0.5 * d.Lx - site.half_step_x),
-                      centre[1].value_or(d.y0 + 0.5 * d.Ly - site.half_step_y), period_of(settings, site)};
+    const Domain& d = domain;
+    Indenter indenter{surface_modulus(settings.solids), shape_of(settings), centre[0].value_or(d.x0 + 0.5 * d.Lx - domain.half_step_x),
+                      centre[1].value_or(d.y0 + 0.5 * d.Ly - domain.half_step_y), period_of(settings, domain)};
     indenter.layers = layers_in(settings.solids);
     try {
-        require_tip_above(site, indenter.shape, indenter.x0, indenter.y0);
+        require_tip_above(domain, indenter.shape, indenter.x0, indenter.y0);
     } catch (const Error& error) {
         throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
     }
     return indenter;
 }
 
-Period period_of(const Case& settings, const Site& site) {
-    return settings.indentation.boundary == Boundary::periodic ? Period{site.domain.Lx, site.domain.Ly} : Period{};
+Period period_of(const Case& settings, const SurfaceDomain& domain) {
+    return settings.indentation.boundary == Boundary::periodic ? Period{domain.Lx, domain.Ly} : Period{};
 }
 
-std::unique_ptr<Contact> make_contact(const Ground& ground, const Indenter& indenter, const SolverOptions& options) {
-    if (ground.points) return make_element_contact(*ground.points, indenter, options);
-    return std::make_unique<AsperityContact>(ground.asperities, indenter, options, ground.search);
+std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter, const SolverOptions& options) {
+    if (model.points) return make_element_contact(*model.points, indenter, options);
+    return std::make_unique<AsperityContact>(model.asperities, indenter, options, model.search);
 }
 
-double sigma_of(const Case& settings, const Site& site) { return settings.surface.sigma.value_or(site.sigma); }
+double sigma_of(const Case& settings, const SurfaceDomain& domain) { return settings.surface.sigma.value_or(domain.sigma); }
 
-SolverOptions solver_of(const Case& settings, const Site& site) {
+SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
     options.method = settings.solver.method;
     options.law = settings.asperities.law;
@@ -424,19 +406,19 @@ SolverOptions solver_of(const Case& settings, const Site& site) {
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;
-    options.sigma = sigma_of(settings, site);
+    options.sigma = sigma_of(settings, domain);
     options.tolerance = settings.solver.tolerance;
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
-    options.mean_spacing = site.mean_spacing;
-    options.points_per_wave = site.points_per_wave;
-    options.rms_slope = site.rms_slope;
+    options.mean_spacing = domain.mean_spacing;
+    options.points_per_wave = domain.points_per_wave;
+    options.rms_slope = domain.rms_slope;
     const bool free = settings.indentation.boundary == Boundary::free;
-    if (!site.guessed && free) options.surface = {site.domain.x0, site.domain.y0, site.domain.Lx, site.domain.Ly};
+    if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
         throw Error(Failure::bad_input,
                     "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
-                    "asperities, all of one height, give none");
+                    "asperities, which all have the same height, do not give one");
     }
     return options;
 }

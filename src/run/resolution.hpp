@@ -1,4 +1,4 @@
-// How far the answer of elements depends on their grid.
+// Grid errors of elements.
 //
 // A made surface is solved once more on a grid of half as many points a side, a quarter of the work; a map read from a file, of which
 // coarser points would be another surface, on twice as many, interpolated by its own cosine series (rough/resample.hpp). What N changes
@@ -6,11 +6,9 @@
 // on the way to the grid, or all of what it changes beyond it.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-
 #include "contact/contact.hpp"
+#include "contact/level.hpp"
+#include "rough/measured.hpp"
 #include "run/job.hpp"
 #include "run/prepare.hpp"
 
@@ -35,7 +33,7 @@ public:
     ~OtherGrid();
 
     bool exists() const { return contact_ != nullptr; }
-    // What a level by elements may be off. Nothing without another grid, or if it did not converge there.
+    // Expected errors of a level by elements. None without another grid, or if it did not converge there.
     std::optional<GridError> error(const LevelValues& level);
     // A level that must be visited though it is not judged: where the path of a surface that yields turns.
     void visit(double separation);
@@ -60,5 +58,14 @@ private:
     std::optional<GridError> last_;
     double pixels_ = 0;  // pixels_per_contact there
 };
+
+// The check of a level against the missing points of its map, which the contact itself does not know.
+
+// More of the contact area than this on points that were missing makes a level out_of_validity.
+inline constexpr double kMuchFilled = 0.01;
+
+// Fills filled_share of a level on a map with filled points, and raises its status where that is too much. Elements: the pixels under
+// pressure; asperities: the points within their spots.
+void judge_filled(Level& level, const Measured& map, const Domain& domain);
 
 }  // namespace rsc

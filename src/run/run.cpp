@@ -1,10 +1,198 @@
 #include "run/run.hpp"
 
+#include <omp.h>
+#include <unistd.h>
+
+#include "case/registry.hpp"
+#include "error.hpp"
+#include "file/netcdf_writer.hpp"
+#include "file/whole_file.hpp"
+#include "observe/regimes.hpp"
+#include "read/inputs.hpp"
+#include "rough/parallel.hpp"
 #include "run/campaign.hpp"
-#include "run/campaign_work.hpp"
-#include "run/single.hpp"
+#include "run/compare.hpp"
+#include "run/screen.hpp"
+#include "run/signals.hpp"
+#include "run/team.hpp"
 
 namespace rsc {
+
+bool check_result_path(const Case& settings, const RunOptions& options) {
+    std::vector<std::string> inputs = options.inputs;
+    if (settings.surface.source != Source::synthetic && !settings.surface.file.empty())
+        for (const std::string& file : matching_files(settings.surface.file)) inputs.push_back(file);
+    return check_output(settings.output.file, inputs);
+}
+
+std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
+
+// On a terminal a line that is drawn over, unless the table scrolls there; `always` gives a line now and then elsewhere too.
+std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
+    terminal = isatty(STDERR_FILENO) != 0;
+    const bool scrolls = options.table && !options.quiet && isatty(STDOUT_FILENO) != 0;
+    const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal && !scrolls);
+    return show ? options.messages : nullptr;
+}
+
+void tell_failed(const RunOptions& options, const RunSummary& summary) {
+    if (summary.failed == 0 || !options.messages) return;
+    *options.messages << "rsc: " << summary.failed << " of " << summary.levels
+                      << " levels did not converge; their values are in the file with status = 4. Raise solver%max_iterations or "
+                         "solver%tolerance.\n";
+}
+
+namespace {
+
+void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, std::span<const LevelValues> levels, double seconds,
+               const std::string& file, bool replaces, const std::string& twins) {
+    const char* l = job.settings.run.length_unit.c_str();
+    char line[600];
+    out << '\n';
+    if (by_elements(job.settings))
+        std::snprintf(line, sizeof line, "elements, %zu levels in %s\n", levels.size(), duration(seconds).c_str());
+    else
+        std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %zu levels in %s\n", static_cast<long long>(s.summits),
+                      static_cast<long long>(s.saddles), levels.size(), duration(seconds).c_str());
+    out << line;
+    if (s.m2 > 0) {
+        const double slope = std::sqrt(2 * s.m2);
+        std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, slope, slope_remark(slope));
+        out << line;
+    }
+    print_remarks(out, levels, job);
+    if (!twins.empty()) out << twins << '\n';
+    print_result(out, file, replaces);
+}
+
+// The OpenMP threads of the caller while this lives.
+class OmpThreads {
+public:
+    explicit OmpThreads(int threads) { omp_set_num_threads(threads); }
+    OmpThreads(const OmpThreads&) = delete;
+    OmpThreads& operator=(const OmpThreads&) = delete;
+    ~OmpThreads() { omp_set_num_threads(before_); }
+
+private:
+    int before_ = omp_get_max_threads();
+};
+
+constexpr const char* kMark = "! Written by rsc with the result of a measured map, and replaced with it: edit a copy.\n";
+const FileKind kTwins{"case of twins", [](const std::string& path) { return begins_with(path, kMark); }};
+constexpr int kRealizations = 100;
+
+std::string stem(const std::string& result) { return result.ends_with(".nc") ? result.substr(0, result.size() - 3) : result; }
+
+}  // namespace
+
+std::string twins_text(const Job& job, const std::string& result) {
+    const Measured& m = *job.measured;
+    Case twins = job.settings;
+    const double L = std::max(m.nx * m.dx, m.ny * m.dy);
+    twins.run.title = "Surfaces with the spectrum of " + std::filesystem::path(job.settings.surface.file).filename().string();
+    twins.run.realizations = kRealizations;
+    twins.run.first_realization = 1;
+    const Case::Surface keys = twins.surface;
+    twins.surface = {};
+    twins.surface.source = Source::spectrum;
+    twins.surface.file = result;
+    twins.surface.L = L;
+    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) * (1 - 1e-12))) +
+                      2;  // heights of any distribution need a point more
+    twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
+    twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
+    twins.surface.sigma = m.parameters.sq;
+    twins.surface.normalise = Normalise::ensemble;  // the map's rms height is one sample's; that of the twins may scatter as it does
+    if (keys.sigma && twins.indentation.control == Control::separation && twins.indentation.unit == LevelUnit::sigma) {
+        // There sigma was a unit of length; here it is the rms height to make.
+        twins.indentation.unit = LevelUnit::length;
+        twins.indentation.start *= job.sigma;
+        twins.indentation.stop *= job.sigma;
+        for (double& level : twins.indentation.levels) level *= job.sigma;
+    }
+    // The square begins at 0 and is as long as the map's longer side; the tip lies as it did from the middle.
+    const Domain& d = job.domain;
+    if (auto& x = twins.indentation.centre[0]) x = std::clamp(*x - (d.x0 + 0.5 * d.Lx) + 0.5 * L, 0.0, L);
+    if (auto& y = twins.indentation.centre[1]) y = std::clamp(*y - (d.y0 + 0.5 * d.Ly) + 0.5 * L, 0.0, L);
+    twins.output.file = stem(result) + "_twins.nc";
+    twins.output.contacts = Contacts::automatic;
+    twins.output.heights = false;
+    twins.solver.model = model_of(job.settings).model;  // as the map was solved, so that the two can be compared
+    return kMark + effective_namelist(twins);
+}
+
+// Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also says if a file
+// of that name was not written by rsc and is left alone; empty for other surfaces, and for maps too small for a spectrum.
+static std::string write_twins(const Job& job, const std::string& result) {
+    if (!job.measured || !job.measured->fit) return {};
+    const std::string path = stem(result) + "_twins.nml";
+    if (const std::string why = reason_to_leave(path, kTwins); !why.empty()) return "twins: " + path + ": " + why;
+    write_whole(path, kTwins, twins_text(job, result));
+    return "twins: " + path + " (surfaces with this spectrum: rsc < " + path + ")";
+}
+
+RunSummary run_realization(const Case& settings, const RunOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool replaces = check_result_path(settings, options);
+    const Contacts keep = contacts_kept(settings);
+    Job job = prepare(settings);
+    const int threads = static_cast<int>(most_threads(settings.run.threads));
+    const OmpThreads omp(threads);
+    bool terminal = false;
+    std::ostream* const line_out = progress_stream(options, terminal);
+    std::ostream* table = options.quiet ? nullptr : options.table;
+    const double total = static_cast<double>(job.levels.size());
+    double done = 0;
+    const auto go_on = [&] {
+        if (const int signal = caught_signal())
+            throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+        if ((options.abandoned && *options.abandoned) || (options.report && options.report(done, total)))
+            throw Interrupted(0, "stopped; nothing is written");
+    };
+    const Watch watch(go_on);
+    if (table) print_heading(*table, job);
+    Realization r;
+    {
+        ProgressLine progress(line_out, terminal, "levels");
+        r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
+            if (table) print_level(*table, job, k, level);
+            done = static_cast<double>(k + 1);
+            progress.show(done, total);
+            go_on();
+            return true;
+        });
+    }
+    Accumulators sums(job.observe, job.levels.size());
+    const RealizationRecord record = observe(job, settings.run.first_realization, r);
+    sums.add(record);
+    ComparedLevels compared;
+    if (compares(job, options.compare_automatically))
+        compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, [] { return false; });
+    go_on();
+    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
+    keep_contacts(result, r.levels, keep);
+    const SurfaceStatistics statistics = r.statistics;
+    result.friction = std::move(r.friction);
+    result.asperities = std::move(r.asperities);
+    result.residual_depth = std::move(r.residual_depth);
+    result.residual_profile = std::move(r.residual_profile);
+    result.measured = job.measured;
+    result.compared = std::move(compared);
+    if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
+    write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
+
+    const std::string twins = write_twins(job, settings.output.file);
+
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces, twins);
+    const LevelValues& last = record.levels.back();
+    const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
+    const RunSummary summary{static_cast<long>(record.levels.size() + result.compared.step.size()),
+                             static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) + result.compared.failed,
+                             last.separation, last.force, last.area};
+    tell_failed(options, summary);
+    return summary;
+}
 
 long run_case(const Case& settings, const RunOptions& options) {
     if (settings.run.realizations == 1) return run_realization(settings, options).failed;

@@ -1,12 +1,5 @@
 #include "run/screen.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <utility>
-
 #include "case/units.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/touching.hpp"
@@ -14,7 +7,6 @@
 #include "format.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
-#include "run/level_checks.hpp"
 #include "run/resolution.hpp"
 
 namespace rsc {
@@ -69,7 +61,7 @@ void print_case(std::ostream& out, const Job& job) {
     }
 }
 
-// What was done to a measured map; of several, to the first.
+// The treatment of a measured map, of several that of the first.
 void print_measured(std::ostream& out, const Job& job) {
     if (!job.measured) return;
     if (!job.given) out << "the first of the maps:\n";
@@ -77,8 +69,8 @@ void print_measured(std::ostream& out, const Job& job) {
     constexpr double most = 3;
     if (job.seam > most)
         out << format(
-            "warning: the map does not repeat: across its border heights jump %.2g times as far as between its points; contacts at "
-            "that seam are made up\n",
+            "warning: the map is not periodic: heights jump across its border %.2g times as much as between neighbouring points; contacts at "
+            "the border are artefacts\n",
             job.seam);
 }
 
@@ -132,8 +124,8 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
 
 void print_statuses(std::ostream& out, std::span<const LevelValues> levels, const Job& job, bool elements) {
     const double sigma = job.sigma;
-    const std::string remedy = job.spectrum ? format("elements%%points_per_wave = %g would.", 2 * job.settings.elements.points_per_wave)
-                                            : "the map has no more points; contacts there are of few of them.";
+    const std::string remedy = job.spectrum ? format("use elements%%points_per_wave = %g.", 2 * job.settings.elements.points_per_wave)
+                                            : "the map has too few points for its contacts.";
     const auto count = [&](auto holds) { return static_cast<long>(std::count_if(levels.begin(), levels.end(), holds)); };
     const auto tell = [&](long found, const std::string& what) {
         if (found > 0) out << format("  %ld of %zu levels: ", found, levels.size()) << what << '\n';
@@ -141,11 +133,11 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     const auto tell_status = [&](LevelStatus status, const char* meaning) {
         tell(count([status](const LevelValues& l) { return l.status == status; }), status_text(status) + " - " + meaning);
     };
-    // What makes a level out_of_validity; told also where a more serious status hides that one.
+    // Reasons for status out_of_validity, reported also where a more serious status hides it.
     tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
-         "contacts within <d> of the surface's border - what would carry beyond it is missing: N is too small.");
+         "contacts within <d> of the border of the surface - asperities beyond it are missing: N is too small.");
     tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
-         "more than 1 % of the contact area on points that were missing (filled_share): elements and spots press what was filled in.");
+         "more than 1 % of the contact area lies on points that were missing and have been filled (filled_share).");
     if (elements) {
         double worst = 0;
         for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // a NaN is no larger
@@ -155,40 +147,42 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     if (!elements) {
         tell(
             count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
-            "the surface may touch beside the summits that are looked at, and N not be 0; see solver%model = 'elements', or law = 'fourth_order'.");
+            "the surface may touch outside the summits of the model, so that N need not be 0; use solver%model = 'elements' or law = 'fourth_order'.");
         const bool list = job.settings.surface.source == Source::asperities;
         double steepest = 0;
         for (const LevelValues& l : levels) steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);
         if (list || job.settings.asperities.law == LawKind::hertz)
-            tell(count([](const LevelValues& l) { return l.slope_ratio > kMostSlopeRatio; }),
-                 format("at contacts the indenter is up to %.2g times as steep as the surface (slope_ratio): other points touch than the "
-                        "surface's summits; ",
-                        steepest) +
-                     (list ? "a list of asperities knows of no others." : "asperities%law = 'elliptic' or 'fourth_order' takes them."));
-        tell(
-            count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
-            "separation below -3 sigma - the sphere's tip lies under all but a thousandth of the surface: the asperity model is out of its range.");
+            tell(
+                count([](const LevelValues& l) { return l.slope_ratio > kMostSlopeRatio; }),
+                format(
+                    "at contacts the indenter is up to %.2g times as steep as the surface (slope_ratio), and touches other points than the "
+                    "summits of the surface; ",
+                    steepest) +
+                    (list ? "a list of asperities has no others." : "use asperities%law = 'elliptic' or 'fourth_order'."));
+        tell(count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
+             "separation below -3 sigma - the tip lies below 99.9 % of the heights: the asperity model is outside its range.");
         tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
-             "contact area above the nominal area under the sphere - the asperity model is out of its range.");
+             "contact area above the nominal area under the sphere - the asperity model is outside its range.");
         std::map<std::int32_t, long> causes;
         for (const LevelValues& l : levels) causes[l.error_cause] += l.force_error_expected > kMuchError;
         for (const auto& [cause, found] : causes)
-            tell(found, "N may be more than 10 % off elements (force_error_expected)" +
-                            (cause > 0 ? std::string(", most of it by ") + error_cause(cause) : "") + ".");
+            tell(found, "N may differ from elements by more than 10 % (force_error_expected)" +
+                            (cause > 0 ? std::string(", mainly because of ") + error_cause(cause) : "") + ".");
         tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
-             "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is leaving its range.");
+             "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity model is near the limit of its range.");
     }
     double widest = 0;
     for (const LevelValues& l : levels) widest = std::max(widest, l.wide_contacts);
     tell(count([](const LevelValues& l) { return l.wide_contacts > 0; }),
-         format("contacts with a > h/5, up to %.0f %% of them, h the top layer's thickness - elements have no such limit.", 100 * widest));
+         format("contacts with a > h/5, up to %.0f %% of them, where h is the thickness of the top layer - elements have no such limit.",
+                100 * widest));
     tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
-         "contacts pressed beyond what the law knows of a summit (beyond_law in the file).");
+         "contacts pressed beyond the validity of the contact law (beyond_law in the file).");
     tell_status(LevelStatus::overlapping,
-                "pairs of contact spots nearer than the sum of their radii: asperities that would merge are counted as two.");
+                "pairs of contact spots closer than the sum of their radii: spots that would merge are counted as two.");
     tell_status(
         LevelStatus::not_unique,
-        "spots so deep in each other that other solutions may exist: the one given is a local minimum of the energy, reached by a fixed rule.");
+        "spots that overlap so much that other solutions may exist: the one given is a local minimum of the energy, found by a fixed rule.");
     tell_status(LevelStatus::not_converged,
                 "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }
@@ -198,24 +192,24 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
     const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) { return l.force_error_expected >= 0; });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
-    out << format("level %td: N = %.4g %s +- %.2g %%, A = %.4g %s2 +- %.2g %%: kept in nine of ten cases\n", levels.rend() - last,
-                  last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
+    out << format("level %td: N = %.4g %s +- %.2g %%, A = %.4g %s2 +- %.2g %%: bounds that hold in nine of ten cases\n",
+                  levels.rend() - last, last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
 }
 
-// What a run with hardness ends in.
+// The summary of plastic contacts for cases with hardness.
 void print_yielding(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
     const auto most = std::max_element(levels.begin(), levels.end(),
                                        [](const LevelValues& p, const LevelValues& q) { return p.plastic_contacts < q.plastic_contacts; });
     if (most->plastic_contacts == 0) {
-        out << "  nothing yields: pressures stay below the hardness.\n";
+        out << "  no contact yields: pressures stay below the hardness.\n";
         return;
     }
     out << format("  at Z0/sigma = %.4g, %d of %d contacts yield", most->separation / job.sigma, most->plastic_contacts, most->contacts);
     double lost = 0;
     for (const LevelValues& level : levels) lost = std::max(lost, level.plastic_work);  // NaN where a level did not converge
     if (job.settings.run.realizations == 1)
-        out << format("; %.4g %s %s of work are lost", lost, job.settings.run.force_unit.c_str(), job.settings.run.length_unit.c_str());
+        out << format("; plastic work %.4g %s %s", lost, job.settings.run.force_unit.c_str(), job.settings.run.length_unit.c_str());
     out << ". Levels depend on those before them.\n";
 }
 
@@ -227,13 +221,13 @@ double coupling(const Case::Solids& s) {
     return above / below;
 }
 
-// What the keys of the case leave out.
+// Effects that the model of this case leaves out.
 void print_words(std::ostream& out, const Job& job, bool elements) {
     const Case& c = job.settings;
     constexpr double much_coupling = 0.05, least_points = 5;
     if (c.solids.friction > 0 && std::abs(coupling(c.solids)) > much_coupling)
         out << format(
-            "  friction between unlike bodies: pressure pushes sideways, too (Dundurs' beta = %.2f); that coupling is left out of the tangential "
+            "  friction between unlike bodies: the coupling of pressure and tangential displacement (Dundurs' beta = %.2f) is neglected in the tangential "
             "forces.\n",
             coupling(c.solids));
     if (elements) return;
@@ -243,7 +237,7 @@ void print_words(std::ostream& out, const Job& job, bool elements) {
     if (c.asperities.law == LawKind::hertz && points < least_points)
         out << format(
             "  law 'hertz' on %.2g points in the shortest wave: summits between the points are missed, N is too low near first contact (by half "
-            "at 3 points); 5 and more, or law 'fourth_order', see them.\n",
+            "at 3 points); use 5 or more, or law 'fourth_order'.\n",
             points);
     if (c.indentation.selection == Selection::paper && c.indentation.selection_factor < 1.5)
         out << format(
@@ -264,7 +258,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     });
     if (!std::isfinite(job.settings.solids.hardness) && extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
         out << format(
-            "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal bears them elastically; solids%%hardness "
+            "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal carries them elastically; solids%%hardness "
             "bounds them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
     print_yielding(out, levels, job);
@@ -272,19 +266,19 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     std::int64_t crowded = 0;
     for (const LevelValues& level : levels) crowded += level.crowded_cells;
     if (crowded > 0 && !elements)
-        out << "  " << crowded << " map cells (over all levels) with an area fraction above pi/16 = 19.6 %: contacts there would merge.\n";
+        out << "  " << crowded << " map cells (over all levels) have an area fraction above pi/16 = 19.6 %, where contacts would merge.\n";
 }
 
 const char* slope_remark(double rms_slope) {
     if (rms_slope <= 0.5) return "";
     if (rms_slope <= 2)
-        return " - above 0.5 the theory of small slopes is strained: compare surfaces by N(Z0), A(N) and stiffness, their ratios and trends; "
-               "do not take absolute areas and pressures (some 0.4 E* in a contact) for those of a real body";
-    return " - above 2 the theory of small slopes does not hold: the numbers are the model's own, good for comparing its runs and for repeating "
-           "the paper (4.7 there); no load, area or pressure here is that of a real body";
+        return " - above 0.5 the theory of small slopes is inaccurate: compare surfaces by N(Z0), A(N) and stiffness, their ratios and trends; "
+               "absolute areas and pressures (some 0.4 E* in a contact) are not those of a real body";
+    return " - above 2 the theory of small slopes does not hold: results serve to compare runs of the model and to reproduce "
+           "the paper (4.7 there); loads, areas and pressures are not those of a real body";
 }
 
-// Where the pictures' script is: in a clone, beside the program's installation, or in the clone that the program was built in.
+// Path of the plotting script: in a clone, in the installation, or in the clone that the program was built in.
 static std::string plot_script() {
     const std::string here = "output/plot/plot.py";
     std::error_code error;
@@ -296,8 +290,8 @@ static std::string plot_script() {
 }
 
 void print_result(std::ostream& out, const std::string& file, bool replaces) {
-    out << "result: " << file << (replaces ? " (replaces the result that was there)" : "") << "\npicture: python3 " << plot_script() << ' '
-        << file << std::endl;
+    out << "result: " << file << (replaces ? " (replaces an earlier result)" : "") << "\npicture: python3 " << plot_script() << ' ' << file
+        << std::endl;
 }
 
 std::string duration(double seconds) {
@@ -334,6 +328,77 @@ void ProgressLine::show(double done, double total) {
     } else {
         *out_ << format("rsc: %.0f of %.0f %s, %s\n", done, total, unit_, left.c_str()) << std::flush;
     }
+}
+
+namespace {
+
+// Steps of the table: about ten, the first and the last among them.
+std::vector<std::size_t> shown_steps(std::size_t steps) {
+    constexpr std::size_t most = 11;
+    std::vector<std::size_t> shown;
+    const std::size_t rows = std::min(steps, most);
+    for (std::size_t r = 0; r < rows; ++r) shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
+    return shown;
+}
+
+}  // namespace
+
+void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done) {
+    print_case(out, job);
+    print_measured(out, job);
+    const auto& run = job.settings.run;
+    out << format("%d realizations of %zu levels, %zu in parallel", run.realizations, job.levels.size(), workers);
+    if (done > 0) out << format("; %zu of them are finished", done);
+    out << "\n\nMeans over the realizations so far at the last level; scatter is the standard deviation of one realization.\n"
+        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
+                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed", "a second")
+        << std::flush;
+}
+
+void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds, std::size_t done_in_this_run) {
+    const std::size_t count = sums.realization.size();
+    Observations last;  // the last level of each
+    last.realizations = count, last.steps = 1;
+    for (std::size_t k = 1; k <= count; ++k) last.rows.push_back(sums.rows[k * sums.steps - 1]);
+    const LevelStatistics force = last.statistics([](const LevelValues& l) { return l.force; });
+    const LevelStatistics area = last.statistics([](const LevelValues& l) { return l.area; });
+    const auto scatter = [](const LevelStatistics& s) { return s.count[0] > 1 ? s.deviation[0] : 0.0; };
+    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0], scatter(force), area.mean[0], scatter(area),
+                  duration(seconds).c_str(), static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
+        << std::flush;
+}
+
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o, double seconds, const std::string& file,
+                            bool replaces) {
+    const auto& run = job.settings.run;
+    out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n", o.realizations, "level",
+                  format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(),
+                  "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
+    for (const std::size_t s : shown_steps(o.steps))
+        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s], o.separation.mean[s] / job.sigma,
+                      o.force.mean[s], o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
+
+    out << '\n' << o.realizations << " realizations, " << o.rows.size() << " levels in " << duration(seconds) << '\n';
+    if (!o.surface.empty() && o.surface.front().m2 > 0) {
+        double m2 = 0;
+        for (const SurfaceStatistics& surface : o.surface) m2 += surface.m2 / static_cast<double>(o.surface.size());
+        out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2)) << slope_remark(std::sqrt(2 * m2)) << '\n';
+    }
+    print_remarks(out, o.rows, job);
+    print_result(out, file, replaces);
+}
+
+RunSummary campaign_summary(const Result& result) {
+    const Observations& o = result.observations;
+    RunSummary summary;
+    summary.levels = static_cast<long>(o.rows.size() + result.compared.step.size());
+    summary.failed = result.compared.failed;
+    for (const LevelValues& row : o.rows)
+        if (row.status == LevelStatus::not_converged) ++summary.failed;
+    summary.separation = o.separation.mean.back();
+    summary.force = o.force.mean.back();
+    summary.area = o.area.mean.back();
+    return summary;
 }
 
 }  // namespace rsc

@@ -1,13 +1,10 @@
-// What a run shows: the table of levels, the closing summary, the progress line.
+// Output on the screen: the table of levels, the closing summary, the progress line.
 #pragma once
 
-#include <chrono>
-#include <ostream>
-#include <span>
-#include <string>
-
 #include "contact/level.hpp"
+#include "observe/record.hpp"
 #include "run/job.hpp"
+#include "run/run.hpp"
 
 namespace rsc {
 
@@ -16,7 +13,7 @@ std::string status_text(LevelStatus status);
 // The title, the bodies, and what theory says of the surface.
 void print_case(std::ostream& out, const Job& job);
 
-// What was done to a measured map, if there is one.
+// The treatment of a measured map, if there is one.
 void print_measured(std::ostream& out, const Job& job);
 
 // print_case, print_measured and the column heads; then a line a level.
@@ -27,7 +24,7 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
 // what else to be wary of.
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job);
 
-// What an rms slope means for the results; empty for the small ones that the theory is for.
+// A remark on rms slopes too large for the theory; empty for small ones.
 const char* slope_remark(double rms_slope);
 
 // The last lines: the file written, whether it took the place of another result, and how to see it.
@@ -53,5 +50,19 @@ private:
     double already_;
     Clock::time_point start_, last_;
 };
+
+// A campaign on stdout: a line for each batch of realizations, and at the end the mean curve with its scatter.
+
+// The case, how many realizations by how many workers, the column heads. `done` of them are there from an interrupted run.
+void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done);
+
+// Means and scatter (standard deviation of a realization) of the last level over the realizations so far.
+void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds, std::size_t done_in_this_run);
+
+// The mean curve, statuses, what to be wary of, the file.
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file,
+                            bool replaces);
+
+RunSummary campaign_summary(const Result& result);
 
 }  // namespace rsc

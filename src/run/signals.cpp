@@ -1,10 +1,5 @@
 #include "run/signals.hpp"
 
-#include <csignal>
-#include <ctime>
-
-#include <atomic>
-
 namespace rsc {
 namespace {
 

@@ -1,7 +1,7 @@
 // SIGINT, SIGTERM and SIGHUP, remembered until the work can be stopped in an orderly state.
 #pragma once
 
-#include <stdexcept>
+#include "std.hpp"
 
 namespace rsc {
 

@@ -9,7 +9,7 @@
 #include "file/netcdf_writer.hpp"
 #include "file/result.hpp"
 #include "run/job.hpp"
-#include "run/run_options.hpp"
+#include "run/run.hpp"
 
 namespace bench {
 

@@ -102,7 +102,7 @@ test_kills() {
                 rm -f out.nc ;;  # killed between the end of the work and that of the program
             *)
                 # Killed, and not gone yet: a large process takes its time.
-                grep -q "another rsc is at work" said || { cat said; fail "exit status $status"; }
+                grep -q "another process" said || { cat said; fail "exit status $status"; }
                 sleep 0.1 ;;
         esac
     done
@@ -155,7 +155,7 @@ test_refused() {
     "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
     until_state "$(stat -c %s out.nc.checkpoint)" $!
     expect 2 "$rsc" --resume long.nml
-    says "another rsc"
+    says "another process"
     kill %1
     wait
     # Another number of threads, and another format, are the same case.
@@ -165,7 +165,7 @@ test_refused() {
     expect 0 "$rsc" --resume -s run%threads=3 -s "output%format='classic'" case.nml
     same whole/out.nc out.nc
     expect 0 "$rsc" --resume -s "output%format='classic'" case.nml
-    says "is there and whole"
+    says "is complete"
 }
 
 # A finished campaign grows: the realizations there are not computed again, and the file is that of the whole.
@@ -189,13 +189,13 @@ test_grow() {
     "$rsc" --resume long.nml > said 2>&1 &
     until_state "$(stat -c %s out.nc.checkpoint)" $!
     kill -s KILL $! && wait $!
-    [ "$(sed -n 's/.*; \([0-9]*\) of them are done/\1/p' said)" -ge 30 ] || { cat said; fail "what the result had is lost"; }
+    [ "$(sed -n 's/.*; \([0-9]*\) of them are finished/\1/p' said)" -ge 30 ] || { cat said; fail "what the result had is lost"; }
     rm -f out.nc.checkpoint before long.nml
     # Another case, or fewer: told, and computed.
     expect 0 "$rsc" -q ../case.nml
     expect 0 "$rsc" --resume -s surface%hurst=0.75 ../case.nml
     says "surface%hurst: 0.7 there, 0.75 now"
-    silent_on "are done"
+    silent_on "are finished"
 }
 
 # Parts of a campaign are put together into the file of the whole; what does not belong together is refused by name.
@@ -223,7 +223,7 @@ test_merge() {
     refused "rsc_manifest.nc.*manifest" a/out.nc study/out/rsc_manifest.nc
     refused "text.nc.*no result of rsc" a/out.nc text.nc
     refused "realizations 3 to 13 .*'a/out.nc'.*'a/../a/out.nc'" a/out.nc a/../a/out.nc
-    refused "realizations 14 to 16 .*none" a/out.nc c/out.nc
+    refused "realizations 14 to 16 .*missing" a/out.nc c/out.nc
     sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' classic/out.nc
     truncate -s -47 classic/out.nc  # its checksum
     refused "classic/out.nc.*0.0.9" a/out.nc classic/out.nc
@@ -243,8 +243,7 @@ test_study() {
     for k in 6 2 4 1 5 3; do (cd array && "$rsc" -q --member $k ../case.nml) & done
     wait
     diff -r one array || fail "the array differs"
-    [ "$(ls one/out | wc -l)" -eq 8 ] || fail "six members and two manifests were expected"
-    grep -q "^5	rsc_005.nc	0.02	1$" one/out/rsc_manifest.txt || fail "the manifest"
+    [ "$(ls one/out | wc -l)" -eq 7 ] || fail "six members and a manifest were expected"
 
     expect 2 in_folder bad "$rsc" -s surface%n=60 ../case.nml
     expect 2 in_folder bad "$rsc" --member 7 ../case.nml
@@ -255,7 +254,7 @@ test_study() {
     rm out/rsc_003.nc
     touch -d @1000000000 out/rsc_00*.nc
     expect 0 "$rsc" --resume ../case.nml
-    says "member 2 .*is there and whole"
+    says "member 2 .*is complete"
     cd ..
     [ "$(find array/out -name 'rsc_00*.nc' -newermt @1000000001 | wc -l)" -eq 1 ] || fail "one member should have been made"
     diff -r one array || fail "the resumed study differs"
@@ -271,7 +270,7 @@ test_limit() {
     expect 0 in_folder whole "$rsc" -q ../case.nml
     expect 1 bash -c 'ulimit -f 256; exec "$0" -q case.nml' "$rsc"
     says "cannot write 'out.nc.checkpoint'"
-    says "of 300 realizations are finished and kept.*--resume"
+    says "of 300 realizations are finished and saved.*--resume"
     [ ! -e out.nc ] || fail "there is a file under the final name"
     [ "$(stat -c %s out.nc.checkpoint)" -gt 200000 ] || fail "the work is lost"
     expect 0 "$rsc" --resume case.nml

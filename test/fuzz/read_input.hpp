@@ -8,7 +8,6 @@
 
 #include "error.hpp"
 #include "promise.hpp"
-#include "read/input_spectrum.hpp"
 #include "read/inputs.hpp"
 #include "rough/asperities.hpp"
 #include "rough/measured.hpp"

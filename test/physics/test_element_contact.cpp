@@ -9,7 +9,7 @@
 
 #include "check.hpp"
 #include "contact/element_contact.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "contact/lateral.hpp"
 #include "contact/ranking.hpp"
 #include "error.hpp"

@@ -14,7 +14,7 @@
 #include "contact/deflection.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/interaction/lattice.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 
 using namespace rsc;
 using std::numbers::pi;

@@ -20,7 +20,7 @@
 #include "physics/values/levels.hpp"
 #include "physics/values/observed.hpp"
 #include "physics/values/single.hpp"
-#include "run/campaign_merge.hpp"
+#include "run/campaign.hpp"
 #include "run/run.hpp"
 #include "unit/temporary_folder.hpp"
 

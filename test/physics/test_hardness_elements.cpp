@@ -11,7 +11,7 @@
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "contact/ranking.hpp"
 #include "error.hpp"
 #include "rough/synthesis.hpp"

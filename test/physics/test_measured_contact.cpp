@@ -12,14 +12,12 @@
 #include "contact/asperity_contact.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
-#include "read/file_list.hpp"
-#include "read/input_spectrum.hpp"
+#include "read/inputs.hpp"
 #include "result_reader.hpp"
-#include "rough/missing.hpp"
+#include "rough/defects.hpp"
 #include "rough/synthesis.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
-#include "run/twins.hpp"
 #include "unit/map_files.hpp"
 
 using namespace rsc;
@@ -44,8 +42,8 @@ Curve press(const HeightMap& map, const char* law, double sigma) {
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) surface.map.row(j)[i] = map(i, j);
     surface.origin.sigma = sigma;
-    const Ground ground = make_ground(surface, settings, 1);
-    AsperityContact contact(ground.asperities, indenter_of(settings, ground.site), solver_of(settings, ground.site));
+    const SurfaceModel model = make_surface_model(surface, settings, 1);
+    AsperityContact contact(model.asperities, indenter_of(settings, model.domain), solver_of(settings, model.domain));
     Curve c{};
     const double levels[] = {2.5, 1.5, 1.0};
     for (int k = 0; k < 3; ++k) {

@@ -1,7 +1,7 @@
 // A kernel with a smooth part, 1/(pi E* d) + s(d): its table, its pixels, the dense matrix, the tree over pixels and the Fourier
 // transforms, against formulas and plain sums. s is what a charge below the surface would do, c/(pi E* sqrt(d^2 + depth^2)), whose modes
 // are c exp(-k depth) of the half-space's. The products of asperities are in test_products.cpp.
-#include "contact/interaction/smooth_part.hpp"
+#include "contact/interaction/kernel.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 #include "check.hpp"
 #include "contact/deflection.hpp"
-#include "contact/interaction/love.hpp"
 #include "contact/interaction/periodic_pixels.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
 #include "contact/solver/dgesv.hpp"
 #include "random_asperities.hpp"

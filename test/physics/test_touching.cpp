@@ -8,8 +8,8 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/touching.hpp"
+#include "rough/defects.hpp"
 #include "rough/detection.hpp"
-#include "rough/rounding.hpp"
 #include "rough/synthesis.hpp"
 #include "run/prepare.hpp"
 
@@ -26,8 +26,8 @@ Case polished(double sigma, const char* model) {
     return c;
 }
 
-Level at(const Case& c, const Ground& ground, double Z0) {
-    return make_contact(ground, indenter_of(c, ground.site), solver_of(c, ground.site))->at_separation(Z0);
+Level at(const Case& c, const SurfaceModel& model, double Z0) {
+    return make_contact(model, indenter_of(c, model.domain), solver_of(c, model.domain))->at_separation(Z0);
 }
 
 // The map as a surface that was measured.
@@ -47,7 +47,7 @@ TESTS {
     for (const double sigma : {1e-4, 1e-3}) {
         constexpr double kForce = 0.12;  // one to some contacts, elements on 8 points a wave
         const Case a = polished(sigma, "asperities"), e = polished(sigma, "elements");
-        const Ground summits = make_ground(a, 1, 1), points = make_ground(e, 1, 1);
+        const SurfaceModel summits = make_surface_model(a, 1, 1), points = make_surface_model(e, 1, 1);
         for (const double Z : {0.0, 0.75}) {
             const Level model = at(a, summits, Z * sigma), truth = at(e, points, Z * sigma);
             std::printf("sigma %g, Z0 %g sigma: N %.5g against %.5g, slope ratio %.2f\n", sigma, Z, model.force, truth.force,
@@ -61,7 +61,7 @@ TESTS {
         constexpr double kForce = 0.12;  // without the flanks it was 0.4 to 0.7
         Case a = polished(5e-5, "asperities"), e = polished(5e-5, "elements");
         a.surface.L_lambda_l = e.surface.L_lambda_l = 2, a.surface.hurst = e.surface.hurst = 0.9;
-        const Ground summits = make_ground(a, 1, 1), points = make_ground(e, 1, 1);
+        const SurfaceModel summits = make_surface_model(a, 1, 1), points = make_surface_model(e, 1, 1);
         for (const double Z : {-1e-3, -3e-3}) {
             const Level model = at(a, summits, Z), truth = at(e, points, Z);
             std::printf("pressed ball, Z0 %g: N %.5g against %.5g, status %d\n", Z, model.force, truth.force,
@@ -75,23 +75,23 @@ TESTS {
     {
         Case c = polished(1e-2, "asperities");
         c.solids.R[1] = 20;
-        const Ground ground = make_ground(c, 1, 1);
-        const Indenter tip = indenter_of(c, ground.site);
-        const Asperities moved = moved_summits(ground.asperities, tip);
-        CHECK(moved.size() == ground.asperities.size());
-        for (std::size_t i = 0; i < moved.size(); ++i) CHECK(moved.z[i] <= ground.asperities.z[i]);
+        const SurfaceModel model = make_surface_model(c, 1, 1);
+        const Indenter tip = indenter_of(c, model.domain);
+        const Asperities moved = moved_summits(model.asperities, tip);
+        CHECK(moved.size() == model.asperities.size());
+        for (std::size_t i = 0; i < moved.size(); ++i) CHECK(moved.z[i] <= model.asperities.z[i]);
     }
 
     // A tip that moves on has the summits of its place, as a contact made there.
     {
         const Case c = polished(1e-4, "asperities");
-        const Ground ground = make_ground(c, 1, 1);
-        Indenter tip = indenter_of(c, ground.site);
-        const SolverOptions options = solver_of(c, ground.site);
-        AsperityContact moving(ground.asperities, tip, options, ground.search);
+        const SurfaceModel model = make_surface_model(c, 1, 1);
+        Indenter tip = indenter_of(c, model.domain);
+        const SolverOptions options = solver_of(c, model.domain);
+        AsperityContact moving(model.asperities, tip, options, model.search);
         tip.x0 += 0.11, tip.y0 -= 0.07;
         moving.move_tip(tip.x0, tip.y0);
-        AsperityContact there(ground.asperities, tip, options, ground.search);
+        AsperityContact there(model.asperities, tip, options, model.search);
         CHECK(moving.first_touch() == there.first_touch() && moving.asperities()->size() == there.asperities()->size());
         const double Z0 = there.first_touch() - 1e-4;
         CHECK_RELATIVE(moving.at_separation(Z0).force, there.at_separation(Z0).force, 1e-9);
@@ -109,9 +109,9 @@ TESTS {
         const Surface surface = measured(map);
         c.asperities.law = law;
         c.solver.model = Model::asperities;
-        model = at(c, make_ground(surface, c, 1), 1e-3).force;
+        model = at(c, make_surface_model(surface, c, 1), 1e-3).force;
         c.solver.model = Model::elements;
-        truth = at(c, make_ground(surface, c, 1), 1e-3).force;
+        truth = at(c, make_surface_model(surface, c, 1), 1e-3).force;
     };
     double sound, model, truth;
     forces(clean, LawKind::fourth_order, sound, truth);

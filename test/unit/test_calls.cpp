@@ -23,8 +23,8 @@
 #include "file/netcdf_writer.hpp"
 #include "result_reader.hpp"
 #include "rsc.h"
-#include "run/campaign_manifest.hpp"
 #include "run/checkpoint.hpp"
+#include "run/study.hpp"
 #include "unit/sample_result.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -135,7 +135,6 @@ void manifests(const Folder& folder) {
     calls.clear();
     write_manifest(read, expand_study(read.settings, *read.study), "");
     named_after_the_disk_has_it(folder / "study_manifest.nc", true);
-    named_after_the_disk_has_it(folder / "study_manifest.txt", false);
     // And it says which member is what, whole numbers as such.
     const Reader file(folder / "study_manifest.nc");
     CHECK(file.values("member") == (std::vector<double>{1, 2, 3, 4}));

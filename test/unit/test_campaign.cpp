@@ -19,11 +19,10 @@
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "error.hpp"
-#include "run/campaign_archive.hpp"
-#include "run/campaign_team.hpp"
 #include "run/checkpoint.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
+#include "run/team.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -106,7 +105,7 @@ void test_torn(const Folder& folder) {
             checkpoint.append(record);
             ends.push_back(bytes(state).size());
         }
-        CHECK(refusal(file, c, true).find("another rsc") != std::string::npos);
+        CHECK(refusal(file, c, true).find("another process") != std::string::npos);
     }
     const auto says = [&](const std::string& words, const Case& now = small_case(), bool resume = true) {
         return refusal(file, now, resume).find(words) != std::string::npos;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "contact/solver/elements.hpp"
 
 using namespace rsc;

@@ -14,9 +14,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "read/file_list.hpp"
 #include "read/input_netcdf.hpp"
-#include "read/input_spectrum.hpp"
 #include "read/inputs.hpp"
 #include "unit/map_files.hpp"
 #include "unit/refused.hpp"

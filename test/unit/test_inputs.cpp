@@ -17,7 +17,6 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "read/input_spectrum.hpp"
 #include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 

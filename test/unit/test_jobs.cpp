@@ -13,7 +13,7 @@
 #include "error.hpp"
 #include "run/job.hpp"
 #include "run/prepare.hpp"
-#include "run/twins.hpp"
+#include "run/run.hpp"
 #include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -61,47 +61,47 @@ Case of_map(const std::string& file) {
 void places() {
     Case c = synthetic();
     // A rectangle that does not begin at 0, in a domain of unlike sides.
-    Site site;
-    site.domain = {-2, 5, 4, 1};
+    SurfaceDomain domain;
+    domain = {-2, 5, 4, 1};
     for (const double R : {0.5, HUGE_VAL})
         for (const bool guessed : {false, true}) {
-            site.guessed = guessed;
+            domain.guessed = guessed;
             const double beyond = guessed ? R : 0;
             for (const auto& [x, y] : {std::pair{-2 - beyond, 5.5}, {2 + beyond, 5.5}, {0.0, 5 - beyond}, {0.0, 6 + beyond}})
-                if (std::isfinite(x) && std::isfinite(y)) CHECK(accepted([&] { require_tip_above(site, R, x, y); }));
+                if (std::isfinite(x) && std::isfinite(y)) CHECK(accepted([&] { require_tip_above(domain, R, x, y); }));
             if (std::isfinite(beyond))
                 for (const auto& [x, y] :
                      {std::pair{-2.001 - beyond, 5.5}, {2.001 + beyond, 5.5}, {0.0, 4.999 - beyond}, {0.0, 6.001 + beyond}})
-                    CHECK(!accepted([&] { require_tip_above(site, R, x, y); }));
-            CHECK(!accepted([&] { require_tip_above(site, R, 1e60, 5.5); }) &&
-                  !accepted([&] { require_tip_above(site, R, 0, std::nan("")); }));
+                    CHECK(!accepted([&] { require_tip_above(domain, R, x, y); }));
+            CHECK(!accepted([&] { require_tip_above(domain, R, 1e60, 5.5); }) &&
+                  !accepted([&] { require_tip_above(domain, R, 0, std::nan("")); }));
         }
     c.indentation.boundary = Boundary::periodic;
-    CHECK(period_of(c, site).x == 4 && period_of(c, site).y == 1);
+    CHECK(period_of(c, domain).x == 4 && period_of(c, domain).y == 1);
     // Asperities: the square [0, L]^2 if it holds them, otherwise one of side L about their middle, without L the smallest one.
     const auto list = [](std::vector<double> x, std::vector<double> y, std::vector<double> z) {
         Asperities a;
         a.x = std::move(x), a.y = std::move(y), a.z = std::move(z), a.radius.assign(a.x.size(), 0.1);
         return a;
     };
-    const auto is = [](const Site& s, double x0, double y0, double side, bool made_up, double spacing) {
-        CHECK_CLOSE(s.domain.x0, x0, kRounding * 10);
-        CHECK_CLOSE(s.domain.y0, y0, kRounding * 10);
-        CHECK_CLOSE(s.domain.Lx, side, kRounding * 10);
-        CHECK_CLOSE(s.domain.Ly, side, kRounding * 10);
+    const auto is = [](const SurfaceDomain& s, double x0, double y0, double side, bool made_up, double spacing) {
+        CHECK_CLOSE(s.x0, x0, kRounding * 10);
+        CHECK_CLOSE(s.y0, y0, kRounding * 10);
+        CHECK_CLOSE(s.Lx, side, kRounding * 10);
+        CHECK_CLOSE(s.Ly, side, kRounding * 10);
         CHECK(s.guessed == made_up);
         CHECK_CLOSE(s.mean_spacing, spacing, kRounding * 10);
     };
     const Asperities three = list({1, 4, 2}, {0.5, 2, 2.5}, {1, 2, 6});
-    is(list_site(three, 4.0, "them"), 0, 0, 4, false, 4 / std::sqrt(3.0));
-    is(list_site(three, 3.5, "them"), 0.75, -0.25, 3.5, false, 3.5 / std::sqrt(3.0));
-    is(list_site(three, 3.0, "them"), 1, 0, 3, false, std::sqrt(3.0));
-    is(list_site(three, {}, "them"), 1, 0, 3, true, std::sqrt(3.0));
-    CHECK(!accepted([&] { list_site(three, 2.999, "them"); }));
-    CHECK_RELATIVE(list_site(three, {}, "them").sigma, std::sqrt(14.0 / 3), kRounding);
-    is(list_site(list({0, 2}, {-3, 2}, {0, 0}), 6.0, "them"), -2, -3.5, 6, false, 6 / std::sqrt(2.0));
-    is(list_site(list({7}, {9}, {1}), {}, "it"), 6.5, 8.5, 1, true, 0);
-    is(list_site(list({7}, {9}, {1}), 10.0, "it"), 0, 0, 10, false, 10);
+    is(list_domain(three, 4.0, "them"), 0, 0, 4, false, 4 / std::sqrt(3.0));
+    is(list_domain(three, 3.5, "them"), 0.75, -0.25, 3.5, false, 3.5 / std::sqrt(3.0));
+    is(list_domain(three, 3.0, "them"), 1, 0, 3, false, std::sqrt(3.0));
+    is(list_domain(three, {}, "them"), 1, 0, 3, true, std::sqrt(3.0));
+    CHECK(!accepted([&] { list_domain(three, 2.999, "them"); }));
+    CHECK_RELATIVE(list_domain(three, {}, "them").sigma, std::sqrt(14.0 / 3), kRounding);
+    is(list_domain(list({0, 2}, {-3, 2}, {0, 0}), 6.0, "them"), -2, -3.5, 6, false, 6 / std::sqrt(2.0));
+    is(list_domain(list({7}, {9}, {1}), {}, "it"), 6.5, 8.5, 1, true, 0);
+    is(list_domain(list({7}, {9}, {1}), 10.0, "it"), 0, 0, 10, false, 10);
 }
 
 // Several maps: each realization its own, brought to the place of the first; sizes that differ are refused.
@@ -111,8 +111,7 @@ void maps() {
     c.run.realizations = 3;
     c.indentation.levels = {1.0};
     const Job job = prepare(c);
-    CHECK(job.site.domain.x0 == -3 && job.site.domain.y0 == 7 && std::abs(job.site.domain.Lx - 15) < 1e-9 &&
-          std::abs(job.site.domain.Ly - 5) < 1e-9);
+    CHECK(job.domain.x0 == -3 && job.domain.y0 == 7 && std::abs(job.domain.Lx - 15) < 1e-9 && std::abs(job.domain.Ly - 5) < 1e-9);
     CHECK_CLOSE(job.indenter.x0, 4.25, 1e-9);  // the middle of the points
     CHECK_CLOSE(job.indenter.y0, 9.375, 1e-9);
     CHECK(!job.given && job.measured && job.measured->nx == 30);
@@ -129,13 +128,13 @@ void maps() {
     }
     CHECK_RELATIVE(two.statistics.sigma, 1.5 * one.statistics.sigma, 1e-9);
     CHECK_RELATIVE(one.statistics.m2, one.statistics.m2_grid, 0);
-    CHECK_RELATIVE(job.site.mean_spacing, std::sqrt(75 / static_cast<double>(one.asperities.size())), 1e-9);
+    CHECK_RELATIVE(job.domain.mean_spacing, std::sqrt(75 / static_cast<double>(one.asperities.size())), 1e-9);
     // As many files as realizations are asked for.
     c.run.first_realization = 2;
     CHECK(!accepted([&] { prepare(c); }));
     c.run.realizations = 2;
     CHECK(accepted([&] { prepare(c); }));
-    CHECK_CLOSE(prepare(c).site.domain.x0, 11, 1e-9);
+    CHECK_CLOSE(prepare(c).domain.x0, 11, 1e-9);
     CHECK(!accepted([&] { make_surface(c, 0, 1); }) && !accepted([&] { make_surface(c, 4, 1); }) &&
           accepted([&] { make_surface(c, 3, 1); }));
     c.run.realizations = 1, c.run.first_realization = 3;
@@ -157,13 +156,13 @@ void maps() {
     Case elements = of_map(folder / "p4.txt");
     elements.solver.model = Model::elements;
     const Surface read = make_surface(elements, 1, 1);
-    const Ground copied = make_ground(read, elements, 1), direct = make_ground(elements, 1, 1);
-    for (const Ground* g : {&copied, &direct}) {
+    const SurfaceModel copied = make_surface_model(read, elements, 1), direct = make_surface_model(elements, 1, 1);
+    for (const SurfaceModel* g : {&copied, &direct}) {
         CHECK(g->points && g->asperities.size() == 0);
         if (!g->points) continue;
         const HeightMap& m = *g->points;
         CHECK(m.nx == 30 && m.ny == 20 && m.dx == read.map.dx && m.dy == read.map.dy && m.x0 == read.map.x0 && m.y0 == read.map.y0);
-        CHECK(m.dx > 0.49 && m.dy < 0.26 && m.periodic == read.map.periodic && g->site.domain.Lx == m.Lx() && g->site.domain.Ly == m.Ly());
+        CHECK(m.dx > 0.49 && m.dy < 0.26 && m.periodic == read.map.periodic && g->domain.Lx == m.Lx() && g->domain.Ly == m.Ly());
         long same = 0;
         for (int j = 0; j < 20; ++j)
             for (int i = 0; i < 30; ++i) same += m(i, j) == read.map(i, j);
@@ -171,7 +170,7 @@ void maps() {
     }
     Case made = synthetic();
     made.solver.model = Model::elements, made.elements.points_per_wave = 6.1;
-    CHECK(make_ground(made, 1, 1).points->nx == 98 && make_ground(made, 1, 1).points->ny == 98);
+    CHECK(make_surface_model(made, 1, 1).points->nx == 98 && make_surface_model(made, 1, 1).points->ny == 98);
     // Of two sizes the message names both.
     try {
         map_file("p2.txt", 11, -5, 0.75, 0.125);
@@ -187,7 +186,7 @@ void maps() {
     CHECK(!accepted([&] { prepare(list); }));
     list.surface.sigma = 0.5;
     const Job of_list = prepare(list);
-    CHECK(of_list.sigma == 0.5 && of_list.levels.front() == 2 && of_list.site.guessed && of_list.given && of_list.given->list);
+    CHECK(of_list.sigma == 0.5 && of_list.levels.front() == 2 && of_list.domain.guessed && of_list.given && of_list.given->list);
     CHECK(of_list.given->statistics.summits == 2 && of_list.given->statistics.sigma == 0 && std::isnan(of_list.given->statistics.m2));
 }
 

@@ -14,7 +14,7 @@ using namespace rsc;
 
 namespace {
 
-Spectrum ground(double aspect, double direction, double hurst = 0.8) {
+Spectrum model(double aspect, double direction, double hurst = 0.8) {
     Spectrum s;
     s.L_lambda_l = 4, s.L_lambda_s = 32, s.hurst = hurst;
     s.aspect = aspect, s.direction = direction;
@@ -33,14 +33,14 @@ double difference(const HeightMap& a, const HeightMap& b, int step = 1, bool tra
 }
 
 void directions() {
-    const HeightMap isotropic = made(ground(1, 0), 128);
-    CHECK(difference(isotropic, made(ground(1, 70), 128)) == 0);  // a direction without anisotropy is none
-    CHECK(difference(made(ground(5, 0), 192), made(ground(5, 90), 192), 1, true) == 0);
-    CHECK(difference(made(ground(5, 20), 192), made(ground(5, 70), 192), 1, true) == 0);
-    CHECK(difference(made(ground(5, 20), 192), made(ground(5, 20), 192, nullptr, 3)) == 0);
-    CHECK(difference(made(ground(5, 20), 192), made(ground(5, 20), 384), 2) < 1e-12 * 0.01);
+    const HeightMap isotropic = made(model(1, 0), 128);
+    CHECK(difference(isotropic, made(model(1, 70), 128)) == 0);  // a direction without anisotropy is none
+    CHECK(difference(made(model(5, 0), 192), made(model(5, 90), 192), 1, true) == 0);
+    CHECK(difference(made(model(5, 20), 192), made(model(5, 70), 192), 1, true) == 0);
+    CHECK(difference(made(model(5, 20), 192), made(model(5, 20), 192, nullptr, 3)) == 0);
+    CHECK(difference(made(model(5, 20), 192), made(model(5, 20), 384), 2) < 1e-12 * 0.01);
     try {
-        made(ground(16, 0), 254);  // waves across the lay are four times as short as L_lambda_s says
+        made(model(16, 0), 254);  // waves across the lay are four times as short as L_lambda_s says
         CHECK(!"refused");
     } catch (const Error& error) {
         CHECK(error.kind() == Failure::bad_input && std::string(error.what()).find("256") != std::string::npos);
@@ -50,7 +50,7 @@ void directions() {
 // The closed forms of the moments against sums over the modes drawn, whose mean over surfaces they are, and against finite differences.
 void moments() {
     for (const auto& [aspect, direction] : {std::pair{3.0, 0.0}, {3.0, 30.0}, {6.0, 115.0}}) {
-        const Spectrum s = ground(aspect, direction);
+        const Spectrum s = model(aspect, direction);
         const MomentTensor theory = theoretical_moments(s).tensor;
         MomentTensor mean;
         constexpr int surfaces = 100;
@@ -74,8 +74,8 @@ void moments() {
         CHECK_CLOSE(mean.m13, theory.m13, near * curvature);
         CHECK_CLOSE(mean.m04, theory.m04, near * curvature);
         // A turn leaves the traces.
-        CHECK_RELATIVE(theory.m2(), theoretical_moments(ground(aspect, 0)).m2, 1e-12);
-        CHECK_RELATIVE(theory.m4(), theoretical_moments(ground(aspect, 0)).m4, 1e-12);
+        CHECK_RELATIVE(theory.m2(), theoretical_moments(model(aspect, 0)).m2, 1e-12);
+        CHECK_RELATIVE(theory.m4(), theoretical_moments(model(aspect, 0)).m4, 1e-12);
         Moments sampled;
         const MomentTensor grid = grid_moments(made(s, 1536, &sampled)).tensor;
         CHECK_CLOSE(grid.m20, sampled.tensor.m20, 0.02 * slope);
@@ -89,7 +89,7 @@ void moments() {
 void circle() {
     for (const double hurst : {0.5, 0.8, 1.0})
         for (const auto& [aspect, direction] : {std::pair{1.0, 0.0}, {3.0, 40.0}, {10.0, 100.0}}) {
-            const Spectrum s = ground(aspect, direction, hurst);
+            const Spectrum s = model(aspect, direction, hurst);
             const HeightMap map = made(s, 256);
             const MeasuredSpectrum measured = measure_spectrum(map);
             if (aspect > 1) {
@@ -145,7 +145,7 @@ double amplitude(const HeightMap& map, int kx, int ky) {
 
 void heights() {
     for (const auto& [skewness, kurtosis, aspect] : {std::tuple{-1.0, 4.5, 1.0}, {0.0, 2.0, 3.0}, {0.6, 3.5, 1.0}}) {
-        Spectrum s = ground(aspect, 25);
+        Spectrum s = model(aspect, 25);
         const HeightMap gaussian = made(s, 256);
         s.shape = {skewness, kurtosis};
         Moments sampled;
@@ -189,8 +189,8 @@ void texture() {
     const Texture valleys = measure_texture(even);
     CHECK(valleys.sk < 2 && valleys.svk > 100 && valleys.spk < 1);
     // Isotropic and stretched surfaces; the sampling error of few waves is some tenths.
-    CHECK(measure_texture(made(ground(1, 0), 256)).str > 0.6);
-    const Texture stretched = measure_texture(made(ground(6, 0), 256));
+    CHECK(measure_texture(made(model(1, 0), 256)).str > 0.6);
+    const Texture stretched = measure_texture(made(model(6, 0), 256));
     CHECK(stretched.str < 0.35 && stretched.str > 0.08);
 }
 

@@ -12,7 +12,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "read/input_sdf.hpp"
+#include "read/formats.hpp"
 #include "read/inputs.hpp"
 #include "unit/map_files.hpp"
 #include "unit/refused.hpp"

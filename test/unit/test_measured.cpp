@@ -7,9 +7,9 @@
 
 #include "check.hpp"
 #include "error.hpp"
+#include "rough/defects.hpp"
 #include "rough/detection.hpp"
-#include "rough/filter.hpp"
-#include "rough/missing.hpp"
+#include "rough/form.hpp"
 #include "rough/synthesis.hpp"
 
 using namespace rsc;

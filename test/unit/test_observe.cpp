@@ -10,8 +10,8 @@
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"
-#include "observe/exact_sum.hpp"
-#include "observe/radial.hpp"
+#include "observe/distributions.hpp"
+#include "observe/map.hpp"
 #include "observe/record.hpp"
 #include "observe/regimes.hpp"
 

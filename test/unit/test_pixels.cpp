@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "check.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
 
 using namespace rsc;

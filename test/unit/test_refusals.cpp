@@ -151,7 +151,7 @@ void warnings() {
         for (const std::string& w : read_case_text(text, "case.nml").warnings) all += w + "\n";
         return all;
     };
-    CHECK(warned("&indentation start = 1 stop = 1.5 /").find("separations grow") != std::string::npos);
+    CHECK(warned("&indentation start = 1 stop = 1.5 /").find("separations increase") != std::string::npos);
     for (const char* quiet : {"&indentation start = 1 stop = 1 /", "&indentation start = 1 stop = 1.5 levels = 1 /",
                               "&indentation start = 1 stop = 1.5 control = 'force' /", "&output pdf_levels(1:3) = 1.0 ! first\n 2.0 /"})
         CHECK(warned(quiet).empty());

@@ -5,7 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "case/manual.hpp"
 #include "case/namelist_value.hpp"
 #include "case/options.hpp"
 #include "case/registry.hpp"

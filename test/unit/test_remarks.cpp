@@ -61,7 +61,7 @@ void forecast(const Folder& folder) {
     const auto job_of = [](const std::string& text) { return prepare(read_case_text(text, "case.nml").settings); };
     const std::string text = "&surface source='asperities' L=1.5 sigma=0.01 file='" + folder / "many.txt" + "' / &indentation ";
     Job job = job_of(text + "levels=0.5,0,-0.5 / &solver method='direct' /");
-    CHECK(job.given->statistics.summits == 300 && job.site.domain.Lx == 1.5 && !job.site.guessed);
+    CHECK(job.given->statistics.summits == 300 && job.domain.Lx == 1.5 && !job.domain.guessed);
     const Asperities& a = job.given->asperities;
     for (const double Z0 : {0.005, 0.0, -0.005}) {
         double count = 0;
@@ -78,7 +78,7 @@ void forecast(const Folder& folder) {
     for (const bool flats : {false, true}) {
         const Job rough = job_of(std::string("&surface n=512 L_lambda_l=8 L_lambda_s=128 sigma=0.004 L=1.3 / ") +
                                  (flats ? "&solids R=Infinity,Infinity / &indentation boundary='periodic' /" : "&solids R=2,2 /"));
-        const double d2 = std::pow(rough.site.mean_spacing, 2);
+        const double d2 = std::pow(rough.domain.mean_spacing, 2);
         for (const double t : {2.0, 0.5, -1.0}) {
             const double above = 0.5 * std::erfc(t / std::sqrt(2.0)), density = std::exp(-0.5 * t * t) / std::sqrt(2 * 3.14159265358979);
             const double everywhere = 1.69 * above, under = 2 * 3.14159265358979 * 1.0 * 0.004 * (density - t * above);

@@ -11,7 +11,7 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
-#include "file/output_path.hpp"
+#include "file/whole_file.hpp"
 #include "unit/sample_result.hpp"
 #include "unit/temporary_folder.hpp"
 

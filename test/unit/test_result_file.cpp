@@ -20,7 +20,7 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
-#include "file/result_sums.hpp"
+#include "file/result.hpp"
 #include "result_reader.hpp"
 #include "unit/sample_result.hpp"
 #include "unit/temporary_folder.hpp"

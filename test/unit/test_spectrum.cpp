@@ -11,7 +11,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "rough/noise.hpp"
+#include "rough/modes.hpp"
 #include "rough/vector_math.hpp"
 
 using namespace rsc;

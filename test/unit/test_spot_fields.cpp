@@ -9,7 +9,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/deflection.hpp"
 #include "contact/interaction/lattice.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "contact/lateral.hpp"
 #include "physics/random_asperities.hpp"
 

@@ -10,7 +10,7 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/form.hpp"
-#include "rough/noise.hpp"
+#include "rough/modes.hpp"
 
 using namespace rsc;
 

@@ -11,9 +11,9 @@
 #include "contact/spots.hpp"
 #include "error.hpp"
 #include "observe/map.hpp"
-#include "rough/resample.hpp"
+#include "rough/surface.hpp"
 #include "run/job.hpp"
-#include "run/level_checks.hpp"
+#include "run/resolution.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;

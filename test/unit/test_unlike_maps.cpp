@@ -13,9 +13,9 @@
 
 #include "check.hpp"
 #include "error.hpp"
+#include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "rough/measured.hpp"
-#include "rough/missing.hpp"
 
 using namespace rsc;
 

@@ -1,7 +1,4 @@
 // The cone: s = slope rho.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"

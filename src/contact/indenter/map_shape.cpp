@@ -1,8 +1,6 @@
 // A second rough body: s = -z2, its heights being upwards positive as the first one's are. The middle of its points is above the tip's place, and Z0 is the
 // separation of the two mean planes. Between its points it is interpolated by polynomials through the points around, as summits of measured
 // maps are (rough/detection.hpp).
-#include <algorithm>
-#include <cmath>
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"

@@ -1,8 +1,5 @@
 // The paraboloid with two principal radii: two crossed cylinders, a roller, a ball in a groove. One radius Infinity is a cylinder, which
 // goes on to the border of the surface.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "contact/indenter/shapes.hpp"
 #include "contact/law/ellipse.hpp"

@@ -1,7 +1,4 @@
 // The flat-ended round punch, its rim sharp or rounded: s = 0 up to the radius a, then r - sqrt(r^2 - (rho - a)^2), nothing beyond a + r.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"

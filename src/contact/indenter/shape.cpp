@@ -1,10 +1,5 @@
 #include "contact/indenter/shape.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <numbers>
-
 #include "contact/indenter/shapes.hpp"
 
 namespace rsc {

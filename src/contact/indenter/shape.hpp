@@ -5,11 +5,7 @@
 // A new shape is one file with a class derived from IndenterShape and one row of the table in shapes.hpp.
 #pragma once
 
-#include <limits>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 
@@ -29,7 +25,7 @@ struct Box {
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
 };
 
-// What the shape does on a smooth half-space, for shapes with a closed form that is a power law: pressed in by u, it carries
+// Contact of the shape with a smooth half-space, for shapes with a power law in closed form: pressed in by u, it carries
 // N = force_factor u^force_power on the area A = area_factor u^area_power.
 struct SmoothContact {
     double force_factor = 0, force_power = 1, area_factor = 0, area_power = 0;
@@ -77,11 +73,11 @@ public:
 
     // A plane: nothing depends on the tip's place.
     virtual bool flat() const { return false; }
-    // Whether s depends on the distance from the tip alone.
+    // True if s depends on the distance from the tip alone.
     virtual bool round() const { return false; }
     // The radius R of Hertz's sphere, where this is one; Infinity for a flat; NaN for any other shape.
     virtual double hertz_radius() const { return std::numeric_limits<double>::quiet_NaN(); }
-    // Where it may stand between flats that repeat with the periods (x, y).
+    // True if the shape repeats with the periods (x, y), so that it may be one of two periodic flats.
     virtual bool repeats(double x, double y) const { return (void)x, (void)y, false; }
 
     // The smooth indenter on a smooth half-space of modulus E*; empty where no closed form is known.

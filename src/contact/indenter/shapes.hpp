@@ -1,8 +1,6 @@
 // All shapes an indenter may have: a row each.
 #pragma once
 
-#include <array>
-
 #include "contact/indenter/shape.hpp"
 
 namespace rsc {

@@ -1,7 +1,4 @@
 // The sphere, exactly: s = R - sqrt(R^2 - rho^2); and the flat, its limit.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"

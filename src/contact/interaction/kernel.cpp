@@ -1,15 +1,159 @@
 #include "contact/interaction/kernel.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
+#include <boost/math/quadrature/gauss.hpp>
 
 #include "contact/interaction/layers.hpp"
-#include "contact/interaction/love.hpp"
+#include "contact/interaction/pixel_kernels.hpp"
 #include "error.hpp"
+#include "rough/dispatch.hpp"
 
 namespace rsc {
+namespace {
+
+constexpr int kDegree = SquareTable::kDegree, kOctavePieces = SquareTable::kPiecesPerOctave;
+constexpr std::size_t kPieces = SquareTable::kPieces;
+
+// A double y >= 1 holds the number of its piece in its exponent and the first three bits of its mantissa; what is left is where in the piece.
+constexpr int kShift = 52 - 3;
+constexpr std::uint64_t kFirst = std::uint64_t{1023} << 3, kRest = (std::uint64_t{1} << kShift) - 1, kOne = std::uint64_t{1023} << 52;
+constexpr double kMiddle = 1 + 0.5 / kOctavePieces;
+
+constexpr std::size_t kBlock = 64;  // sources at once
+
+struct Task {
+    double x, y, inverse_square;
+    const double *xs, *ys, *coefficient;
+    double* value;
+};
+
+RSC_ALWAYS_INLINE void table_body(const Task& task) {
+    std::uint64_t piece[kBlock];
+    double t[kBlock], sum[kBlock];
+    for (std::size_t j = 0; j < kBlock; ++j) {
+        const double dx = task.x - task.xs[j], dy = task.y - task.ys[j];
+        const auto bits = std::bit_cast<std::uint64_t>(1 + (dx * dx + dy * dy) * task.inverse_square);
+        const std::uint64_t number = (bits >> kShift) - kFirst;
+        piece[j] = number < kPieces ? number : kPieces - 1;
+        t[j] = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
+    }
+    for (std::size_t j = 0; j < kBlock; ++j) sum[j] = task.coefficient[kDegree * kPieces + piece[j]];
+    for (int k = kDegree - 1; k >= 0; --k)
+        for (std::size_t j = 0; j < kBlock; ++j)
+            sum[j] = sum[j] * t[j] + task.coefficient[static_cast<std::size_t>(k) * kPieces + piece[j]];
+    for (std::size_t j = 0; j < kBlock; ++j) task.value[j] = sum[j];
+}
+
+RSC_DISPATCH(table_values, table_body, (const Task& task), (task))
+
+}  // namespace
+
+SquareTable::SquareTable(double unit, const std::function<double(double)>& value)
+    : unit_(unit), inverse_square_(1 / (unit * unit)), coefficient_((kDegree + 1) * kPieces), sum_(kPieces) {
+    constexpr int nodes = kDegree + 1;
+    constexpr double half = 0.5 / kOctavePieces;  // of a piece, in its octave
+    // Newton's divided differences at Chebyshev's points, turned into powers.
+    double place[nodes];
+    for (int i = 0; i < nodes; ++i) place[i] = half * std::cos(std::numbers::pi * (i + 0.5) / nodes);
+    double before = 0;
+    for (std::size_t piece = 0; piece < kPieces; ++piece) {
+        const double octave = std::ldexp(1.0, static_cast<int>(piece / kOctavePieces));
+        const double middle = 1 + (static_cast<double>(piece % kOctavePieces) + 0.5) / kOctavePieces;
+        double difference[nodes], power[nodes] = {};
+        for (int i = 0; i < nodes; ++i) difference[i] = value(unit * std::sqrt(std::max(0.0, octave * (middle + place[i]) - 1)));
+        for (int k = 1; k < nodes; ++k)
+            for (int i = nodes - 1; i >= k; --i) difference[i] = (difference[i] - difference[i - 1]) / (place[i] - place[i - k]);
+        for (int i = nodes - 1; i >= 0; --i) {
+            for (int k = nodes - 1; k > 0; --k) power[k] = power[k - 1] - place[i] * power[k];
+            power[0] = difference[i] - place[i] * power[0];
+        }
+        for (std::size_t k = 0; k < nodes; ++k) coefficient_[k * kPieces + piece] = power[k];
+        sum_[piece] = before;
+        for (int k = 0; k < nodes; k += 2) before += octave * 2 * power[k] * std::pow(half, k + 1) / (k + 1);
+    }
+}
+
+double SquareTable::at_square(double t2) const {
+    const auto bits = std::bit_cast<std::uint64_t>(1 + t2 * inverse_square_);
+    const std::size_t piece = std::min<std::uint64_t>((bits >> kShift) - kFirst, kPieces - 1);
+    const double t = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
+    double sum = coefficient_[kDegree * kPieces + piece];
+    for (std::size_t k = kDegree; k-- > 0;) sum = sum * t + coefficient_[k * kPieces + piece];
+    return sum;
+}
+
+double SquareTable::moment(double t) const {
+    const auto bits = std::bit_cast<std::uint64_t>(1 + t * t * inverse_square_);
+    const std::size_t piece = std::min<std::uint64_t>((bits >> kShift) - kFirst, kPieces - 1);
+    constexpr double half = 0.5 / kOctavePieces;
+    const double to = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
+    double sum = 0, high = to, low = -half;
+    for (std::size_t k = 0; k <= kDegree; ++k, high *= to, low *= -half)
+        sum += coefficient_[k * kPieces + piece] * (high - low) / static_cast<double>(k + 1);
+    return 0.5 * unit_ * unit_ * (sum_[piece] + std::ldexp(sum, static_cast<int>(piece / kOctavePieces)));
+}
+
+void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
+                      const double* f, double* to) const {
+    // Among the same points a value serves both ways: block j of sources then takes from the targets before it what they take from it.
+    const bool same = xt == xs && yt == ys && n_targets == n_sources;
+    double x[kBlock], y[kBlock], force[kBlock], value[kBlock], back[kBlock];
+    for (std::size_t j = 0; j < n_sources; j += kBlock) {
+        const std::size_t count = std::min(kBlock, n_sources - j);
+        for (std::size_t k = 0; k < kBlock; ++k) {
+            const std::size_t from = j + std::min(k, count - 1);
+            x[k] = xs[from], y[k] = ys[from], force[k] = k < count ? f[from] : 0, back[k] = 0;
+        }
+        for (std::size_t i = 0; i < (same ? j + count : n_targets); ++i) {
+            table_values({xt[i], yt[i], inverse_square_, x, y, coefficient_.data(), value});
+            double sum = 0;
+            for (std::size_t k = 0; k < kBlock; ++k) sum += force[k] * value[k];
+            to[i] += sum;
+            if (!same || i >= j) continue;
+            for (std::size_t k = 0; k < kBlock; ++k) back[k] += f[i] * value[k];
+        }
+        for (std::size_t k = 0; same && k < count; ++k) to[j + k] += back[k];
+    }
+}
+
+SmoothPart::SmoothPart(const std::function<double(double)>& s, std::function<double(double)> share, double scale)
+    : table_(scale, s), share_(std::move(share)) {}
+
+// The integral over the rectangle from 0 to (s, t): in polar coordinates, one triangle beside each axis. With x = s the far side of a
+// triangle and y = x sinh(v), its part is the integral of moment(x cosh v)/cosh v dv.
+double SmoothPart::corner(double s, double t) const {
+    const double x = std::abs(s), y = std::abs(t);
+    const auto triangle = [this](double side, double end) {
+        if (!(side > 0) || !(end > 0)) return 0.0;
+        const double most = std::asinh(end / side);
+        const int panels = 1 + static_cast<int>(most / 3);
+        double sum = 0;
+        for (int k = 0; k < panels; ++k) {
+            sum += boost::math::quadrature::gauss<double, 20>::integrate(
+                [&](double v) { return table_.moment(side * std::cosh(v)) / std::cosh(v); }, most * k / panels, most * (k + 1) / panels);
+        }
+        return sum;
+    };
+    const double sum = triangle(x, y) + triangle(y, x);
+    return (s < 0) == (t < 0) ? sum : -sum;
+}
+
+double SmoothPart::over_rectangle(double x, double y, double a, double b) const {
+    // Far away s is as smooth over the rectangle as 1/d is, and Gauss's rule of three points a side is exact to 1e-10 of it; so it is
+    // where s hardly changes over the rectangle.
+    constexpr double far = 16, narrow = 0.05;
+    const double side = 2 * std::max(a, b);
+    if (x * x + y * y <= far * far * side * side && side > narrow * scale())
+        return corner(x + a, y + b) - corner(x + a, y - b) - corner(x - a, y + b) + corner(x - a, y - b);
+    constexpr double outer = 0.7745966692414834;  // sqrt(3/5)
+    const double place[3] = {-outer, 0, outer}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const double dx = x + a * place[i], dy = y + b * place[j];
+            sum += weight[i] * weight[j] * at_square(dx * dx + dy * dy);
+        }
+    return a * b * sum;
+}
 
 Substrate::Substrate(double E_star, std::shared_ptr<const SmoothPart> smooth) : E_star_(E_star), smooth_(std::move(smooth)) {
     if (!smooth_) return;

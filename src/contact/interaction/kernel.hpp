@@ -1,15 +1,58 @@
-// What a force does to other places: the one place that knows 1/(pi E* d). Pairs, mesh, pixels, the periodic grid and deflections take
-// it from here.
+// The smooth part s(d) of the answer to a unit force, G(d) = 1/(pi E* d) + s(d): what layers change. Kept as a table.
 #pragma once
-
-#include <memory>
-#include <utility>
 
 #include "contact/indentation.hpp"
 #include "contact/interaction/lattice.hpp"
-#include "contact/interaction/smooth_part.hpp"
 
 namespace rsc {
+
+// A smooth function of a square, v = value(t^2), as polynomials of degree 7 in y = 1 + t^2/unit^2, eight to an octave of y.
+class SquareTable {
+public:
+    static constexpr int kDegree = 7, kPiecesPerOctave = 8, kOctaves = 80;
+    static constexpr std::size_t kPieces = std::size_t{kOctaves} * kPiecesPerOctave;
+
+    // `value(t)` for t >= 0. Beyond t = 2^40 unit the table keeps its last value.
+    SquareTable(double unit, const std::function<double(double)>& value);
+
+    double unit() const { return unit_; }
+    double at_square(double t2) const;
+    // The integral of v t dt from 0 to t.
+    double moment(double t) const;
+    // to[i] += sum over j of f[j] v((xt[i] - xs[j])^2 + (yt[i] - ys[j])^2). The arrays do not overlap.
+    void add(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
+             const double* f, double* to) const;
+
+private:
+    double unit_, inverse_square_;
+    std::vector<double> coefficient_;  // [degree][piece], of powers of the distance from the middle of the piece over its octave
+    std::vector<double> sum_;          // the integral of v dy up to each piece
+};
+
+class SmoothPart {
+public:
+    // s(d) for d >= 0 [length/force]; share(k) for k > 0, with which a mode of pressure of the wavenumber k [1/length] answers
+    // 2/(E* k) (1 + share(k)) of itself: E* k/2 times the two-dimensional Fourier transform of s. `scale` [length]: s changes little
+    // within it, that is, share(k) falls like exp(-k scale) and d^2 may be replaced by -scale^2 before s has a singularity.
+    SmoothPart(const std::function<double(double)>& s, std::function<double(double)> share, double scale);
+
+    double at(double d) const { return table_.at_square(d * d); }
+    double at_square(double d2) const { return table_.at_square(d2); }
+    double share(double k) const { return share_(k); }
+    double scale() const { return table_.unit(); }
+    // The integral of s over the rectangle |x' - x| < a, |y' - y| < b, d the distance of (x', y') from 0.
+    double over_rectangle(double x, double y, double a, double b) const;
+    const SquareTable& table() const { return table_; }
+
+private:
+    double corner(double s, double t) const;
+
+    SquareTable table_;
+    std::function<double(double)> share_;
+};
+
+// The deflection of other places by a force: only this file knows 1/(pi E* d). Pairs, mesh, pixels, the periodic grid and deflections take
+// it from here.
 
 // The elastic body that is pressed. A unit force lowers its surface at a distance d by 1/(pi E* d) + s(d) (Boussinesq; s: layers), a
 // mode of pressure with the wavenumber k by 2/(E* k) (1 + share(k)) of itself.
@@ -23,7 +66,7 @@ public:
     const SmoothPart* smooth() const { return smooth_.get(); }
     // s(d), 0 of a homogeneous half-space.
     double smooth_at(double d) const { return smooth_ ? smooth_->at(d) : 0; }
-    // How far a unit force raises other places at most [length/force]: 0 but for nearly incompressible layers on a stiffer body, which
+    // Largest height by which a unit force raises other places [length/force]: 0 except for nearly incompressible layers on a stiffer body, which
     // bulge around what presses them.
     double bulge() const { return bulge_; }
     // The deflection at an offset (x, y) from the middle of a rectangle of sides dx and dy under unit pressure [length^3/force].
@@ -44,13 +87,13 @@ public:
 
     // G at an offset that is not zero.
     virtual double at(double dx, double dy) const = 0;
-    // What a force does to its own place beside what the law of the place answers: through layers, and through its images, if any.
+    // Deflection of the force's own place beyond that of the contact law: by layers, and by periodic images.
     virtual double self() const = 0;
-    // What G has been raised by, so that no force raises any other place: then only what reaches above the separation can touch (alone
+    // Constant added to G so that no force raises any other place: then only points above the separation can touch (alone
     // it could rise only by a spot as wide as the period). 0 for a free half-space, bulge() for a free body. A solution with this G at Z0' is the one with the
     // true G at Z0 = Z0' + shift() N.
     virtual double shift() const = 0;
-    // Where everything repeats; null: nowhere. Then G = near() Gamma + shift().
+    // The lattice of periodic boundaries, or null. With it G = near() Gamma + shift().
     virtual const Lattice* lattice() const { return nullptr; }
     Period period() const { return lattice() ? lattice()->period() : Period{}; }
 

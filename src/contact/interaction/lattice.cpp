@@ -1,9 +1,5 @@
 #include "contact/interaction/lattice.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "error.hpp"
 #include "rough/dispatch.hpp"
 

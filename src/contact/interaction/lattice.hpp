@@ -1,9 +1,6 @@
 // The potential of a point and of its images on a rectangular lattice in the plane: what 1/d becomes where everything repeats.
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include "contact/period.hpp"
 
 namespace rsc {

@@ -1,12 +1,6 @@
 #include "contact/interaction/layers.hpp"
 
-#include <algorithm>
-#include <array>
 #include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
-#include <mutex>
-#include <numbers>
-#include <vector>
 
 #include "error.hpp"
 #include "format.hpp"

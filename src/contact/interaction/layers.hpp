@@ -1,10 +1,8 @@
 // Elastic layers bonded to an elastic half-space: what a coating changes in the answer of its surface.
 #pragma once
 
-#include <memory>
-
 #include "contact/indentation.hpp"
-#include "contact/interaction/smooth_part.hpp"
+#include "contact/interaction/kernel.hpp"
 
 namespace rsc {
 

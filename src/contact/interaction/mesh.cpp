@@ -1,18 +1,9 @@
 #include "contact/interaction/mesh.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <mutex>
-#include <numbers>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "contact/interaction/mesh_far.hpp"
 #include "contact/interaction/pair_sums.hpp"
 #include "error.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 
@@ -73,7 +64,7 @@ private:
     std::vector<double> pairs_;
 };
 
-// What the modes of a smooth part come to, for a bound on those that a mesh does not carry.
+// Sums over the modes of a smooth part, which bound those that a mesh does not carry.
 constexpr double kAliases = 100;
 
 struct Choice {
@@ -122,7 +113,7 @@ struct MeshPotential::Parts {
     std::shared_ptr<const FarField> far;
 
     // Points in strips of constant y, by x within a strip; x runs along the longer side. Strips are padded for the pair loops.
-    // Where everything repeats, the first `strips` of them are followed by copies: of the two lowest beyond the upper border, then of the
+    // With periodic boundaries the first `strips` of them are followed by copies: of the two lowest beyond the upper border, then of the
     // left end of every strip so far beyond the right border.
     std::size_t strips = 0;
     std::vector<std::size_t> strip_begin, strip_size;

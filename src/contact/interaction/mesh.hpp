@@ -10,11 +10,6 @@
 // boxes, and the bits they give depend on the number of threads.
 #pragma once
 
-#include <cstddef>
-#include <map>
-#include <memory>
-#include <utility>
-
 #include "contact/interaction/kernel.hpp"
 
 namespace rsc {
@@ -30,7 +25,7 @@ public:
     // n points with finite coordinates [length]. relative_error, 1e-10 to 1e-2: wanted bound on |phi - exact| / |phi| in the
     // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
     // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
-    // Where the kernel repeats, a point acts on itself; so it does through a smooth part. No kernel: 1/d.
+    // A point acts on itself through its periodic images and through a smooth part. Without a kernel: 1/d.
     // `kept`: far fields made before with this kernel's lattice; what is missing is added, and all give way once they take much memory.
     MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr,
                   FarFields* kept = nullptr);

@@ -2,13 +2,8 @@
 
 #include <omp.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-
 #include "error.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 

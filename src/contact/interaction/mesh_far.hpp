@@ -3,13 +3,9 @@
 
 #include <fftw3.h>
 
-#include <cstddef>
-#include <functional>
-#include <memory>
-
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/mesh_split.hpp"
-#include "rough/fftw_planner.hpp"
+#include "rough/library_lock.hpp"
 
 namespace rsc {
 

@@ -1,12 +1,7 @@
 #include "contact/interaction/mesh_split.hpp"
+#include "std.hpp"
 
-#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
-#include <functional>
-#include <mutex>
-#include <numbers>
-#include <vector>
 
 namespace rsc {
 

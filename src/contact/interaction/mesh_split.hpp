@@ -1,4 +1,4 @@
-// How 1/d is split into a near part and a band-limited far part, and the window that carries forces to the mesh. Lengths here are
+// The split of 1/d into a near part and a band-limited far part, and the window that spreads forces onto the mesh. Lengths here are
 // in mesh spacings.
 //
 // F(d) = 1/d [int_0^{d/c} w / int_0^1 w] with the Kaiser-Bessel bell w(t) = I0(beta sqrt(1 - t^2)), c the cutoff: F = 1/d beyond

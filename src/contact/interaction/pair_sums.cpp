@@ -1,8 +1,5 @@
 #include "contact/interaction/pair_sums.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace rsc {
 
 void PairSums::assign(std::size_t n, const double* x, const double* y) {

@@ -1,8 +1,6 @@
 // Sums over pairs of a kernel's G, one by one.
 #pragma once
 
-#include <vector>
-
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/pairs.hpp"
 

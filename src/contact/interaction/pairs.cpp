@@ -1,10 +1,5 @@
 #include "contact/interaction/pairs.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <string_view>
-
 #include "contact/interaction/pairs_kernel.hpp"
 #include "error.hpp"
 #include "rough/dispatch.hpp"

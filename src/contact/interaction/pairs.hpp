@@ -7,9 +7,7 @@
 // count as 0.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 

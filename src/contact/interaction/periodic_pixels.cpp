@@ -2,15 +2,9 @@
 
 #include <omp.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "error.hpp"
-#include "rough/fftw_planner.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/library_lock.hpp"
+#include "rough/parallel.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -168,7 +162,7 @@ void PeriodicPixels<Real>::columns(Answer answer) {
 template <class Real>
 void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
     const int threads = static_cast<int>(plans_->blocks.size());
-    // What lies beyond the modes of a row would be transformed with them: it must be numbers.
+    // The padding behind the modes of a row is transformed with them, so it must hold numbers.
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
 #pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
     for (int j = 0; j < ny_; ++j) {

@@ -1,9 +1,7 @@
 // Deflections of a surface that repeats under pressures on all its pixels: products with K by Fourier transforms over the whole period.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <memory>
+#include "std.hpp"
 
 namespace rsc {
 

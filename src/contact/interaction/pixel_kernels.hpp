@@ -1,10 +1,36 @@
-// The two hot loops of pixel_tree.cpp, compiled for several instruction sets; the best one the machine has is chosen at run time.
+// Deflection of an elastic half-space under a uniform pressure on a rectangle (Love 1929; Johnson 1985, eq. 3.25).
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include "std.hpp"
 
 namespace rsc {
+
+// pi E* times the deflection at (x, y) under unit pressure on the rectangle |x| < a, |y| < b [length].
+// The four logarithms of Johnson's formula, paired as inverse hyperbolic sines so that none loses digits.
+double love(double x, double y, double a, double b);
+
+// The same by the moments of the rectangle: 4ab [1/d + second + fourth order], whose relative error is below (a/d)^6/20 for a >= b;
+// for a square of side h it begins h^2 [1/d + h^2/(24 d^3)].
+inline double love_far(double x, double y, double a, double b) {
+    const double x2 = x * x, y2 = y * y, inverse2 = 1 / (x2 + y2), inverse = std::sqrt(inverse2);
+    const double u = x2 * inverse2, v = y2 * inverse2;
+    // With hx = 2a, hy = 2b: hx^2/24 d^2/dx^2 + hx^4/1920 d^4/dx^4 + hx^2 hy^2/576 d^4/dx^2dy^2 + ... of 1/d.
+    const double a2 = a * a * inverse2, b2 = b * b * inverse2;
+    const double second = a2 * (2 * u - v) + b2 * (2 * v - u);
+    const double fourth = (a2 * a2 * (24 * u * u - 72 * u * v + 9 * v * v) + b2 * b2 * (24 * v * v - 72 * u * v + 9 * u * u)) / 120 +
+                          a2 * b2 * (81 * u * v - 12 * u * u - 12 * v * v) / 36;
+    return 4 * a * b * inverse * (1 + second / 6 + fourth);
+}
+
+// pi E* times the deflection for pixels of sides 1 and `aspect` at any offset in units of the first: love() near, love_far() from a
+// distance on at which it is exact to 1e-10.
+inline double pixel_kernel(double x, double y, double aspect) {
+    constexpr double far = 16;
+    const double side = aspect > 1 ? aspect : 1;
+    return x * x + y * y > far * far * side * side ? love_far(x, y, 0.5, 0.5 * aspect) : love(x, y, 0.5, 0.5 * aspect);
+}
+
+// The two hot loops of pixel_tree.cpp, compiled for several instruction sets; the best one the machine has is chosen at run time.
 
 inline constexpr int kTileColumns = 8;  // pixels of a tile along x: one vector
 inline constexpr int kLane = 8;         // doubles of a vector

@@ -1,9 +1,6 @@
 // Deflections of an elastic half-space by uniform pressures on the pixels of a grid, w = K p (physics: Johnson 1985, section 3.4).
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "contact/interaction/kernel.hpp"
 
 namespace rsc {

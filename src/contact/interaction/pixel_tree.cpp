@@ -1,15 +1,11 @@
 // Tiles of 8 pixels along x and about as long along y; boxes of 2 x 2 tiles, of 4 x 4, and so on, only where there are pixels.
 // Tiles that touch act on each other pixel by pixel. Boxes that do not touch, but whose parents do, act through q x q Chebyshev points:
 // pressures to points of a tile, to those of its parents, between boxes, and back down again by the same interpolation.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {
@@ -60,7 +56,7 @@ struct Generation {
     }
 };
 
-// Where the pixels of a set lie.
+// Positions of the pixels of a set.
 struct Layout {
     std::vector<Generation> generations;  // tiles first
     std::vector<std::size_t> place;       // of each pixel: tile * (8 rows) + row * 8 + column
@@ -164,7 +160,7 @@ struct PixelAnswer {
     double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy) + dx * dy * substrate.bulge(); }
 };
 
-// What interpolation of one number of points needs, for all layouts.
+// Tables for interpolation with one number of points, for all layouts.
 class Interpolation {
 public:
     Interpolation(int q, int rows, const PixelAnswer& answer) : q_(q), rows_(rows), aspect_(answer.dy / answer.dx), answer_(answer) {

@@ -1,10 +1,6 @@
 // Products with the interaction matrix B (kernel.hpp; paper, section 4), without the matrix.
 #pragma once
 
-#include <memory>
-#include <utility>
-#include <vector>
-
 #include "contact/interaction/kernel.hpp"
 
 namespace rsc {

@@ -1,10 +1,5 @@
 #include "contact/law/bessel_profile.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-
 namespace rsc {
 namespace {
 

@@ -5,7 +5,7 @@
 // alone; q^2 < 0 makes cosh and sinh of cos and sin. t = 1 is the contact that reaches the profile's trough, q a = pi.
 #pragma once
 
-#include <array>
+#include "std.hpp"
 
 namespace rsc {
 

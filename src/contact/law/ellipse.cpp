@@ -1,8 +1,5 @@
 #include "contact/law/ellipse.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "error.hpp"
 
 namespace rsc {

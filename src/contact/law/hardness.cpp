@@ -1,11 +1,5 @@
 #include "contact/law/hardness.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include "error.hpp"
 
 namespace rsc {
@@ -146,7 +140,7 @@ private:
         Flat end;            // at u_m
         double rest = 0;     // u_r
         double power = 1.5;  // m of the way back
-        double lost = 0;     // work that does not come back
+        double lost = 0;     // plastic work
     };
 
     const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }

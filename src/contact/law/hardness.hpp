@@ -19,8 +19,6 @@
 // Size effect (Swadener, George, Pharr 2002; paper, section 5): H_i = H0 sqrt(1 + l/r_i).
 #pragma once
 
-#include <memory>
-
 #include "contact/law/law.hpp"
 
 namespace rsc {

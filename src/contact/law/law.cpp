@@ -1,11 +1,5 @@
 #include "contact/law/law.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
 #include "contact/law/bessel_profile.hpp"
 #include "contact/law/ellipse.hpp"
 #include "error.hpp"

@@ -1,14 +1,11 @@
-// What one asperity answers to a penetration (paper, section 4: Hertz). The solvers know nothing else of an asperity.
+// The contact law: the force of one asperity at a penetration (paper, section 4: Hertz). Solvers know nothing else of an asperity.
 #pragma once
-
-#include <memory>
-#include <span>
 
 #include "contact/indentation.hpp"
 
 namespace rsc {
 
-// What a kind of law needs and what it is, for those who prepare asperities for it and those who use it.
+// Properties of a kind of law: the columns of asperities it needs, and how its spots are treated.
 struct LawTraits {
     const char* name;       // as &asperities law spells it
     bool needs_curvatures;  // kappa1, kappa2 and angle of every asperity
@@ -34,9 +31,9 @@ class Law {
 public:
     virtual ~Law() = default;
 
-    // Whether the force is a convex function of the penetration: uniqueness is proved for such laws only.
+    // True if the force is a convex function of the penetration; uniqueness is proved for such laws only.
     virtual bool convex() const { return true; }
-    // Whether commit() changes answers: a level then depends on those before it.
+    // True if commit() changes later results: a level then depends on those before it.
     virtual bool path_dependent() const { return false; }
     // The level with penetrations u[k] of asperity[k] (all others are out of contact) is accepted.
     virtual void commit(int n, const int* asperity, const double* u) { (void)n, (void)asperity, (void)u; }

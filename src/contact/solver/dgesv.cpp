@@ -1,13 +1,9 @@
 #include "contact/solver/dgesv.hpp"
 
-#include <algorithm>
-#include <memory>
-#include <new>
-
 #include "contact/interaction/pair_sums.hpp"
 #include "contact/solver/lapack.hpp"
 #include "error.hpp"
-#include "rough/stopping.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {
@@ -106,7 +102,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
         }
         delta = std::max(delta / method.cut, 1e-12 * method.delta0);
     }
-    // What the regularisation left on asperities out of contact is no contact force.
+    // The forces that the regularisation leaves on asperities out of contact are no contact forces.
     for (std::size_t i = 0; i < size; ++i) {
         if (v[i] <= 0) force[i] = 0;
     }

@@ -1,8 +1,6 @@
 // The paper's method (section 4): regularised Newton on the forces with the dense matrix, every step solved by LAPACK dgesv.
 #pragma once
 
-#include <vector>
-
 #include "contact/interaction/kernel.hpp"
 #include "contact/law/law.hpp"
 #include "contact/solver/newton.hpp"

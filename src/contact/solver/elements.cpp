@@ -1,9 +1,5 @@
 #include "contact/solver/elements.hpp"
-#include "rough/stopping.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {

@@ -2,8 +2,6 @@
 // pressures are the one minimum of the energy p'Kp/2 - g0'p over p >= 0.
 #pragma once
 
-#include <vector>
-
 #include "contact/interaction/pixel_products.hpp"
 #include "contact/solver/spot_blocks.hpp"
 
@@ -29,7 +27,7 @@ public:
     ElementsOutcome solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance, int most_iterations,
                           std::vector<double>& p);
 
-    // What the last answer presses out for good: pixels at the highest pressure with w < 0, and -w, row by row. It is taken off g0: the
+    // Plastic residual of the last solution: pixels at the highest pressure with w < 0, and -w, row by row. It is subtracted from g0: the
     // same pressures then leave no penetration anywhere.
     void press_out(std::vector<Pixel>& pixels, std::vector<double>& depth);
 

@@ -1,8 +1,5 @@
 #include "contact/solver/lanczos.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "contact/solver/lapack.hpp"
 
 namespace rsc {

@@ -1,9 +1,7 @@
 // The lowest eigenvalue of a symmetric operator, for telling minima from saddles.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 

@@ -3,10 +3,6 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
-#include <fstream>
-#include <mutex>
-#include <new>
-
 #include "error.hpp"
 
 extern "C" {
@@ -19,7 +15,7 @@ void dstev_(const char* jobz, const int* n, double* d, double* e, double* z, con
 namespace rsc::lapack {
 namespace {
 
-// Whether the system may refuse memory, rather than promise it and kill the process later.
+// True if the system refuses memory that it does not have, instead of killing the process when it is used.
 bool memory_is_limited() {
     for (const auto what : {RLIMIT_AS, RLIMIT_DATA}) {
         rlimit limit{};

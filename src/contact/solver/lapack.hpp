@@ -1,14 +1,14 @@
 // The few LAPACK routines rsc calls.
 #pragma once
 
-#include <vector>
+#include "std.hpp"
 
 namespace rsc::lapack {
 
 // Solves A x = b in place by dgesv (A: n x n, column-major, overwritten). False when A is singular to working precision.
 bool solve(int n, double* A, double* b, std::vector<int>& pivots);
 
-// Whether the symmetric matrix A (n x n, overwritten) is positive definite, by dpotrf. A must be finite.
+// True if the symmetric matrix A (n x n, overwritten) is positive definite, by dpotrf. A must be finite.
 bool is_positive_definite(int n, double* A);
 
 // Lowest eigenvalue and its unit eigenvector of the symmetric tridiagonal matrix with the diagonal alpha and off-diagonal beta.

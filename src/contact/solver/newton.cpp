@@ -1,12 +1,8 @@
 #include "contact/solver/newton.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "contact/solver/lanczos.hpp"
 #include "contact/solver/uniqueness.hpp"
-#include "rough/stopping.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {
@@ -30,7 +26,7 @@ constexpr double kAboveError = 100, kRoughest = 1e-5;
 constexpr std::size_t kMostGradients = 500;
 constexpr double kFlat = 1e-9;
 
-// How accurately a Newton step is solved for (Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996): the root of the residual, which keeps
+// Relative accuracy of a Newton step (Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996): the root of the residual, which keeps
 // the order 3/2, at most kLoosest; not finer than this share of what the last step needs, nor than single precision can tell.
 constexpr double kLoosest = 0.1, kLastShare = 0.2, kFinestForcing = 1e-5, kMostForcing = 0.3;
 

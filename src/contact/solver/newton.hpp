@@ -10,8 +10,6 @@
 // gradient vanishes is accepted only if I + S B S is positive definite there, and left along its lowest eigenvector otherwise.
 #pragma once
 
-#include <vector>
-
 #include "contact/interaction/products.hpp"
 #include "contact/law/law.hpp"
 
@@ -38,14 +36,14 @@ class Newton {
 public:
     explicit Newton(const Law& law) : law_(law) {}
 
-    // How products with B are taken from now on; they must outlive their use here.
+    // The products with B to use from now on; they must outlive their use here.
     void use(Products& products) { products_ = &products; }
 
     // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points. Whether it is a
     // minimum is asked unless an approximation is all that is wanted, or uniqueness, which says more, is asked afterwards.
     NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v, bool ask_minimum = true);
 
-    // Whether the solution of this set, which solve() found without asking, is a minimum.
+    // True if the solution of this set, found by solve() without this check, is a minimum.
     bool at_minimum(const WorkingSet& set);
 
     // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
@@ -80,14 +78,14 @@ private:
     };
 
     void evaluate(const WorkingSet& set, State& state, bool accurate);
-    // Whether a residual of this size can be told from inner products.
+    // True if inner products are accurate enough for a residual of this size.
     bool rough_will_do(double residual) const;
     void step(const WorkingSet& set, const State& state, double forcing, double radius, double entering, Step& out);
     // Products with I + S B S on the active set.
     void multiply(const std::vector<double>& w, std::vector<double>& out);
     // Steihaug's truncated conjugate gradients for (I + S B S) w = b within |w| <= radius.
     void steihaug(const std::vector<double>& b, double forcing, double radius, std::vector<double>& w, Step& out);
-    // Whether I + S B S is positive definite at the state; if not, its lowest eigenvector w.
+    // True if I + S B S is positive definite at the state; otherwise w is its lowest eigenvector.
     bool positive_definite(const WorkingSet& set, const State& state, std::vector<double>& w);
     void leave_saddle(const WorkingSet& set, const std::vector<double>& w);
     void scale_active(const State& state);

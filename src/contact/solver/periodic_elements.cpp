@@ -1,10 +1,5 @@
 #include "contact/solver/periodic_elements.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "contact/solver/periodic_grid.hpp"
 #include "error.hpp"
 #include "format.hpp"

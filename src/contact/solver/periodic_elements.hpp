@@ -2,10 +2,6 @@
 // pressure or the separation given. Products are those of interaction/periodic_pixels.hpp.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <vector>
-
 #include "contact/interaction/pixel_products.hpp"
 #include "contact/solver/elements.hpp"
 
@@ -35,7 +31,7 @@ public:
     ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
     ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
 
-    // The separation at which nothing is left of the gap: the mean height, to rounding. With a highest pressure there is none: what
+    // The separation of full contact: the mean height, to rounding. With a highest pressure there is none: what
     // carries no more goes on penetrating.
     double closed() const;
 
@@ -43,7 +39,7 @@ public:
     // solution still holds.
     void heights_changed();
 
-    // The mean pressure from which on nothing is left of the gap: -min of K^-1 z.
+    // The mean pressure of full contact: -min of K^-1 z.
     double closing_pressure();
 
     // Of the last solution:

@@ -1,12 +1,5 @@
 #include "contact/solver/periodic_grid.hpp"
-#include "rough/omp_team.hpp"
-#include "rough/stopping.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <utility>
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {
@@ -335,7 +328,7 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
     else
         precondition(ones, one_);
     const double whole = total(one_);
-    // Where the sum may change, pressures like those of a punch are cheap, the more so the fuller the contact: they are a step of their own.
+    // With a free mean pressure, a correction by punch-like pressures is cheap, the more so the fuller the contact: it is a step of its own.
     double punch = 0;
     if (!keep_sum && !plain) {
         d_ = one_;
@@ -391,7 +384,7 @@ void PeriodicGrid::bound(Given given) {
     }
 }
 
-// Whether the last round took the energy down; where it did not, pressures go back to the best place on the way.
+// True if the last round lowered the energy; otherwise pressures return to the best ones found on the way.
 bool PeriodicGrid::fell() {
     double slope = 0, curvature = 0;
     for (std::size_t k = 0; k < p_.size(); ++k) {

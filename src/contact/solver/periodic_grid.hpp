@@ -1,18 +1,13 @@
 // One grid of the contact of elements that repeat, in numbers without units: heights z of mean 0, deflections u = K p, gaps w = u - z + Z0.
-// What solver/periodic_elements.hpp builds its solutions from.
+// Building blocks of solver/periodic_elements.hpp.
 #pragma once
-
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <vector>
 
 #include "contact/interaction/periodic_pixels.hpp"
 #include "contact/solver/elements.hpp"
 
 namespace rsc {
 
-// What is given: the mean of p over the grid (where pressures have no highest), or Z0.
+// The controlled quantity: the mean of p over the grid (without a highest pressure), or Z0.
 struct Given {
     bool is_pressure;
     double value;

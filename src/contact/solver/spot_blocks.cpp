@@ -1,12 +1,7 @@
 #include "contact/solver/spot_blocks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <tuple>
-
 #include "rough/dispatch.hpp"
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {

@@ -1,10 +1,6 @@
 // Every contact spot solved alone: the preconditioner of the elements' conjugate gradients.
 #pragma once
 
-#include <cstddef>
-#include <map>
-#include <vector>
-
 #include "contact/interaction/pixel_products.hpp"
 
 namespace rsc {

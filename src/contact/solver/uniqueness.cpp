@@ -1,11 +1,5 @@
 #include "contact/solver/uniqueness.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <numeric>
-#include <utility>
-
 #include "contact/close_pairs.hpp"
 #include "contact/solver/lapack.hpp"
 
@@ -35,7 +29,7 @@ double shell_energy(double p, double q, double d) {
     return ((p * p - near * near) / (2 * p) + d + q - p) / (2 * d * q);
 }
 
-// What the shells of contact radii a and b at distance d take from the diagonal.
+// Share of the diagonal taken by the shells of contact radii a and b at distance d.
 double shell_overlap(double a, double b, double d) {
     constexpr double scale = kWidening * 2 / std::numbers::pi;
     if (!(d < scale * (a + b)) || !(a > 0) || !(b > 0)) return 0;
@@ -51,7 +45,7 @@ std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a,
     return pairs;
 }
 
-// Whether shells are narrow enough against the period for the argument to hold.
+// True if shells are narrow enough, compared with the period, for the argument to hold.
 bool shells_fit(const Vector& a, const Period& period) {
     return a.empty() || *std::max_element(a.begin(), a.end()) < std::min(period.x, period.y) / 10;
 }
@@ -143,7 +137,7 @@ double secant(const Law& law, double E_star, int asperity, double v, double forc
     return (law.force(asperity, high) - force) / rise / (2 * E_star);
 }
 
-// Whether a cluster, in the field of all others, has the given solution only: the box of what its penetrations may be is cut into
+// True if a cluster, in the field of all others, has the given solution only: the box of its possible penetrations is cut into
 // parts, until each is seen either to hold no solution or to be too small for two.
 class Search {
 public:
@@ -173,7 +167,7 @@ private:
 
     // Narrows the bounds by the equation v = v0 - B (F - F0); false: there is no solution between them.
     bool narrow(Vector& low, Vector& high) {
-        // How much the field of the contacts further away may change: this share of what the cluster itself may change.
+        // Possible change of the field of contacts further away, as a share of the possible change by the cluster itself.
         constexpr double give = 0.1;
         f_low_ = forces(low);
         f_high_ = forces(high);

@@ -8,7 +8,7 @@
 // matrix of the overlaps, which falls apart into small clusters, decides cluster by cluster: by row sums (Gershgorin) where they
 // suffice, by a Cholesky factorisation where they do not. This costs O(n) for n contacts.
 //
-// Where everything repeats, shells and images make the same argument: a mode of the shells' charges has an energy >= 0, and what is left,
+// With periodic boundaries the same argument holds for shells and images: a mode of the shells' charges has an energy >= 0, and what is left,
 // the neutralising background, lies in the plane and not on the shells, which costs (pi/A)(rho_i + rho_j) of the shift c that G has been
 // raised by. c is larger while shells are narrower than a quarter of the period, the contacts than an eighth.
 //
@@ -16,8 +16,6 @@
 // body, too. What points feel of s beyond what shells do is of the second order of rho/h, h the thickness of the layer: contacts that are
 // not small against it are out of validity.
 #pragma once
-
-#include <vector>
 
 #include "contact/interaction/kernel.hpp"
 #include "contact/law/law.hpp"
@@ -28,7 +26,7 @@ namespace rsc {
 bool positive_definite_by_shells(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& a,
                                  const Period& period = {});
 
-// Whether no other solution can be near a given one, for all candidates: penetrations v (negative: no contact), forces and slopes.
+// True if no other solution exists near the given one, for all candidates: penetrations v (negative: no contact), forces and slopes.
 // A second solution differs by dF with dF'(B + 1/D')dF = 0, D' the secant slope of the law between the two, and its penetrations
 // cannot exceed those left when every close partner lets go. The shells test with these secants proves that there is none; where it
 // does not, the box of the penetrations a doubtful cluster may have is bisected, each part narrowed by the equation until it is empty

@@ -16,7 +16,7 @@
 #include "contact/touching.hpp"
 #include "physics/values/truth.hpp"
 #include "run/resolution.hpp"
-#include "run/run_options.hpp"
+#include "run/run.hpp"
 #include "version.h"
 
 namespace values {

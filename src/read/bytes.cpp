@@ -1,12 +1,6 @@
-#include "read/grid.hpp"
+#include "read/bytes.hpp"
 
 #include <unistd.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <limits>
-
-#include "error.hpp"
 
 namespace rsc {
 

@@ -1,19 +1,10 @@
-// Who does the work of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
+// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
 // handed out piece by piece, to whoever has finished the last one; nothing about the answer depends on who does what.
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <exception>
-#include <functional>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <thread>
-#include <vector>
+#include "case/case.hpp"
+#include "run/job.hpp"
+#include "run/run.hpp"
 
 namespace rsc {
 
@@ -89,5 +80,28 @@ private:
 
 // Throws Interrupted if a signal has been caught.
 void leave_if_interrupted();
+
+// The work of a worker: realizations of the members of a study (or of the one case there is), or whole members.
+
+// Any thread may ask for any task. A member is prepared when it is first wanted and kept until another is.
+class CampaignWork {
+public:
+    // `whole`: how members are run as a whole, by so many threads.
+    CampaignWork(std::vector<Case> members, RunOptions whole);
+    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member its RunSummary. Throws Error naming
+    // the realization, Interrupted when abandoned.
+    std::string operator()(const Task& task, const std::atomic<bool>& abandoned);
+    std::shared_ptr<const Job> job(std::int32_t member);
+
+private:
+    std::vector<Case> members_;
+    RunOptions whole_;
+    std::mutex mutex_;
+    std::int32_t prepared_ = -1;
+    std::shared_ptr<const Job> job_;
+};
+
+std::string to_bytes(const RunSummary& summary);
+RunSummary summary_from_bytes(std::string_view bytes);
 
 }  // namespace rsc

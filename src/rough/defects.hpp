@@ -1,9 +1,6 @@
 // Missing points of a measured map: filled by the harmonic function of their border.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "rough/detection.hpp"
 #include "rough/surface.hpp"
 
@@ -21,5 +18,15 @@ std::vector<std::uint8_t> fill_missing(HeightMap& map);
 // count are those of the asperities kept.
 void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled,
                       double distance);
+
+// Maps whose heights were rounded by the instrument or its file: plateaus have no summits, and second differences on them are the rounding's.
+
+// The step of which all differences of neighbouring heights are multiples, where so many neighbours are equal that it matters; otherwise
+// 0. Missing points (NaN) are left out. To be asked before a form is taken off.
+double height_step(const HeightMap& map);
+
+// Replaces the heights by a smooth surface within half a step of them, on which a plateau is the top of one summit: smoothing over the
+// plateaus' width by a kernel that leaves paraboloids as they are, and going back to within half a step, in turn.
+void smooth_within_step(HeightMap& map, double step);
 
 }  // namespace rsc

@@ -1,14 +1,7 @@
-#include "rough/omp_team.hpp"
+#include "rough/parallel.hpp"
 
 #include <omp.h>
 #include <pthread.h>
-
-#include <algorithm>
-#include <atomic>
-#include <mutex>
-#include <system_error>
-#include <thread>
-#include <vector>
 
 namespace rsc {
 namespace {
@@ -18,7 +11,7 @@ constexpr std::size_t kMost = 1024;
 std::atomic<bool> used{false}, forked{false};
 thread_local int alive = 1;  // threads that libgomp holds ready for regions of this thread: those of the last one
 
-// How many of `more` threads can be there at the same time.
+// Number of threads, at most `more`, that the system starts at the same time.
 int can_start(int more) {
     std::vector<std::thread> started;
     std::mutex all_there;
@@ -47,11 +40,40 @@ int omp_team(std::size_t work, int wanted) {
     if (!used.exchange(true)) pthread_atfork(nullptr, nullptr, [] { forked = true; });
     if (team > alive) {
         const int more = can_start(team - alive);
-        // Where not all came, one less leaves room for what the others need besides.
+        // If not all could be started, one less leaves memory for the others to work with.
         alive = std::max(1, more == team - alive ? team : alive + more - 1);
         return alive;
     }
     return alive = team;  // libgomp lets the others go
+}
+
+namespace {
+
+thread_local Watch* watch = nullptr;
+thread_local Watch* of_another = nullptr;  // thread
+thread_local std::chrono::steady_clock::time_point asked;
+
+}  // namespace
+
+Watch::Watch(std::function<void()> ask) : ask_(std::move(ask)), before_(std::exchange(watch, this)) {}
+Watch::~Watch() { watch = before_; }
+
+Watch* Watch::here() { return watch; }
+Watch::Shared::Shared(Watch* shared) : before_(std::exchange(of_another, watch ? nullptr : shared)) {}
+Watch::Shared::~Shared() { of_another = before_; }
+
+void stopping_point() {
+    if (of_another && of_another->stopped_) throw std::runtime_error("stopped");
+    if (!watch) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - asked < std::chrono::milliseconds(50)) return;
+    asked = now;
+    try {
+        watch->ask_();
+    } catch (...) {
+        watch->stopped_ = true;
+        throw;
+    }
 }
 
 }  // namespace rsc
