@@ -39,7 +39,7 @@ void thresholds() {
     CHECK(!said("nominal area", [](V& v) { v.area = 2 * (1 + 1e-9); }) && said("nominal area", [](V& v) { v.area = 2 * (1 + 2e-9); }));
     CHECK(said("<d> of", [](V& v) { v.edge_contacts = 1; }) && said("<d>/4", [](V& v) { v.large_contacts = 1; }));
     CHECK(said("beyond", [](V& v) { v.beyond_law = 3; }) &&
-          said("10 % off", [](V& v) { v.force_error_expected = 0.11, v.error_cause = 1; }));
+          said("more than 10 %", [](V& v) { v.force_error_expected = 0.11, v.error_cause = 1; }));
     CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) && said("E*/10", [](V& v) { v.extreme_area_fraction = 0.0149; }));
     CHECK(said("overlapping", [](V& v) { v.status = LevelStatus::overlapping; }));
     CHECK(said("not unique", [](V& v) { v.status = LevelStatus::not_unique; }));
