@@ -27,8 +27,8 @@ using Job = rsc::MpiJob;
 struct Job {};  // one process
 #endif
 
-// For the attribute `history`. Where bytes are to be the same again (SOURCE_DATE_EPOCH) it is the version only: with --resume or
-// without, by whatever program and threads.
+// For the attribute `history`. With SOURCE_DATE_EPOCH, for reproducible files, it is the version only: the
+// same with or without --resume, for any program and number of threads.
 std::string command_line(int argc, char** argv) {
     if (std::getenv("SOURCE_DATE_EPOCH")) return {};
     std::string text = "rsc";

@@ -112,7 +112,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
 std::vector<Fault> check_study(const Case& base, const Study& study) {
     std::vector<Fault> faults;
     if (study.axes.empty()) return {{study.at, "&study: no lists of values"}};
-    // Every member holds a copy of the list of levels: a short text could otherwise ask for much memory.
+    // Every member holds a copy of the list of levels: without this limit a short text could take all memory.
     const std::size_t held = member_count(study) * base.indentation.levels.size();
     if (held > kMostLevels)
         return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +

@@ -28,7 +28,7 @@ struct Member {
 inline constexpr std::size_t kMostMembers = 10'000;
 inline constexpr std::size_t kMostLevels = 10'000'000;  // of indentation%levels, over all members
 
-// Reads a &study group; faults name the place.
+// Reads a &study group; faults are added with their places.
 Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& faults);
 
 // Faults in the study's keys, values and lengths, each tried alone on `base`.

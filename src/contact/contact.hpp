@@ -14,7 +14,7 @@ public:
     Level at_separation(double Z0);
 
     // The separation at which the indenter carries the force N > 0 [force], and the answer there, to the tolerance or to the
-    // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way leave no trace.
+    // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way have no effect on later levels.
     Level at_force(double N);
 
     // Of the last level:
@@ -46,7 +46,7 @@ public:
     // All that accepted levels leave behind, as numbers that only a contact made alike understands; empty where nothing stays.
     virtual std::vector<double> memory() const { return {}; }
     // Goes back to such a memory and to the last level that was accepted before it was taken; null: there was none. energy() and stiffness()
-    // speak of that level, and later levels start from it. The tip is to be where it was.
+    // speak of that level, and later levels start from it. The tip must be at its place of then.
     virtual void recall(const std::vector<double>& memory, const Level* level) = 0;
 
     // Residual depth of each asperity without force [length]; empty if none yielded.

@@ -42,7 +42,7 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     }
 }
 
-// No asperity that is not sorted is higher than this now. Where the indenter's face is more than highest_z - highest_rest above the tip
+// Upper bound of the asperities not sorted yet. Where the indenter's face is more than highest_z - highest_rest above the tip
 // now, z itself keeps what is there below highest_rest; elsewhere the face fell by so much at most.
 double Ranking::bound_on_rest() const {
     const double d = std::hypot(now_.x0 - x_rest_, now_.y0 - y_rest_);
@@ -75,7 +75,7 @@ std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
     const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
     auto end = rest;
     if (x_rest_ == now_.x0 && y_rest_ == now_.y0 && highest_rest_ > Z0) {
-        // A quarter deeper than asked for: a series of levels then passes over the rest a few times, not at every level.
+        // Sorts a quarter deeper than requested, so that a series of levels sorts a few times only.
         const double threshold = Z0 - 0.25 * (highest() - Z0);
         end = std::partition(rest, entries_.end(), [threshold](const Entry& e) { return e.height > threshold; });
         std::sort(rest, end, comes_first);

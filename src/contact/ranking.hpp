@@ -24,7 +24,7 @@ public:
     double highest() const;
 
     // Number of entries with height > Z0: they come first, highest first, ties by asperity. Asperities ranked for the first time
-    // are appended to `fresh`. Sorting goes only as deep as levels ask for, and a little deeper.
+    // are appended to `fresh`. Asperities are sorted only as deep as levels need, and slightly deeper.
     std::size_t above(double Z0, std::vector<int>& fresh);
     const Entry& operator[](std::size_t rank) const { return entries_[rank]; }
 
@@ -38,7 +38,7 @@ private:
     // Of what is not sorted: heights are those with the tip at (x_rest_, y_rest_), where highest_rest_ is the highest.
     double x_rest_ = 0, y_rest_ = 0;
     double highest_rest_ = -std::numeric_limits<double>::infinity();
-    double highest_z_ = -std::numeric_limits<double>::infinity();  // of all asperities, whether the indenter reaches them or not
+    double highest_z_ = -std::numeric_limits<double>::infinity();  // of all asperities, including those that the indenter cannot reach
 };
 
 }  // namespace rsc

@@ -7,7 +7,7 @@
 
 namespace rsc {
 
-// An indenter's face as summit detection wants it. The indenter must outlive it.
+// The indenter as the body above a surface, for the search for summits. The indenter must outlive it.
 class Face final : public BodyAbove {
 public:
     explicit Face(const Indenter& indenter) : indenter_(indenter) {}

@@ -205,7 +205,7 @@ bool check_output(const std::string& path, const std::vector<std::string>& input
     const auto refuse = [&path](const std::string& why) { throw Error(Failure::bad_input, "&output file='" + path + "': " + why); };
     if (path.empty()) refuse("a file name is expected");
     if (path.back() == '/') refuse("a file name is expected after the last '/'");
-    // NetCDF takes such names for data sets on the net or for folders of the zarr format.
+    // NetCDF would treat such names as URLs or as zarr stores.
     if (path.find("://") != std::string::npos || path.starts_with("http:") || path.find("#mode=") != std::string::npos)
         refuse("this is a URL; rsc writes to plain files only");
     std::error_code error;

@@ -19,7 +19,7 @@ struct FileKind {
 // file that is not of this kind.
 std::string reason_to_leave(const std::string& path, const FileKind& kind);
 
-// Throws Error(file_system): what the system's error number says about writing `path`, with what to do about it.
+// Throws Error(file_system): the meaning of the system's error number for writing `path`, and a remedy.
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 
 // A line of text at the beginning of a file; false where there is no such plain file.

@@ -24,8 +24,7 @@ struct ExactSum {
     }
 };
 
-// The power of two for terms of about the size `scale`, some 2^bits times smaller. 0, which rounds nothing, where it would leave the range of
-// doubles.
+// The power of two for terms of about the size `scale`, some 2^bits times smaller. 0, without rounding, where it would underflow.
 inline double quantum_of(double scale, int bits) {
     const double quantum = scale > 0 && std::isfinite(scale) ? std::ldexp(1.0, std::ilogb(scale) - bits) : 0.0;
     return quantum > std::numeric_limits<double>::min() ? quantum : 0.0;
@@ -38,7 +37,7 @@ inline ExactSum exact_term(double value, double quantum) { return {quantum > 0 ?
 // are fixed before anything is known, from theory, so that all realizations share them.
 
 // Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a point to 1.5 pressure_max (the
-// peak of a Hertz contact is 1.5 times its mean), the area of a spot to `area_max`. What lies beyond is counted as overflow.
+// peak of a Hertz contact is 1.5 times its mean), the area of a spot to `area_max`. Larger values count as overflow.
 struct PdfBins {
     int bins = 60;
     double pressure_max = 0;  // [force/length^2]

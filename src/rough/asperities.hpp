@@ -10,7 +10,7 @@ inline constexpr double kLargestNumber = 1e50;
 inline constexpr const char* kNumberBounds = "must be finite, 1e50 at most";
 inline constexpr const char* kPositiveBounds = "must be from 1e-50 to 1e50";
 
-// A number that may be 0, of either sign; so small a one is as good as 0.
+// Bounds for numbers of either sign, 0 included, and for positive ones.
 inline bool usable(double v) noexcept { return std::abs(v) <= kLargestNumber; }  // false for NaN
 inline bool usable_positive(double v) noexcept { return v >= 1 / kLargestNumber && v <= kLargestNumber; }
 

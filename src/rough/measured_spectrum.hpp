@@ -14,7 +14,7 @@ struct Fitted {
 struct SelfAffineFit {
     Fitted Phi0;    // [length^4]
     Fitted kl, ks;  // [1/length]
-    Fitted hurst;   // 1 - a slope steeper than -4 gives more than 1, one flatter than -2 less than 0
+    Fitted hurst;   // Hurst exponent; above 1 for slopes steeper than -4, below 0 for slopes flatter than -2
     bool plateau = false;
     bool ks_seen = false;  // the power law ends before the grid's shortest wave
     double operator()(double k) const;

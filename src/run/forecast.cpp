@@ -62,7 +62,7 @@ double level_seconds(const Job& job, double candidates) {
     const double contacts = 0.4 * candidates;
     double solve = 40 * contacts * contacts / 6e9;
     if (job.solver.method == Method::dgesv)
-        solve = 10 * candidates * candidates * candidates / 1.5e9;  // ten factorisations, two thirds of n^3, 1 G a second
+        solve = 10 * candidates * candidates * candidates / 1.5e9;  // ten factorisations of 2/3 n^3 operations at 1e9 a second
     else if (job.solver.method != Method::direct && candidates > 1)
         solve = std::min(solve, 160 * MeshPotential::estimated_cost(static_cast<std::size_t>(candidates), 1e-3));
     return 1e-4 + 3e-6 * candidates + solve;

@@ -39,7 +39,7 @@ struct Realization {
     Asperities asperities;
     std::vector<Level> levels;
     FrictionLoops friction;
-    std::vector<double> residual_depth;  // of the asperities that yielded, after the last level; empty: none can
+    std::vector<double> residual_depth;  // residual depth of the asperities after the last level; empty without hardness
     ResidualProfile residual_profile;    // of elements that yielded, likewise
     std::optional<HeightMap> heights;    // if the case wants them
 };
@@ -52,7 +52,7 @@ RealizationRecord observe(const Job& job, std::int64_t number, const Realization
 
 // The friction of a run's levels: what a contact held at each separation answers to a slide.
 
-// Adds the loops of a level. `one` and `other` are contacts of their own, like the one that found the level: its path is not disturbed.
+// Adds the loops of a level. `one` and `other` are copies of the contact of the level, whose path is not changed.
 class FrictionRows {
 public:
     FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other);

@@ -35,7 +35,7 @@ void count_summits(const SummitCount& count, SurfaceStatistics& s) {
     s.saddles = count.saddles + count.repeated;
 }
 
-// Heights made Gaussian have no shape of their own in the file.
+// Skewness and kurtosis are stored for heights that are not Gaussian only.
 void made_heights(const Moments& sampled, SurfaceStatistics& s) {
     if (sampled.heights.skewness == 0 && sampled.heights.kurtosis == 3) return;
     s.skewness = sampled.heights.skewness, s.kurtosis = sampled.heights.kurtosis;

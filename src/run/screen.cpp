@@ -213,7 +213,7 @@ void print_yielding(std::ostream& out, std::span<const LevelValues> levels, cons
     out << ". Levels depend on those before them.\n";
 }
 
-// Dundurs' second parameter: what couples normal and tangential problem; 0 for equal bodies.
+// Dundurs' second parameter, which couples the normal and the tangential problem; 0 for equal bodies.
 double coupling(const Case::Solids& s) {
     const auto compliance = [&](int i) { return std::isinf(s.E[i]) ? 0.0 : 2 * (1 + s.nu[i]) / s.E[i]; };  // 1/G
     const double above = (1 - 2 * s.nu[0]) * compliance(0) - (1 - 2 * s.nu[1]) * compliance(1);

@@ -174,7 +174,7 @@ bool look_at(const Member& member, const RunOptions& options) {
     return there;
 }
 
-// Makes cases ready. Reading a large map for every one of many members would take its time: each is read once.
+// Makes cases ready. A map that many members share is read once.
 class ReadOnce {
 public:
     void operator()(const Case& settings) {

@@ -88,7 +88,7 @@ private:
         alignas(64) double weight[Stencil::kOrders][Stencil::kTaps];
     };
 
-    // False beyond the outermost points by more than half a step. What the last call found is used again where it is the same.
+    // False beyond the outermost points by more than half a step. The result of the last call is reused for the same place.
     bool place(double offset, double step, int n, int orders, Along& along) const {
         const double at = offset / step + 0.5 * (n - 1);
         if (!map_.periodic && !(at >= -0.5 - kOnPoint && at <= n - 0.5 + kOnPoint)) return false;

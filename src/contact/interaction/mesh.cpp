@@ -9,7 +9,7 @@ namespace rsc {
 
 namespace {
 
-constexpr std::size_t kDirect = 256;        // so few points are summed directly
+constexpr std::size_t kDirect = 256;        // fewer points are summed directly
 constexpr std::size_t kDirectLattice = 32;  // where a pair is a sum over images
 constexpr std::size_t kThreads = 5000;      // and so few are not worth the threads
 
@@ -131,7 +131,7 @@ struct MeshPotential::Parts {
 
     explicit Parts(std::shared_ptr<const Kernel> kernel_) : kernel(std::move(kernel_)), lattice(kernel->lattice()), direct(*kernel) {}
 
-    // The largest spacing on which a smooth part has no more above the modes that the mesh carries than 1/d has.
+    // The largest spacing for which the neglected modes of a smooth part are not larger than those of 1/d.
     double resolved(const MeshDesign& of) const {
         const SmoothPart* smooth = kernel->smooth();
         return smooth ? smooth->scale() * of.beta / of.cutoff / std::log(kAliases / of.error) : kInfinity;

@@ -261,7 +261,7 @@ void FarField::make_plans() {
         throw Error(Failure::internal, "FFTW made no plan for a mesh of " + std::to_string(nx) + " x " + std::to_string(ny));
 }
 
-// Before the transforms every point of the mesh stands once; afterwards windows reach across the border again.
+// Before the transforms every mesh point occurs once; afterwards the border is copied, so that windows may reach across it.
 void FarField::fold(double* mesh) const {
     for (std::size_t n = period_y_; n < rows_; ++n) {
         double *from = mesh + n * stride(), *to = from - period_y_ * stride();

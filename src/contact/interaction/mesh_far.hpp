@@ -49,7 +49,7 @@ FftwArray fftw_array(std::size_t n);  // uninitialised; Error(no_memory)
 
 class FarField {
 public:
-    // Points within length_x times length_y mesh spacings [length]. The kernel's smooth part is taken with F, over its near().
+    // Points within length_x times length_y mesh spacings [length]. The smooth part of the kernel, divided by near(), is added to F.
     FarField(const MeshDesign& design, double length_x, double length_y, double spacing, const Kernel& kernel);
     // Everything repeats: F = far part of the split for a cutoff [length], on a mesh of at least period_x/spacing x period_y/spacing
     // points; convolve() then gives the sum of f (F + Gamma's rest - its least value) [force/length].

@@ -74,7 +74,7 @@ RSC_ALWAYS_INLINE void all_slices(int rows, int columns, const double* T, const 
     }
 }
 
-// A pair's sum is taken in the same order however many pairs go together.
+// The sum for a pair has the same order for any number of pairs at a time.
 template <int Pairs>
 RSC_ALWAYS_INLINE void translate(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to) {
     std::size_t k = 0;

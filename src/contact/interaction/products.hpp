@@ -1,4 +1,4 @@
-// Products with the interaction matrix B (kernel.hpp; paper, section 4), without the matrix.
+// Matrix-vector products with the interaction matrix B (kernel.hpp; paper, section 4), which is not stored.
 #pragma once
 
 #include "contact/interaction/kernel.hpp"

@@ -250,7 +250,7 @@ long ElementsSolver::join(const std::vector<Pixel>& pixels, const std::vector<do
     std::vector<double> w(outside.size());
     products_.elsewhere(p_.data(), outside, w.data());
     long joined = 0;
-    // Inner products decide what they can; what is within their error joins and is judged by full ones.
+    // Pixels are selected by inner products; those within their error are added, and checked by full products.
     const double margin = 1 - 3 * products_.inner_error();
     for (std::size_t k = 0; k < outside.size(); ++k) {
         if (!(w[k] * margin < g0[at(where[k])])) continue;

@@ -34,7 +34,7 @@ constexpr double kLoosest = 0.1, kLastShare = 0.2, kFinestForcing = 1e-5, kMostF
 // of the decrease predicted; one that brings less than kPoor shrinks the radius to kShrink of the step, one that is stopped by the border
 // and brings more than kGood lets it grow. No step is longer than kLongest times |S v|, the natural size of the unknowns.
 constexpr double kSufficient = 1e-4, kPoor = 0.1, kGood = 0.5, kShrink = 0.25, kGrow = 3, kLongest = 2;
-constexpr int kMostAttempts = 40;  // shorter steps than 4^-40 of the first change nothing
+constexpr int kMostAttempts = 40;  // steps shorter than 4^-40 of the first have no effect
 
 // Rounding of the energy, relative to the sum of its terms' magnitudes: some 1e5 units of the last place for as many terms.
 constexpr double kEnergyRounding = 1e-11;

@@ -44,7 +44,7 @@ public:
     void start(const PeriodicGrid& coarse);
     bool bare() const;  // no pressure anywhere
 
-    // Goes on until error() is below the tolerance: in single precision, or, the finest grid, judged in double. Iterations are rounds:
+    // Iterates until error() is below the tolerance: in single precision, on the finest grid with the error in double. Iterations are rounds:
     // sets of pixels tried.
     ElementsOutcome solve(Given given, double tolerance, int most_iterations, bool finest);
 
