@@ -120,7 +120,7 @@ constexpr Derived kDerived[] = {
     {"moment_y", [](rsc_contact& c) { return c.known.moment.y; }},
 };
 
-// Quantities of the result file that cannot be asked for by name: those of maps, which the library does not make, and vectors (their
+// Quantities of the result file that rsc_contact_value does not give: those of maps, which the library does not make, and vectors (their
 // components have names).
 bool of_map(std::string_view name) {
     return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" || name == "moment";

@@ -53,7 +53,7 @@ void rsc_contact::go_back(const State& state) {
     if (path)
         recall(state.memory);
     else
-        recalled = !known.level;  // an elastic contact recalls its level when it is asked for more than was kept
+        recalled = !known.level;  // an elastic contact restores its level only when more results are needed
 }
 
 void rsc_contact::recall(const std::vector<double>& memory) {

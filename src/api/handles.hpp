@@ -10,8 +10,8 @@
 
 namespace rsc::api {
 
-// Begins every handle and says what it is while it lives: handles that were released, and those of another kind, are told by it where their
-// memory can still be read.
+// The first member of every handle: identifies its kind while it exists, so that released handles and those of another kind are recognised
+// as long as their memory can be read.
 template <std::uint64_t kKind>
 struct Tag {
     Tag() = default;
@@ -46,7 +46,7 @@ struct rsc_contact {
     explicit rsc_contact(const rsc_contact& like);  // the same one without a result
     std::shared_ptr<const rsc::SurfaceModel> on;
     std::shared_ptr<const rsc::Case> keys;
-    std::optional<std::array<double, 2>> given;  // E* and R where rsc_contact_create was told them; none: they are the case's
+    std::optional<std::array<double, 2>> given;  // E* and R given to rsc_contact_create; none: those of the case
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Contact> model;
     rsc::Contact& contact;

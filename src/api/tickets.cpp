@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    // Makes the ticket belong to the place. A ticket that belonged to it before was overwritten by an assignment that we were not told of:
+    // Makes the ticket belong to the place. A ticket that belonged to it before was overwritten by an assignment of the compiler:
     // its entry is returned, to be destroyed.
     Entry settle(std::int64_t number, Place place) {
         Entry before{};

@@ -64,7 +64,7 @@ public:
 
 private:
     // --- characters -------------------------------------------------------------------------------------------------------
-    // at_eol_ says whether the last character looked at, even if put back, ended a line: the separators below depend on it.
+    // at_eol_: the last character read, even if put back, ended a line. The separators below depend on it.
     int next() {
         const int c = at_ < text_.size() ? static_cast<unsigned char>(text_[at_]) : kEnd;
         if (c != kEnd) ++at_;

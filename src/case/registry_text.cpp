@@ -141,7 +141,7 @@ std::string_view trimmed(std::string_view text) {
     return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
 }
 
-// The lines of usage_text() between the first and the last are options, told from column 35 on.
+// The lines of usage_text() between the first and the last describe options, from column 35 on.
 void write_options(std::ostream& out) {
     constexpr std::size_t column = 35;
     std::istringstream lines(usage_text());

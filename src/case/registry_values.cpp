@@ -62,7 +62,7 @@ std::string trimmed(std::string text) {
     return text;
 }
 
-// The elements a subscript means, or what is wrong with it. A lone (i) goes on to the end of the array, as in gfortran.
+// The elements of a subscript, or an error message. (i) alone extends to the end of the array, as in gfortran.
 std::string resolve(const Assignment& a, long size, Walk& walk, const std::string& what) {
     const namelist::Subscript& s = *a.subscript;
     const long first = s.first.value_or(1);

@@ -8,7 +8,7 @@ namespace rsc {
 enum class Quantity { length, force };
 
 // An error message if `text` is no unit of the quantity, otherwise empty. '1' and '' (pure numbers, for calculations without
-// dimensions) are taken for any quantity. Units whose zero lies elsewhere ("m @ 5") are refused.
+// dimensions) are accepted for any quantity. Units with another zero ("m @ 5") are refused.
 std::string unit_problem(const std::string& text, Quantity quantity);
 
 // 1 `from` in `to`^power, `to` being a unit of length: 0.001 for "um" and "mm", 1000 for "um-1", "mm" and -1. Texts in UTF-8 or

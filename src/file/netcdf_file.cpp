@@ -115,7 +115,7 @@ private:
     NC_memio image_{};
 };
 
-// HDF5 may crash, now or when the program ends, where it is refused memory: what it is going to need is asked for first.
+// HDF5 may crash, now or when the program ends, if it is out of memory: the memory it needs is allocated for a test first.
 // The image of the file is copied when it grows, and once more to be read.
 void require_memory(double bytes, const std::string& path) {
     const double wanted = 3 * bytes + (32 << 20);

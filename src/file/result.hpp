@@ -79,7 +79,7 @@ struct Result {
 };
 
 // output%contacts, with `automatic` resolved: all for one realization, none for more.
-// Throws Error(bad_input) when contacts or heights are asked for with several realizations.
+// Throws Error(bad_input) if the case wants contacts or heights of several realizations.
 Contacts contacts_kept(const Case& c);
 
 // sqrt_m4 sets the ranges of the distributions: sqrt(m4) in theory for a synthetic surface, of the grid for a measured one, and

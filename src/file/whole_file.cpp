@@ -149,7 +149,7 @@ bool begins_as_netcdf(const std::string& path) {
     return file.read(start, sizeof start) && (std::memcmp(start, "CDF", 3) == 0 || std::memcmp(start, "\x89HDF", 4) == 0);
 }
 
-// HDF5 may crash where it is refused memory: what it is going to need is asked for first.
+// HDF5 may crash if it is out of memory: the memory it needs is allocated for a test first.
 void require_memory(const std::string& path) {
     constexpr std::size_t wanted = std::size_t{32} << 20;
     void* const probe = std::malloc(wanted);

@@ -51,7 +51,7 @@ std::int32_t count_crowded_cells(const MapGrid& grid, const MapLevel& map);
 // Between nodes i and i+1 the curve is a cubic Bezier with control points f_i, f_i + t_i/3, f_(i+1) - t_(i+1)/3, f_(i+1). The
 // tangents are those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, inside, and the slopes of the parabola through the three
 // outermost nodes at the two ends. Both are exact for parabolas, so the curve reproduces them everywhere; it is continuously
-// differentiable, and linear in the data. Beyond the end nodes the end piece goes on (a map reaches half a cell beyond its
+// differentiable, and linear in the data. Beyond the end nodes the end piece is extended (a map reaches half a cell beyond its
 // outermost centres). Two nodes give the line, one the constant.
 struct BezierWeights {
     int first = 0, count = 0;

@@ -1,4 +1,4 @@
-// The grid of a height map that a file announces: refused before memory is asked for.
+// Checks of the grid of a height map before its memory is allocated, and a reader of binary files.
 #pragma once
 
 #include "error.hpp"
@@ -9,7 +9,7 @@ namespace rsc {
 // "1.23456789"
 std::string text_of(double value);
 
-// A file may announce any size; more than the machine holds is refused. `what` has `count` doubles. Throws Error(bad_input).
+// Refuses `what`, of `count` doubles, if it needs more memory than the machine has: a damaged file may announce any size. Throws Error(bad_input).
 void check_memory(const std::string& path, const std::string& what, double count);
 
 // At least 3 x 3 points, at most 2^31 - 1 a side, in the machine's memory. Throws Error(bad_input).
@@ -22,7 +22,7 @@ HeightMap allocate_map(std::size_t nx, std::size_t ny);
 void reverse_columns(HeightMap& map);
 void reverse_rows(HeightMap& map);
 
-// The bytes of a binary file, read one after the other: what goes beyond their end is refused with the place.
+// The bytes of a binary file, read one after the other; reading beyond their end is refused with the place.
 
 // A file's bytes as they are. Throws Error(bad_input) if they cannot be read.
 inline std::string read_bytes(const std::string& path) {

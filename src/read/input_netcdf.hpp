@@ -1,5 +1,5 @@
 // The checksum of result files: a last line of text behind what NetCDF and HDF5 know of, "\nrsc: CRC-32 of all before this line: 0a1b2c3d\n".
-// It is looked at before these libraries get the file: HDF5 crashes on some damaged ones, and classic files have no checksums of their own.
+// It is checked before these libraries open the file: HDF5 crashes on some damaged ones, and classic files have no checksums of their own.
 #pragma once
 
 #include <netcdf.h>

@@ -65,7 +65,7 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
     h.check = in.number<std::uint8_t>("CheckType");
     constexpr std::size_t kSizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
     if (h.type > 7) refuse(path + ": DataType = " + std::to_string(h.type) + ": 0 to 7 was expected");
-    // Before memory is asked for.
+    // Before memory is allocated.
     if (h.nx > 0 && h.ny > 0 && in.left() / kSizes[h.type] / h.nx < h.ny)
         in.refuse(std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights of " + std::to_string(kSizes[h.type]) +
                   " bytes each, but " + std::to_string(in.left()) + " bytes are left; is the file whole?");
@@ -175,7 +175,7 @@ HeightMap read_text(const std::string& path, const std::string& bytes, const std
     if (header.count("compression")) number("Compression", h.compression);
     if (header.count("datatype")) number("DataType", h.type);
     if (header.count("checktype")) number("CheckType", h.check);
-    // A height takes two characters: absurd sizes are refused before memory is asked for.
+    // A height takes two characters: absurd sizes are refused before memory is allocated.
     if (h.nx > 0 && h.ny > bytes.size() / h.nx)
         refuse(path + ": " + std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights in a file of " + std::to_string(bytes.size()) +
                " bytes; is the file whole?");

@@ -261,7 +261,7 @@ std::string first_bytes(const std::string& path) {
     return start;
 }
 
-// The formats of instruments, told by a file's first bytes. They contain sizes and units.
+// The formats of instruments, recognised by a file's first bytes. They contain sizes and units.
 struct InstrumentFormat {
     const char* name;
     bool (*is)(const std::string& first_bytes);

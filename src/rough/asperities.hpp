@@ -29,7 +29,7 @@ struct Asperities {
     std::size_t size() const { return x.size(); }
 };
 
-// The columns of Asperities, for code that treats all of them alike.
+// The columns of Asperities, for loops over all of them.
 struct AsperityColumn {
     const char* name;
     std::vector<double> Asperities::*values;

@@ -21,8 +21,8 @@ void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMa
 
 // Maps whose heights were rounded by the instrument or its file: plateaus have no summits, and second differences on them are the rounding's.
 
-// The step of which all differences of neighbouring heights are multiples, where so many neighbours are equal that it matters; otherwise
-// 0. Missing points (NaN) are left out. To be asked before a form is taken off.
+// The step of which all differences of neighbouring heights are multiples, if many neighbours are equal; otherwise
+// 0. Missing points (NaN) are left out. Call it before a form is subtracted.
 double height_step(const HeightMap& map);
 
 // Replaces the heights by a smooth surface within half a step of them, on which a plateau is the top of one summit: smoothing over the

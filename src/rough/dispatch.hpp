@@ -7,7 +7,7 @@
 
 namespace rsc {
 
-// The instruction sets that hot loops are compiled for, and the best one that this machine has: asked here alone.
+// The instruction sets that hot loops are compiled for, and the best one that this machine has.
 enum class InstructionSet { baseline, avx2, avx512 };  // avx2 with FMA; avx512 with F, DQ and VL
 
 inline InstructionSet instruction_set() {

@@ -8,7 +8,7 @@
 namespace rsc {
 namespace {
 
-// The function is tabulated at normal scores from -kEnd to kEnd; beyond, which one point in 10^9 is, it goes on straight.
+// The function is tabulated at normal scores from -kEnd to kEnd; beyond, for one point in 10^9, it is extended linearly.
 constexpr double kEnd = 6, kStep = 0.005;
 constexpr int kValues = 2 * static_cast<int>(kEnd / kStep) + 1;
 constexpr double kMostKurtosis = 100;

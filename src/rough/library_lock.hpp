@@ -21,7 +21,7 @@ LibraryLock& library_lock();
 // FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds
 // library_lock(). Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
 
-// To be held while plans are made. FFTW ends the program where it is refused memory: some of it is asked for here first. Throws
+// The lock, to be held while plans are made. FFTW ends the program if it is out of memory: some memory is allocated for a test first. Throws
 // std::bad_alloc.
 inline std::unique_lock<LibraryLock> fftw_planning() {
     constexpr std::size_t most = std::size_t{8} << 20;  // tables of the longest transforms included

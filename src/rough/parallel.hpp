@@ -1,15 +1,15 @@
 // Number of OpenMP threads of a parallel region: no more than the system starts.
 //
-// libgomp ends the program where the machine refuses to start a thread, and crashes where tens of thousands are asked for. Every parallel
+// libgomp ends the program if a thread cannot be started, and crashes with tens of thousands of threads. Every parallel
 // region of rsc therefore says num_threads(omp_team(...)), which tries first, by threads of the C++ library, whose refusal is an
-// exception. What a region answers depends on no number of threads.
+// exception. Results of a region do not depend on the number of threads.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc {
 
-// `work`: pieces there are to share out, kEveryThread where they are many; 0 or 1: one thread. `wanted`: threads asked for; 0: omp_get_max_threads().
+// `work`: number of pieces of work, kEveryThread if there are many; 0 or 1: one thread. `wanted`: requested threads; 0: omp_get_max_threads().
 // Returns 1 inside a parallel region, and in a process that was forked from one that had used threads: libgomp's do not live there, and waiting
 // for them would not end.
 inline constexpr std::size_t kEveryThread = static_cast<std::size_t>(-1);  // more work than threads
@@ -18,7 +18,7 @@ int omp_team(std::size_t work, int wanted = 0);
 // Threads that a campaign or a study may start: `wanted`, or with 0 what the machine offers this process.
 std::size_t most_threads(int wanted);
 
-// Whatever takes long asks now and then whether it shall go on.
+// Long loops check now and then whether they are to be stopped.
 
 // While it lives, stopping_point() on this thread calls `ask`, at most every 50 ms. To stop the work `ask` throws.
 class Watch {

@@ -10,7 +10,7 @@ namespace rsc {
 // for it is short.
 bool compares(const Job& job, bool automatically);
 
-// `levels` are those of realization `number`; of each level asked for the nearest one is taken. A line for each goes to `table`, if there
+// `levels` are those of realization `number`; the one nearest to each entry of compare%levels is used. A line for each goes to `table`, if there
 // is one; once `stop` says so, the rest is left out. Errors are NaN where elements do not converge. Under force control both models carry
 // the same force. The grid of a made surface is refined until N changes by less than 1 %, as far as a minute goes.
 // With hardness both models have a path: elements go through the levels compared in the order of the run's, and through those between them

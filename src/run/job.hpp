@@ -45,12 +45,12 @@ struct Realization {
 };
 
 // Realization `number` of the case. `on_level` is called after each level with its number; returning false stops the run there.
-// `threads` may work on the surface; the answer does not depend on it.
+// `threads`: number of threads for the surface; results do not depend on it.
 Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level = {});
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& realization);
 
-// The friction of a run's levels: what a contact held at each separation answers to a slide.
+// Friction at the levels of a run: the tangential force of a slide at each separation.
 
 // Adds the loops of a level. `one` and `other` are copies of the contact of the level, whose path is not changed.
 class FrictionRows {

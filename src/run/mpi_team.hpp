@@ -1,6 +1,6 @@
 // The ranks of an MPI job as a team. Only rsc_mpi is built with it.
 //
-// Rank 0 is the program: it reads the case, hands out tasks, adds up the answers, writes files, talks. Its own threads work, too.
+// Rank 0 is the program: it reads the case, hands out tasks, adds up the results, writes files and messages. Its own threads work, too.
 // The other ranks receive the case, and do tasks until they are dismissed. Only the main thread of a rank calls MPI,
 // and it sleeps between looking for messages, so that the processors are left to the threads that compute.
 #pragma once

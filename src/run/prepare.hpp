@@ -20,7 +20,7 @@ bool differs_by_realization(const Case& settings);
 
 // Properties of a surface beside its heights.
 struct Origin {
-    double sigma = 0;                          // rms height: the one asked for, or what detrending left [length]
+    double sigma = 0;                          // rms height: that of the case, or after detrending [length]
     double points_per_wave = 0;                // grid steps in the shortest wave of a made surface; 0: not known
     std::optional<Moments> theory;             // of a made surface: moments of its spectrum
     std::optional<Moments> sampled;            // of a made surface: moments of its modes

@@ -7,13 +7,13 @@ namespace rsc {
 
 // From now on the first of them is remembered instead of ending the program; a second one, some seconds later, ends it
 // at once. SIGINT and SIGHUP stay ignored where they are, and a file beyond the limit of file sizes becomes an error instead of a signal. A
-// program calls this; the library never does, and caught_signal() is then 0 for ever.
+// program calls this; the library never does, so that caught_signal() stays 0.
 void catch_signals();
 
 // Their number once one has come, 0 before.
 int caught_signal() noexcept;
 
-// As if the signal had come to this process: another rank was told to stop.
+// Records a signal that another rank received.
 void note_signal(int signal) noexcept;
 
 // The run was stopped by a signal; the text says how to continue. The exit status is 128 + signal.

@@ -337,7 +337,7 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
     std::set<const Member*> there;  // those with a result already
     look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);
-        // A single case is made ready next in any case.
+        // A single case is prepared next anyway.
         if (!member.values.empty()) prepare_once(member.settings);
     });
     if (read.study) write_manifest(read, all, options.command);

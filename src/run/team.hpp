@@ -19,7 +19,7 @@ using Work = std::function<std::string(const Task&, const std::atomic<bool>& aba
 
 class Team {
 public:
-    // The next task; none when there is none to begin now. Asked again after every answer.
+    // The next task; none when there is none at present. Called again after every result.
     using Next = std::function<std::optional<Task>()>;
     // Takes a result. Called by the thread that called run(), in the order in which results arrive.
     using Collect = std::function<void(const Task&, std::string&&)>;
@@ -47,7 +47,7 @@ public:
     ~WorkerThreads();  // abandons running tasks and waits for the threads
 
     void push(const Task& task);
-    // Waits for an answer, at most so long.
+    // Waits for a result, at most for this time.
     std::optional<Done> pop(std::chrono::microseconds wait);
     // Tasks pushed and not popped.
     std::size_t unfinished() const { return unfinished_; }
