@@ -1,11 +1,13 @@
-// Sums over realizations that come out the same, bit for bit, in whatever order and groups their terms are added, so that the
-// results of two campaigns can be put together into that of a larger one.
+// Distributions over contacts (paper, section 5), and the exact sums in which they add up over realizations.
 #pragma once
 
 #include "contact/level.hpp"
 #include "observe/fits.hpp"
 
 namespace rsc {
+
+// Sums over realizations that come out the same, bit for bit, in whatever order and groups their terms are added, so that the
+// results of two campaigns can be put together into that of a larger one.
 
 // A sum without rounding errors, held as two doubles (T. J. Dekker, Numer. Math. 18, 1971; the sum of two by D. E. Knuth): high is
 // the sum rounded to a double, low what that leaves out. Every term is a multiple of a power of two, the quantum; the sum is then

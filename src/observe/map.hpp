@@ -1,4 +1,4 @@
-// Coarse maps of area fraction and pressure (paper, section 5): contacts are sorted into square cells by their (x, y).
+// Coarse maps of area fraction and pressure, and their radial means (paper, section 5).
 #pragma once
 
 #include "contact/level.hpp"

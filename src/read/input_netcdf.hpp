@@ -1,5 +1,4 @@
-// The checksum of result files: a last line of text behind what NetCDF and HDF5 know of, "\nrsc: CRC-32 of all before this line: 0a1b2c3d\n".
-// It is checked before these libraries open the file: HDF5 crashes on some damaged ones, and classic files have no checksums of their own.
+// Reading NetCDF files: their checksum, their length, their variables.
 #pragma once
 
 #include <netcdf.h>
@@ -7,6 +6,9 @@
 #include "rough/library_lock.hpp"
 
 namespace rsc {
+
+// The checksum of result files: a last line of text behind what NetCDF and HDF5 know of, "\nrsc: CRC-32 of all before this line: 0a1b2c3d\n".
+// It is checked before these libraries open the file: HDF5 crashes on some damaged ones, and classic files have no checksums of their own.
 
 // That line for the `size` bytes of a file.
 std::string checksum_line(const char* bytes, std::size_t size);
@@ -23,7 +25,6 @@ void check_classic_length(const std::string& path);
 
 // A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds library_lock(): the library
 // is not made for several threads.
-
 class NetcdfInput {
 public:
     // Throws Error(bad_input) if it cannot be opened, ends before its data do, or its checksum (checksum.hpp) does not hold.

@@ -1,11 +1,12 @@
-// The numbers rsc works with. Moments and forces are made of squares and powers of lengths and moduli: beyond these bounds they would
-// overflow a double, whatever the units.
+// Asperities: summits with their curvatures (paper, section 3), and the bounds of numbers.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc {
 
+// The numbers rsc works with. Moments and forces are made of squares and powers of lengths and moduli: beyond these bounds they would
+// overflow a double, whatever the units.
 inline constexpr double kLargestNumber = 1e50;
 inline constexpr const char* kNumberBounds = "must be finite, 1e50 at most";
 inline constexpr const char* kPositiveBounds = "must be from 1e-50 to 1e50";
@@ -13,8 +14,6 @@ inline constexpr const char* kPositiveBounds = "must be from 1e-50 to 1e50";
 // Bounds for numbers of either sign, 0 included, and for positive ones.
 inline bool usable(double v) noexcept { return std::abs(v) <= kLargestNumber; }  // false for NaN
 inline bool usable_positive(double v) noexcept { return v >= 1 / kLargestNumber && v <= kLargestNumber; }
-
-// Asperities: summits with their curvatures (paper, section 3).
 
 enum class Curvature { geometric, algebraic };
 inline constexpr std::array kCurvatureNames = {"geometric", "algebraic"};

@@ -1,4 +1,4 @@
-// Missing points of a measured map: filled by the harmonic function of their border.
+// Defects of measured maps: missing points and rounded heights.
 #pragma once
 
 #include "rough/detection.hpp"

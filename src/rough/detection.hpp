@@ -1,5 +1,4 @@
-// The face of the body above a surface, which is subtracted before summits are looked for: only the difference decides
-// what touches.
+// Finding asperities: the summits of a height map, or of its difference from a body above it (paper, section 3).
 #pragma once
 
 #include "rough/asperities.hpp"
@@ -8,6 +7,8 @@
 
 namespace rsc {
 
+// The face of the body above a surface, which is subtracted before summits are looked for: only the difference decides
+// what touches.
 class BodyAbove {
 public:
     // Height, derivatives and nabla^4 at a place.
@@ -21,8 +22,6 @@ public:
     virtual Form at(double x, double y) const = 0;
     virtual bool periodic() const = 0;
 };
-
-// Finding asperities: the summits of a height map with their curvatures (paper, section 3).
 
 // How a summit is located.
 enum class Detail {

@@ -1,4 +1,4 @@
-// The form of a measured map: what is subtracted before the rest is called roughness.
+// The form of a measured map, which is subtracted from it, and the Gaussian filter.
 #pragma once
 
 #include "rough/surface.hpp"

@@ -1,5 +1,4 @@
-// The one lock of libraries that several threads may not use at once: NetCDF with HDF5, and the planner of FFTW. All of rsc holds it while it is
-// in them, and rsc_lock (rsc.h) gives it to programs that use these libraries, too.
+// The lock of libraries that are not thread-safe, and plans of FFTW.
 #pragma once
 
 #include "std.hpp"
@@ -7,6 +6,9 @@
 #include <fftw3.h>
 
 namespace rsc {
+
+// The one lock of libraries that several threads may not use at once: NetCDF with HDF5, and the planner of FFTW. All of rsc holds it while it is
+// in them, and rsc_lock (rsc.h) gives it to programs that use these libraries, too.
 
 // A mutex that its owner may lock again. A fork waits until no other thread holds it, so that the libraries are in order in the child.
 class LibraryLock {

@@ -1,9 +1,11 @@
-// White noise of the modes of a random surface: counter-based, so that a mode's noise depends on nothing but its name.
+// The random modes of a surface: noise and amplitudes.
 #pragma once
 
 #include "rough/spectrum.hpp"
 
 namespace rsc {
+
+// White noise of the modes of a random surface: counter-based, so that a mode's noise depends on nothing but its name.
 
 // Identifies the noise: realization number `realization` of `seed`. All 128 bits count.
 struct NoiseKey {

@@ -1,13 +1,15 @@
-// Number of OpenMP threads of a parallel region: no more than the system starts.
-//
-// libgomp ends the program if a thread cannot be started, and crashes with tens of thousands of threads. Every parallel
-// region of rsc therefore says num_threads(omp_team(...)), which tries first, by threads of the C++ library, whose refusal is an
-// exception. Results of a region do not depend on the number of threads.
+// Threads of parallel loops, and stopping of long loops.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc {
+
+// Number of OpenMP threads of a parallel region: no more than the system starts.
+//
+// libgomp ends the program if a thread cannot be started, and crashes with tens of thousands of threads. Every parallel
+// region of rsc therefore says num_threads(omp_team(...)), which tries first, by threads of the C++ library, whose refusal is an
+// exception. Results of a region do not depend on the number of threads.
 
 // `work`: number of pieces of work, kEveryThread if there are many; 0 or 1: one thread. `wanted`: requested threads; 0: omp_get_max_threads().
 // Returns 1 inside a parallel region, and in a process that was forked from one that had used threads: libgomp's do not live there, and waiting

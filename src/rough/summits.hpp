@@ -1,11 +1,13 @@
-// A point of a grid of heights and its eight neighbours. Rows are given by pointers, `below` (smaller y), `z` and `above`; the point is in
-// column i, its neighbours along the row are in columns l and r, which at the seam of a periodic map are not i - 1 and i + 1.
+// Summits of the grid: comparison of a point with its eight neighbours, and summits of rows.
 #pragma once
 
 #include "rough/asperities.hpp"
 #include "rough/dispatch.hpp"
 
 namespace rsc {
+
+// A point of a grid of heights and its eight neighbours. Rows are given by pointers, `below` (smaller y), `z` and `above`; the point is in
+// column i, its neighbours along the row are in columns l and r, which at the seam of a periodic map are not i - 1 and i + 1.
 
 // Strictly above all eight. Without branches, so that a loop over points can be vectorised.
 RSC_ALWAYS_INLINE bool above_neighbours(const double* below, const double* z, const double* above, int l, int i, int r) {

@@ -1,5 +1,4 @@
-// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
-// handed out piece by piece to workers that are idle; results do not depend on the distribution.
+// Workers of campaigns and studies, and their work.
 #pragma once
 
 #include "case/case.hpp"
@@ -7,6 +6,9 @@
 #include "run/run.hpp"
 
 namespace rsc {
+
+// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
+// handed out piece by piece to workers that are idle; results do not depend on the distribution.
 
 // A piece of work: one realization of a member, or the whole member (realization 0).
 struct Task {

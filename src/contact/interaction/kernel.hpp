@@ -1,4 +1,4 @@
-// The smooth part s(d) of the answer to a unit force, G(d) = 1/(pi E* d) + s(d): what layers change. Kept as a table.
+// The interaction kernel G(d) = 1/(pi E* d) + s(d): the deflection of other places by a unit force, with the smooth part s(d) of layers.
 #pragma once
 
 #include "contact/indentation.hpp"

@@ -1,10 +1,4 @@
-// The split of 1/d into a near part and a band-limited far part, and the window that spreads forces onto the mesh. Lengths here are
-// in mesh spacings.
-//
-// F(d) = 1/d [int_0^{d/c} w / int_0^1 w] with the Kaiser-Bessel bell w(t) = I0(beta sqrt(1 - t^2)), c the cutoff: F = 1/d beyond
-// c, and its transform is exp(-beta) beyond the wavenumber beta / c. The spreading window is the same bell of another shape. For
-// a given width of the window and cutoff, beta and the window's shape b are those of least error; aliases are weighed as by
-// Hockney and Eastwood, Computer Simulation Using Particles, section 8-3.
+// The far field of particle-mesh sums: the split of 1/d, the spreading window, and the convolution on the mesh.
 #pragma once
 
 #include <fftw3.h>
@@ -15,6 +9,13 @@
 
 namespace rsc {
 
+// The split of 1/d into a near part and a band-limited far part, and the window that spreads forces onto the mesh. Lengths here are
+// in mesh spacings.
+//
+// F(d) = 1/d [int_0^{d/c} w / int_0^1 w] with the Kaiser-Bessel bell w(t) = I0(beta sqrt(1 - t^2)), c the cutoff: F = 1/d beyond
+// c, and its transform is exp(-beta) beyond the wavenumber beta / c. The spreading window is the same bell of another shape. For
+// a given width of the window and cutoff, beta and the window's shape b are those of least error; aliases are weighed as by
+// Hockney and Eastwood, Computer Simulation Using Particles, section 8-3.
 struct MeshDesign {
     double error;   // relative error of the product
     int width;      // of the spreading window

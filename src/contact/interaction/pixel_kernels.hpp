@@ -1,4 +1,4 @@
-// Deflection of an elastic half-space under a uniform pressure on a rectangle (Love 1929; Johnson 1985, eq. 3.25).
+// Kernels of pixels: Love's solution for a rectangle, and the hot loops of pixel_tree.cpp.
 #pragma once
 
 #include "std.hpp"
