@@ -281,18 +281,20 @@ def ownership(kind):
   end subroutine
 
   subroutine {one}(self, original)
-    type(rsc_{kind}), intent(inout) :: self(:)
+    type(rsc_{kind}), intent(inout), target :: self(:)
     type(rsc_{kind}), intent(in) :: original
     integer :: i
+    call require_size(c_loc(self), size(self), size(self))
     do i = 1, size(self)
       call {kind}_copy(self(i), original)
     end do
   end subroutine
 
   subroutine {each}(self, original)
-    type(rsc_{kind}), intent(inout) :: self(:)
+    type(rsc_{kind}), intent(inout), target :: self(:)
     type(rsc_{kind}), intent(in) :: original(:)
     integer :: i
+    call require_size(c_loc(self), size(self), size(original))
     do i = 1, size(self)
       call {kind}_copy(self(i), original(i))
     end do

@@ -12,23 +12,30 @@
 !> (a copied contact has its result and its path, too: one for another thread). Different
 !> objects may be used by different threads at the same time.
 !>
-!> In types of your own, and in parallel regions. An object knows its place; what a compiler copied bit by bit shows the original as long
-!> as that exists, gets its own when it is changed, releases nothing that is not its own, and says so
-!> in errmsg when the original is gone. So these work: q = p and q = particle(1, x, contact) for types that hold objects, allocate with
-!> source=, functions that return such types, lists that grow element by element (longer(i) = list(i), then move_alloc), firstprivate
-!> and private. gfortran 12 leaves no way for whole arrays of such types: after list = [list, p] the elements may hold nothing (told in
-!> errmsg), and longer(1:n) = list crashes in code of its own; use loops there, or hold a pointer in the type:
+!> Arrays of objects (type(rsc_contact) :: list(n)) are assigned element by element: list = other, list(1:2) = other(3:4), list
+!> = one. Both sides must have the same size and be allocated; more = list and list = [list, one] do not allocate and stop with
+!> a message otherwise. This needs `use rsc` without only, or with assignment(=) in it.
+!>
+!> In types of your own, and in parallel regions. Compilers copy objects bit by bit in some places. Such a copy shows the
+!> original as long as that exists and is not changed, gets its own object when it is changed itself, and releases nothing that
+!> is not its own. When the original is gone or was changed, errmsg says so. So these work: q = p and q = particle(1, x,
+!> contact) for types that hold objects, allocate with source=, functions that return such types, lists that grow element by
+!> element (longer(i) = list(i), then move_alloc), firstprivate and private. What private leaves behind is released when its
+!> place is used again.
+!>
+!> Faults of gfortran 12 with whole arrays of types that hold objects. With a component type(rsc_contact) :: c, longer(1:n) =
+!> list crashes in code of gfortran's own, and list = [list, p] stops with a message. With a component that is an array of fixed
+!> size, type(rsc_contact) :: c(2), gfortran warns "TODO: type-bound defined assignment(s)" and copies bit by bit. Use loops
+!> there, or hold a pointer in the type:
 !>     type(rsc_contact), pointer :: contact => null()    ! allocate(p%contact); assignment copies the pointer; deallocate it once
-!> What private leaves behind is released when its place is used again. Arrays of objects themselves may be assigned with gfortran 12,
-!> too, where `use rsc` is without only.
 !>
 !> Every procedure takes stat and errmsg like the statements of the language: with stat, a failure is told there (negative: an argument
 !> is wrong; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
 !> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
 !> stat = rsc_not_converged. Asperities count from 1.
 module rsc
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_null_ptr, c_associated, c_char, c_null_char, c_double, &
-    c_float, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_loc, c_null_ptr, c_associated, c_char, c_null_char, &
+    c_double, c_float, c_int32_t, c_int64_t
   implicit none
   private
   public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version
@@ -188,7 +195,7 @@ contains
     message = last_message()
     if (status == rsc_no_memory) message = 'out of memory'
     if (index(message, 'must not be null') > 0) then
-      message = message // ': nothing was created in the object, or it is a bitwise copy of one that is gone (see rsc.f90)'
+      message = message // ': nothing was created in the object, or it is a bitwise copy of one gone or changed (see rsc.f90)'
     end if
     if (present(stat)) then
       if (present(errmsg)) errmsg = message
@@ -208,6 +215,14 @@ contains
     else
       error stop 'rsc: ' // message
     end if
+  end subroutine
+
+  !> Stops where an array of objects is assigned to one that is not allocated or of another size: the language has no way to allocate it.
+  subroutine require_size(place, n, wanted)
+    type(c_ptr), intent(in) :: place
+    integer, intent(in) :: n, wanted
+    if (.not. c_associated(place)) error stop 'rsc: an array of objects must be allocated before it is assigned to'
+    if (n /= wanted) error stop 'rsc: arrays of objects must be of one size to be assigned'
   end subroutine
 
   !> The handle behind a ticket, for reading; null if there is none.

@@ -3,7 +3,7 @@
  *
  *     CALL RSCIND(ICON, Z0, FORCE, IERR)
  *
- * INTEGER is 4 bytes and DOUBLE PRECISION 8, as compilers have them unless told otherwise. Arrays and scalars go by address; of a CHARACTER the
+ * INTEGER is 4 bytes and DOUBLE PRECISION 8, as compilers have them unless told otherwise; RSCINT tells whether it is. Arrays and scalars go by address; of a CHARACTER the
  * length follows all arguments by value, as gfortran and flang pass it; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the
  * i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG says why. Outputs keep what they held after a failure, but for
  * IERR = 1 (not converged). Indices count from 1. A handle of 0 is none: for a case, the defaults.
@@ -19,6 +19,7 @@
 enum kind { FREE, CASE, SURFACE, ASPERITIES, CONTACT, FRICTION };
 struct entry {
     enum kind kind;
+    int32_t generation; /* how many objects had this entry before */
     void* object;
 };
 static struct entry* table;
@@ -26,20 +27,35 @@ static int32_t entries;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 /* What is wrong with a handle, for RSCMSG; empty where the library itself has the last word. */
-static _Thread_local char own_message[80];
+static _Thread_local char own_message[100];
 
 static int32_t refuse(int32_t argument, const char* why) {
     strncpy(own_message, why, sizeof own_message - 1);
     return -argument;
 }
 
+/* A handle holds the number of its entry, from 1, and the generation above it: a handle that was deleted is none even where its entry is used
+ * again. */
+#define INDEX_BITS 20
+#define GENERATIONS 2047
+
+/* The entry of a handle, or one that is free. If `take`, the entry is free afterwards. */
+static struct entry entry_of(int32_t handle, int take) {
+    struct entry found = {FREE, 0, NULL};
+    const int32_t k = (handle & ((1 << INDEX_BITS) - 1)) - 1;
+    pthread_mutex_lock(&lock);
+    if (handle > 0 && k >= 0 && k < entries && table[k].generation == handle >> INDEX_BITS) {
+        found = table[k];
+        if (take) table[k] = (struct entry){FREE, (found.generation + 1) % GENERATIONS, NULL};
+    }
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
 /* The object of a handle; null if it is none of that kind. */
 static void* object_of(int32_t handle, enum kind kind) {
-    void* object = NULL;
-    pthread_mutex_lock(&lock);
-    if (handle > 0 && handle <= entries && table[handle - 1].kind == kind) object = table[handle - 1].object;
-    pthread_mutex_unlock(&lock);
-    return object;
+    const struct entry entry = entry_of(handle, 0);
+    return entry.kind == kind ? entry.object : NULL;
 }
 
 /* Puts an object into the table; 0 if there is no memory for it. */
@@ -51,15 +67,19 @@ static int32_t enter(enum kind kind, void* object) {
     }
     if (!handle) {
         const int32_t wanted = entries ? 2 * entries : 16;
-        struct entry* larger = wanted > entries ? realloc(table, (size_t)wanted * sizeof *table) : NULL;
+        struct entry* larger = wanted < 1 << INDEX_BITS ? realloc(table, (size_t)wanted * sizeof *table) : NULL;
         if (larger) {
-            for (int32_t k = entries; k < wanted; ++k) larger[k].kind = FREE;
+            for (int32_t k = entries; k < wanted; ++k) larger[k] = (struct entry){FREE, 0, NULL};
             handle = entries + 1;
             table = larger;
             entries = wanted;
         }
     }
-    if (handle) table[handle - 1] = (struct entry){kind, object};
+    if (handle) {
+        struct entry* const entry = &table[handle - 1];
+        *entry = (struct entry){kind, entry->generation, object};
+        handle |= entry->generation << INDEX_BITS;
+    }
     pthread_mutex_unlock(&lock);
     return handle;
 }
@@ -140,6 +160,13 @@ RSC_API void rscmsg_(char* text, size_t length) {
     put_text(buffer, text, length);
 }
 
+RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr);
+RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr) {
+    BEGIN;
+    *ierr =
+        one_and_two[0] == 1 && one_and_two[1] == 2 ? 0 : refuse(1, "INTEGER must have 4 bytes: compile without -fdefault-integer-8 or -i8");
+}
+
 /* ---- all handles ------------------------------------------------------------------------------------------------------------ */
 
 RSC_API void rscdel_(int32_t* handle, int32_t* ierr);
@@ -147,13 +174,7 @@ RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
     BEGIN;
     *ierr = 0;
     if (*handle == 0) return;
-    struct entry entry = {FREE, NULL};
-    pthread_mutex_lock(&lock);
-    if (*handle > 0 && *handle <= entries) {
-        entry = table[*handle - 1];
-        table[*handle - 1].kind = FREE;
-    }
-    pthread_mutex_unlock(&lock);
+    const struct entry entry = entry_of(*handle, 1);
     if (entry.kind == FREE) {
         *ierr = refuse(1, "not a handle, or one that was deleted");
         return;
@@ -165,10 +186,7 @@ RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
 RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr);
 RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
     BEGIN;
-    struct entry entry = {FREE, NULL};
-    pthread_mutex_lock(&lock);
-    if (*original > 0 && *original <= entries) entry = table[*original - 1];
-    pthread_mutex_unlock(&lock);
+    const struct entry entry = entry_of(*original, 0);
     void* made = NULL;
     switch (entry.kind) {
         case CASE: *ierr = rsc_case_copy((rsc_case**)&made, entry.object); break;

@@ -367,6 +367,8 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  * "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ... ; "separation", "stiffness", "energy",
  * "conductance_length" (2 |dN/dZ0|/E*), "lateral_force_x", "lateral_force_y", "moment_x", "moment_y",
  * "resistance" (with solids%resistivity in the case the contact was made from). The message of an unknown name lists all.
+ * "force_error_expected" and "area_error_expected", how far N and A may be off: known for asperities only. The error of elements shows in what
+ * a finer grid changes, which rsc_case_run looks at and a contact does not: of elements there is none here, and the status says nothing of it.
  * contact: the contact; name: the name; value (out): as a number. Errors: -1, -3 null; -2 null or unknown; RSC_NO_RESULT, also if it is no
  * finite number; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);

@@ -6,10 +6,15 @@ C     Hertz, what is wrong is told and changes nothing.
       INTEGER MAXSPT
       PARAMETER (MAXSPT = 5000)
       INTEGER ICASE, IASP, ICON, IERR, K, N, ISTAT, NCAND, NIT, NOVER
-      INTEGER LIST(MAXSPT), IFRI
+      INTEGER LIST(MAXSPT), IFRI, ICOPY
       DOUBLE PRECISION F(MAXSPT), A(MAXSPT), U(MAXSPT)
       DOUBLE PRECISION Z0, FORCE, AREA, STIFF, RES, TOTAL, ONE(1), W(1)
       CHARACTER*200 TEXT
+      INTEGER ITWO(2), IOLD
+      DATA ITWO /1, 2/
+C     Were INTEGER of 8 bytes (-fdefault-integer-8), it would be told.
+      CALL RSCINT(ITWO, IERR)
+      CALL CHECK('RSCINT', IERR)
 C     Units: mm and N.
       ICASE = 0
       CALL RSCCAS(ICASE, IERR)
@@ -25,6 +30,36 @@ C     Units: mm and N.
       CALL CHECK('RSCMAK', IERR)
       CALL RSCCNC(ICON, IASP, ICASE, IERR)
       CALL CHECK('RSCCNC', IERR)
+C     A step that is tried and taken back leaves nothing; nor does a
+C     copy that goes its own way.
+      CALL RSCIND(ICON, 0.0D0, RES, IERR)
+      CALL CHECK('RSCIND', IERR)
+      CALL RSCCOM(ICON, IERR)
+      CALL CHECK('RSCCOM', IERR)
+      CALL RSCSAV(ICON, 'fixed.kept', IERR)
+      CALL CHECK('RSCSAV', IERR)
+      CALL RSCCPY(ICOPY, ICON, IERR)
+      CALL CHECK('RSCCPY', IERR)
+      CALL RSCTIP(ICOPY, 0.4D0, 0.4D0, IERR)
+      CALL RSCIND(ICOPY, -1.0D-3, FORCE, IERR)
+      CALL CHECK('RSCIND', IERR)
+      CALL RSCRES(ICON, Z0, FORCE, AREA, N, IERR)
+      IF (IERR .NE. 0 .OR. FORCE .NE. RES) CALL WRONG('copy')
+      CALL RSCROL(ICOPY, IERR)
+      CALL RSCRES(ICOPY, Z0, FORCE, AREA, N, IERR)
+      IF (IERR .NE. 0 .OR. FORCE .NE. RES) CALL WRONG('rolled back')
+      IOLD = ICOPY
+      CALL RSCDEL(ICOPY, IERR)
+      CALL CHECK('RSCDEL', IERR)
+      CALL RSCRST(ICOPY, IASP, 'fixed.kept', IERR)
+      CALL CHECK('RSCRST', IERR)
+      OPEN (10, FILE = 'fixed.kept')
+      CLOSE (10, STATUS = 'DELETE')
+      CALL RSCRES(ICOPY, Z0, FORCE, AREA, N, IERR)
+      IF (IERR .NE. 0 .OR. FORCE .NE. RES) CALL WRONG('restored')
+      CALL RSCRES(IOLD, Z0, FORCE, AREA, N, IERR)
+      IF (IERR .NE. -1) CALL WRONG('deleted, and its place used again')
+      CALL RSCDEL(ICOPY, IERR)
       CALL RSCDEL(IASP, IERR)
       CALL CHECK('RSCDEL', IERR)
       IF (IASP .NE. 0) CALL WRONG('a deleted handle is not 0')

@@ -83,7 +83,16 @@ public:
         return found;
     }
 
-    // The same, but the ticket does not come to belong to the place, which may be a temporary that the compiler made.
+    // A new number for a ticket that belongs to the place and is about to be changed: bitwise copies of it must not show what it becomes.
+    void renew(std::int64_t* ticket) {
+        const std::lock_guard lock(mutex_);
+        auto entry = entries_.extract(*ticket);
+        if (entry.empty()) return;
+        *ticket = at_place_[ticket] = entry.key() = ++last_;
+        entries_.insert(std::move(entry));
+    }
+
+    // The same as find(), but the ticket does not come to belong to the place, which may be a temporary that the compiler made.
     Entry look(Place place) {
         const std::lock_guard lock(mutex_);
         const auto at = entries_.find(*place);
@@ -154,6 +163,8 @@ int32_t rsc_ticket_change(int64_t* ticket, void** handle) {
         if (found.handle && found.place != ticket) {
             found.handle = copy(found);
             tickets().issue(ticket, {found.handle, found.kind, ticket, true});
+        } else if (found.handle) {
+            tickets().renew(ticket);
         }
         *handle = found.handle;
     });

@@ -31,7 +31,8 @@ RSC_API int32_t rsc_ticket_issue(int64_t* ticket, int32_t kind, void* handle);
 /* The handle behind a ticket, for reading: null if there is none. ticket: in its place; handle (out). */
 RSC_API int32_t rsc_ticket_read(const int64_t* ticket, void** handle);
 
-/* The same for changing it. Where another place owns it, this place gets a copy of its own first. ticket: in its place; handle (out).
+/* The same for changing it. Where another place owns it, this place gets a copy of its own first; where this one does, copies that a compiler
+ * made of its ticket stand for no handle from now on, rather than for the changed one. ticket (in and out): in its place; handle (out).
  * Errors: RSC_NO_MEMORY. */
 RSC_API int32_t rsc_ticket_change(int64_t* ticket, void** handle);
 

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <netcdf.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -57,14 +56,23 @@ bool begins_with(const std::string& path, const std::string& start) {
     return in.read(there.data(), static_cast<std::streamsize>(there.size())) && there == start;
 }
 
+int lock_file(int fd) {
+    // Not flock(), which HDF5 takes on files that it reads: it would refuse a result whose writer has not let go of it yet.
+    struct flock whole {};
+    whole.l_type = F_WRLCK;
+    whole.l_whence = SEEK_SET;
+    if (::fcntl(fd, F_OFD_SETLK, &whole) == 0) return 0;
+    return errno == EACCES ? EAGAIN : errno;
+}
+
 // A temporary that an interrupted writer left is one that no process has locked. Where locks do not work it stays.
 void remove_parts_left(const std::string& path) {
     for (int k = 0; k < kPartsLookedAt; ++k) {
         const std::string name = part_name(path, k);
-        const int fd = ::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        const int fd = ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (fd < 0) continue;
         struct stat status {};
-        if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && ::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(name.c_str());
+        if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && lock_file(fd) == 0) ::unlink(name.c_str());
         ::close(fd);
     }
 }
@@ -85,8 +93,7 @@ bool WholeFile::open_part(const std::string& name) {
     if (fd_ < 0) fail_to_write(path_, errno);
     struct stat status {};
     // Between the two calls another writer may have taken it for one that was left, and removed it.
-    const bool taken = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (taken || ::fstat(fd_, &status) != 0 || status.st_nlink == 0) {
+    if (lock_file(fd_) == EAGAIN || ::fstat(fd_, &status) != 0 || status.st_nlink == 0) {
         ::close(std::exchange(fd_, -1));
         return false;
     }
@@ -114,13 +121,12 @@ int WholeFile::finish(bool keep_open) {
     if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOSYS) fail_to_write(path_, errno);  // some file systems lack it
     if (::rename(part_.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
     const int fd = std::exchange(fd_, -1);
+    if (!keep_open) ::close(fd);
     if (const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); folder >= 0) {
         ::fsync(folder);
         ::close(folder);
     }
-    if (keep_open) return fd;
-    ::close(fd);
-    return -1;
+    return keep_open ? fd : -1;
 }
 
 void write_whole(const std::string& path, const FileKind& kind, std::span<const char> bytes) {
@@ -157,14 +163,6 @@ void require_memory(const std::string& path) {
     std::free(probe);
 }
 
-// A writer holds its lock a moment longer than its file has no name yet, and HDF5 opens no file that another process has locked.
-void wait_for_writer(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return;
-    for (int k = 0; k < 200 && ::flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++k) ::usleep(10000);
-    ::close(fd);
-}
-
 }  // namespace
 
 bool ResultHead::this_version() const { return source.starts_with("rsc " RSC_VERSION ","); }
@@ -176,7 +174,6 @@ std::optional<ResultHead> head_of_result(const std::string& path) {
     if (!fs::is_regular_file(path, error) || !begins_as_netcdf(path)) return std::nullopt;
     require_memory(path);
     require_sound(path);
-    wait_for_writer(path);
     if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {
         constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: a damaged file may announce anything

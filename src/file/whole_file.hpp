@@ -25,6 +25,10 @@ std::string reason_to_leave(const std::string& path, const FileKind& kind);
 // A line of text at the beginning of a file; false where there is no such plain file.
 bool begins_with(const std::string& path, const std::string& start);
 
+// Locks an open file for its writer, as long as the descriptor and its copies are open; it must be open for writing. Returns 0, EAGAIN where
+// another writer has it, or another errno: some file systems have no locks.
+int lock_file(int fd);
+
 // Removes temporaries of this target whose writers were killed; those that are being written stay.
 void remove_parts_left(const std::string& path);
 
@@ -39,7 +43,7 @@ public:
     // Appends. Throws Error(file_system).
     void write(std::span<const char> bytes);
     // Makes sure that the bytes are on the disk, and only then gives the file its name. Throws Error(file_system). Returns the
-    // descriptor, open for reading and writing and locked (flock), where `keep_open`; -1 otherwise.
+    // descriptor, open for reading and writing and locked, where `keep_open`; -1 otherwise.
     int finish(bool keep_open = false);
 
 private:

@@ -11,26 +11,33 @@ constexpr std::size_t kMost = 1024;
 std::atomic<bool> used{false}, forked{false};
 thread_local int alive = 1;  // threads that libgomp holds ready for regions of this thread: those of the last one
 
-// Number of threads, at most `more`, that the system starts at the same time.
+void* wait_for(void* mutex) {
+    auto* const all_there = static_cast<pthread_mutex_t*>(mutex);
+    pthread_mutex_lock(all_there);
+    pthread_mutex_unlock(all_there);
+    return nullptr;
+}
+
+// Number of threads, at most `more`, that the system starts at the same time. Not std::thread, which frees memory in the new thread: for that the
+// system reserves 64 MB of addresses, and keeps them.
 int can_start(int more) {
-    std::vector<std::thread> started;
-    std::mutex all_there;
-    try {
-        started.reserve(static_cast<std::size_t>(more));
-        const std::lock_guard wait(all_there);
-        for (int k = 0; k < more; ++k) started.emplace_back([&] { const std::lock_guard lock(all_there); });
-    } catch (const std::system_error&) {
-    } catch (const std::bad_alloc&) {
-    }
-    for (std::thread& thread : started) thread.join();
-    return static_cast<int>(started.size());
+    std::array<pthread_t, kMost> started;
+    pthread_mutex_t all_there = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&all_there);
+    int count = 0;
+    while (count < more && pthread_create(&started[static_cast<std::size_t>(count)], nullptr, wait_for, &all_there) == 0) ++count;
+    pthread_mutex_unlock(&all_there);
+    for (int k = 0; k < count; ++k) pthread_join(started[static_cast<std::size_t>(k)], nullptr);
+    return count;
 }
 
 }  // namespace
 
 std::size_t most_threads(int wanted) {
     const int n = wanted > 0 ? wanted : omp_get_max_threads();
-    return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(n, 1)), 1, kMost);
+    // Threads far beyond the processors only wait for each other: a thousand on two of them take minutes for seconds of work.
+    const int most = std::min(static_cast<int>(kMost), 16 + 2 * omp_get_num_procs());
+    return static_cast<std::size_t>(std::clamp(n, 1, most));
 }
 
 int omp_team(std::size_t work, int wanted) {
@@ -74,6 +81,20 @@ void stopping_point() {
         watch->stopped_ = true;
         throw;
     }
+}
+
+bool LoopStop::now() noexcept {
+    if (stopped_) return true;
+    try {
+        stopping_point();
+    } catch (...) {
+        if (!stopped_.exchange(true)) thrown_ = std::current_exception();
+    }
+    return stopped_;
+}
+
+void LoopStop::tell() const {
+    if (thrown_) std::rethrow_exception(thrown_);
 }
 
 }  // namespace rsc

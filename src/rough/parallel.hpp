@@ -1,4 +1,8 @@
-// Threads of parallel loops, and stopping of long loops.
+// Number of OpenMP threads of a parallel region: no more than the system starts.
+//
+// libgomp ends the program where the machine refuses to start a thread, and crashes where tens of thousands are asked for. Every parallel
+// region of rsc therefore says num_threads(omp_team(...)), which tries first by threads of its own.
+// What a region answers depends on no number of threads.
 #pragma once
 
 #include "std.hpp"
@@ -52,5 +56,21 @@ private:
 
 // A place where work may be left by an exception: outside of parallel regions, and where nothing is half done.
 void stopping_point();
+
+// A stopping point in a loop that OpenMP shares out among threads, which no exception may leave:
+//
+//     LoopStop stop;
+//     #pragma omp parallel for
+//     for (...) { if (stop.now()) continue; ... }
+//     stop.tell();
+class LoopStop {
+public:
+    bool now() noexcept;  // whether what is left of the loop shall be left out; the thread that has the watch asks
+    void tell() const;    // throws what the stopping point threw, if it did
+
+private:
+    std::atomic<bool> stopped_{false};
+    std::exception_ptr thrown_;
+};
 
 }  // namespace rsc

@@ -91,27 +91,30 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     auto& plan = *column_plan;
     const Band limits = band(spectrum);
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
+    LoopStop stop;
     // Thread t takes the columns t, t + threads, ...: the low ones hold more modes than the high ones.
 #pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
-        for (int kx = t; kx < columns_; kx += threads) {
+        for (int kx = t; kx < columns_ && !stop.now(); kx += threads) {
             auto* const stored = store + kx * column_stride_;
             sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
             if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
         }
     }
+    stop.tell();
     HeightShape shape;
     if (!spectrum.gaussian()) {
         shape = reshape_heights(spectrum, store, column_stride_, n_);
 #pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
         for (int t = 0; t < threads; ++t) {
             auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
-            for (int kx = t; kx < columns_; kx += threads) {
+            for (int kx = t; kx < columns_ && !stop.now(); kx += threads) {
                 std::copy_n(store + kx * column_stride_, n_, column);
                 fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
             }
         }
+        stop.tell();
     }
     ModeSums total;
     for (const ModeSums& s : sums) total.add(s);
@@ -174,12 +177,15 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
     map.periodic = true;
     std::vector<RowSource::Scratch> scratch;
     for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
+    LoopStop stop;
 #pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / threads); };
-        const int first = bound(t), last = bound(t + 1);
-        if (first < last) source.rows(first, last - first, map.row(first), map.stride, scratch[static_cast<std::size_t>(t)]);
+        constexpr int few = 64;  // rows between two stopping points
+        for (int j = bound(t); j < bound(t + 1) && !stop.now(); j += few)
+            source.rows(j, std::min(few, bound(t + 1) - j), map.row(j), map.stride, scratch[static_cast<std::size_t>(t)]);
     }
+    stop.tell();
     if (sampled) *sampled = source.sampled();
     return map;
 }

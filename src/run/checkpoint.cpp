@@ -1,7 +1,6 @@
 #include "run/checkpoint.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -106,7 +105,7 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
         fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
-        const bool busy = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        const bool busy = lock_file(fd_) == EAGAIN;
         if (!busy && still_named(fd_, name_)) break;  // otherwise it was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
         if (busy || attempt == 100) throw Error(Failure::bad_input, "'" + name_ + "': another process is running this campaign");

@@ -7,12 +7,16 @@
 #include <atomic>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "check.hpp"
+#include "contact/interaction/pixel_products.hpp"
+#include "rough/parallel.hpp"
 #include "rsc.h"
+#include "run/prepare.hpp"
 
 namespace {
 
@@ -43,9 +47,41 @@ int with_little_memory() {
     const rlimit limit{most, most};
     if (setrlimit(RLIMIT_AS, &limit) != 0) return 9;
     rsc_case* c = small_case("&run threads=200 /");
-    rsc_surface* surface = nullptr;
-    const std::int32_t status = rsc_surface_synthesize(&surface, c, 1);
-    return status == RSC_SUCCESS ? 0 : status == RSC_NO_MEMORY ? 1 : 2;
+    int refused = 0;
+    for (int k = 1; k <= 4; ++k) {
+        rsc_surface* surface = nullptr;
+        rsc_asperities* asperities = nullptr;
+        std::int32_t status = rsc_surface_synthesize(&surface, c, k);
+        if (status == RSC_SUCCESS) status = rsc_asperities_find(&asperities, surface, c);
+        if (status != RSC_SUCCESS && status != RSC_NO_MEMORY) return 2;
+        refused |= status != RSC_SUCCESS;
+        rsc_surface_destroy(&surface);
+        rsc_asperities_destroy(&asperities);
+    }
+    return refused;
+}
+
+// Long loops that threads share out are left where the caller wants to stop, also in the middle.
+bool stops(const std::function<void()>& loop) {
+    usleep(60000);  // nobody is asked more often than every 50 ms
+    try {
+        const rsc::Watch watch([] { throw std::domain_error("enough"); });
+        loop();
+    } catch (const std::domain_error&) {
+        return true;
+    }
+    return false;
+}
+
+void test_stopping() {
+    std::vector<rsc::Pixel> pixels;
+    for (int k = 0; k < 128 * 128; ++k) pixels.push_back({k % 128, k / 128});
+    const std::vector<double> p(pixels.size(), 1.0);
+    std::vector<double> w(pixels.size());
+    const auto products = rsc::make_tree_products(1.0, 1, 1, 1e-3, 1e-5);
+    products->set_pixels(pixels);
+    CHECK(stops([&] { products->apply(p.data(), w.data(), rsc::PixelProducts::Accuracy::inner); }));
+    CHECK(stops([] { rsc::make_surface(rsc::Case{}, 1, 2); }));
 }
 
 double height(const rsc_case* c) {
@@ -115,4 +151,5 @@ TESTS {
     test_more_threads_than_work();
     test_fork();
     test_lock();
+    test_stopping();
 }

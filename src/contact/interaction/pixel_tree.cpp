@@ -417,12 +417,14 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         }
     }
     const PixelKernels& kernels = pixel_kernels();
+    LoopStop stop;
     // Threads are started twice a product: between boxes of all sizes, and at last for the tiles.
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
         for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
     for (std::size_t job = 0; job < chunks.size(); ++job) {
+        if (stop.now()) continue;
         const auto [l, c] = chunks[job];
         const Generation& g = generations[l];
         if (g.pair_from.empty()) continue;
@@ -440,6 +442,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                 kernels.translate(static_cast<int>(points), q * q, interpolation.made(l)[o].data(), from.size(), from.data(), to.data());
         }
     }
+    stop.tell();
     const auto down = [&](std::size_t l, std::size_t k) {
         const Generation& g = generations[l];
         interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
@@ -449,6 +452,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
 #pragma omp parallel for schedule(dynamic, 32) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
     for (std::size_t t = 0; t < tiles; ++t) {
+        if (stop.now()) continue;
         if (levels > 1) down(0, t);
         double* values = tiles_.data() + t * size;
         std::fill_n(values, size, 0.0);
@@ -462,6 +466,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                 if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
             }
     }
+    stop.tell();
     for (std::size_t k = 0; k < n; ++k) w[k] = tiles_[layout.place[k]];
 }
 
