@@ -290,48 +290,6 @@ void test_path() {
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
 }
 
-Asperities rough_asperities() {
-    Spectrum spectrum;
-    spectrum.sigma = 1e-3, spectrum.L_lambda_l = 8, spectrum.L_lambda_s = 64;
-    return make_asperities(spectrum, 256, Normalise::sample, 1, 1, Curvature::geometric);
-}
-
-SolverOptions strict_options() {
-    SolverOptions options = options_with(2000);
-    options.tolerance = 1e-10;
-    return options;
-}
-
-// What yields goes on from the accepted levels alone, where several solutions exist, too: separations tried on the way to a force are not
-// even seen in the last bit, and on the way down the branch is kept (two paths of different steps meet at the same force).
-void test_follows() {
-    const Asperities a = rough_asperities();
-    const SolverOptions options = strict_options();
-    const Indenter ball{115e3, 2.5, 0.5, 0.5};
-    AsperityContact by_forces(a, ball, options), by_separations(a, ball, options), finer(a, ball, options);
-    int several = 0;
-    bool back = false;
-    double before = by_forces.first_touch();
-    for (const double N : {40.0, 80.0, 120.0, 160.0, 200.0, 150.0, 240.0}) {
-        const Level pressed = by_forces.at_force(N), indented = by_separations.at_separation(pressed.separation);
-        CHECK(pressed.f == indented.f && pressed.asperity == indented.asperity);
-        several += pressed.status == LevelStatus::not_unique;
-        if (back || pressed.separation > before) {
-            back = true;
-            continue;
-        }
-        for (int k = 1; k < 4; ++k) finer.at_separation(before + (pressed.separation - before) * k / 4);
-        before = pressed.separation;
-        CHECK_RELATIVE(finer.at_separation(before).force, N, 1e-8);
-    }
-    CHECK(several >= 3);
-    // A level close to the last begins there: fewer products than from nothing.
-    AsperityContact anew(a, ball, options);
-    const Level last = by_forces.at_force(260.0), next = by_forces.at_separation(last.separation - 1e-7),
-                cold = anew.at_separation(next.separation);
-    CHECK(next.status == LevelStatus::not_unique && 2 * next.products < cold.products);
-}
-
 void test_limits() {
     std::mt19937 random(5);
     const Asperities a = few(random, 40);
@@ -357,6 +315,5 @@ TESTS {
     test_laws();
     test_independent();
     test_path();
-    test_follows();
     test_limits();
 }

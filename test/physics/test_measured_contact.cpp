@@ -128,31 +128,7 @@ void twins() {
     set_key(measured, "surface%file", "'" + file + "'");
     set_key(measured, "output%file", "'" + in_folder("map.nc") + "'");
     run_case(measured, {});
-    {  // the fit in the file is the law with the attributes in the file
-        const Reader file(in_folder("map.nc"));
-        const auto one = [&](const char* name) { return file.numbers("psd_fit", name).at(0); };
-        const auto k = file.values("wavenumber"), fit = file.values("psd_fit");
-        std::size_t inside = 0;
-        for (std::size_t i = 0; i < k.size(); ++i) {
-            const bool below = k[i]<one("kl"), beyond = k[i]> one("ks") * (1 + 1e-12);
-            const double law = beyond  ? 0
-                               : below ? one("plateau") * one("Phi0")
-                                       : one("Phi0") * std::pow(k[i] / one("kl"), -2 * (1 + one("hurst")));
-            CHECK_CLOSE(fit[i], law, 1e-10 * law);
-            inside += !below && !beyond;
-        }
-        CHECK(inside > 20 && inside < k.size());
-        const SelfAffineFit found = *prepare(measured).measured->fit;
-        for (const auto& [name, value] : {std::pair{"Phi0", found.Phi0}, {"kl", found.kl}, {"ks", found.ks}, {"hurst", found.hurst}}) {
-            CHECK(one(name) == value.value && one((std::string(name) + "_error").c_str()) == value.error);
-            CHECK(value.error > 0);
-        }
-    }
     Case twin;
-    {
-        std::ifstream in(in_folder("map_twins.nml"));
-        CHECK(in.good());
-    }
     twin = original;
     twin.surface = {};
     set_key(twin, "surface%source", "'spectrum'");

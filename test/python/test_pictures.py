@@ -264,9 +264,8 @@ class Command(unittest.TestCase):
         self.assertEqual((status, text.strip()), (0, os.path.join(FOLDER, "mine_load.pdf")))
 
     def test_every_picture(self):
-        for name in ("one", "pressed"):
-            status, text = run(path(name), "-o", os.path.join(FOLDER, "all"))
-            self.assertTrue(status == 0 and len(text.split()) >= 5 and all(os.path.getsize(picture) > 5000 for picture in text.split()), text)
+        status, text = run(path("one"), "-o", os.path.join(FOLDER, "all"))
+        self.assertTrue(status == 0 and len(text.split()) >= 5 and all(os.path.getsize(picture) > 5000 for picture in text.split()), text)
 
     def test_refused(self):
         for words, word in (([path("one"), "--step", "99"], "1 to 26"), ([path("one"), "--step", "0"], "1 to 26"), ([path("nothing")], "nothing"), ([path("one"), "--width", "7"], "millimetres"),

@@ -145,42 +145,9 @@ void curves() {
     CHECK(curve.levels() == before + 3 && curve.failed() == 3);
 }
 
-// Of the models themselves.
-void forgetting() {
-    const Asperities a = random_asperities(200, 0.01, 0.01, 5e-4, 0.5, 3);
-    HeightMap map;
-    map.allocate(24, 20, 24);
-    map.dx = 0.04, map.dy = 0.05;
-    for (int j = 0; j < 20; ++j)
-        for (int i = 0; i < 24; ++i) map.row(j)[i] = 0.01 * std::cos(1.3 * i + 0.2 * j) * std::sin(0.9 * j);
-    SolverOptions options;
-    options.max_iterations = 300;
-    for (int model = 0; model < 4; ++model) {
-        const auto made = [&]() -> std::unique_ptr<Contact> {
-            const double flat = __builtin_huge_val();
-            if (model == 0) return std::make_unique<AsperityContact>(a, Indenter{2, 3, 0.5, 0.4, {}}, options);
-            if (model == 1) return std::make_unique<AsperityContact>(a, Indenter{2, flat, 0.5, 0.4, {1, 1}}, options);
-            return make_element_contact(map, model == 2 ? Indenter{2, 9, 0.5, 0.4, {}} : Indenter{2, flat, 0, 0, {map.Lx(), map.Ly()}},
-                                        options);
-        };
-        const auto used = made(), fresh = made();
-        for (const double Z0 : {0.008, 0.001, 0.006}) used->at_separation(Z0);
-        used->at_force(1e-5);
-        used->forget();
-        const auto same = [](const Level& p, const Level& q) {
-            CHECK(p.force > 0 && p.force == q.force && p.separation == q.separation && p.f == q.f && p.a == q.a && p.u == q.u);
-            CHECK(p.iterations == q.iterations && p.products == q.products && p.pixels.pressure == q.pixels.pressure);
-        };
-        same(used->at_separation(0.004), fresh->at_separation(0.004));
-        CHECK(used->stiffness() == fresh->stiffness() && used->energy() == fresh->energy());
-        same(used->at_force(3e-5), fresh->at_force(3e-5));
-    }
-}
-
 }  // namespace
 
 TESTS {
     control();
     curves();
-    forgetting();
 }

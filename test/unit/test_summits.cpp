@@ -253,7 +253,7 @@ void once_each() {
     CHECK(all > 3000);
     // Surfaces with summits reached from several starts: each summit in turn moved onto the corner of the period, and around it.
     long moved = 0, tried = 0;
-    for (int k = 1; k <= 600; ++k) {
+    for (int k = 1; k <= 200; ++k) {
         const Spectrum s = small_spectrum(2, 5);
         SummitCount count;
         make_asperities(s, 20, Normalise::sample, 5, k, Curvature::geometric, &count, nullptr, 1, Detail::subgrid);
@@ -275,7 +275,7 @@ void once_each() {
             }
     }
     std::printf("%ld of %ld moved summits found\n", moved, tried);
-    CHECK(tried > 500 && 100 * moved >= 99 * tried);  // four points a wave miss one in 200
+    CHECK(tried > 150 && 100 * moved >= 99 * tried);  // four points a wave miss one in 200
 }
 
 }  // namespace
