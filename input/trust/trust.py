@@ -192,7 +192,7 @@ def solve_elements(rsc, number, folder):
             "A_coarse": take(coarse, "contact_area"), "status": take(fine, "status"), "edge": take(fine, "edge_contacts"), "contacts": take(fine, "contacts")}
 
 
-PREDICTORS = ("slope", "beyond", "overlap", "elongation", "crowding", "few", "coarse", "plastic", "flats")
+PREDICTORS = ("slope", "pressed", "overlap", "elongation", "crowding", "few", "coarse", "plastic", "flats")
 
 
 def predictors(s, r, level):
@@ -208,11 +208,13 @@ def predictors(s, r, level):
         x, y = np.ravel(r["asperity_x"])[which] - 0.5, np.ravel(r["asperity_y"])[which] - 0.5
         rho = np.hypot(x, y).max()
         slope = 0.0 if s["group"] == "flats" else rho / math.sqrt(max(s["R"] ** 2 - rho**2, 1e-30)) / float(np.ravel(r["rms_slope"])[0])
-    ratio = np.ravel(r["asperity_kappa1"])[which] / np.ravel(r["asperity_kappa2"])[which]
+    kappa1, kappa2 = np.ravel(r["asperity_kappa1"])[which], np.ravel(r["asperity_kappa2"])[which]
+    ratio = kappa1 / kappa2
+    biharmonic = np.ravel(r["asperity_biharmonic"])[which] if "asperity_biharmonic" in r else np.zeros(count)
     spacing = spacing_of(s, r)
     points = points_of(s, r)
     at = lambda name: float(np.ravel(r[name])[level])
-    return {"slope": math.log1p(min(slope / 0.2, 50.0) ** 2), "beyond": at("beyond_law") / count, "overlap": math.log1p(at("overlapping_pairs") / count),
+    return {"slope": math.log1p(min(slope / 0.2, 50.0) ** 2), "pressed": float(np.sum(share * np.clip(biharmonic / (kappa1 + kappa2) * (a / math.pi) ** 2, 0, 1))), "overlap": math.log1p(at("overlapping_pairs") / count),
             "elongation": float(np.sum(share * np.log(np.minimum(ratio, 1e3)))), "crowding": math.log(max(float(np.sum(share * a)) / spacing, 1e-3)),
             "few": 1 / math.sqrt(count), "coarse": min(4 / points, 1.5) if points > 0 else 1.0,
             "plastic": at("plastic_contacts") / count if "plastic_contacts" in r else 0.0, "flats": 1.0 if s["group"] == "flats" else 0.0}

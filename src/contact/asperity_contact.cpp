@@ -29,12 +29,12 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < asperities.size(); ++i)
         highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
-    constexpr double kFlankSpacing = 0.4;
     constexpr double depth = 8;  // rms heights below the highest: from 4 sigma down to where the model ends
     const double steepest = steepest_above(asperities, indenter, highest - depth * options.sigma);
     if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
         Asperities found = search(indenter);
-        add_flanks(found, asperities, kFlankSpacing * options.mean_spacing);
+        // Paraboloids, which go on widening, would carry far too much there.
+        if (options.law == LawKind::fourth_order) add_flanks(found, asperities, options.mean_spacing);
         return found;
     }
     return moved_summits(asperities, indenter);

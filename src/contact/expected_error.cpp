@@ -11,7 +11,7 @@ using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is 1
 constexpr const char* kCauses[kErrorPredictors + 1] = {
     "",
     "the slope of the indenter at the contacts, which touches other points than summits (slope_ratio)",
-    "contacts beyond the validity of the contact law (beyond_law)",
+    "contacts as wide as the waves of the surface: the law knows a summit, not what is around it",
     "spots that overlap (overlapping_pairs)",
     "elongated summits",
     "the size of the contacts relative to the spacing of the summits",
@@ -23,18 +23,24 @@ constexpr const char* kCauses[kErrorPredictors + 1] = {
 
 Predictors predictors(const Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     const double contacts = level.contacts;
-    double elongation = 0, radius = 0, force = 0;
+    double elongation = 0, pressed = 0, radius = 0, force = 0;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
         const auto i = static_cast<std::size_t>(level.asperity[k]);
         const double ratio = asperities.kappa1.empty() ? 1.0 : asperities.kappa1[i] / asperities.kappa2[i];
         elongation += level.f[k] * std::log(std::min(ratio, 1e3));
+        if (!asperities.biharmonic
+                 .empty()) {  // (q a/pi)^2 of the summit's profile (law/law.hpp): 1 where the contact meets its neighbours'
+            const double waves = level.a[k] / std::numbers::pi,
+                         q2 = asperities.biharmonic[i] / (asperities.kappa1[i] + asperities.kappa2[i]);
+            pressed += level.f[k] * std::clamp(q2 * waves * waves, 0.0, 1.0);
+        }
         radius += level.f[k] * level.a[k];
         force += level.f[k];
     }
     const double slope = std::isnan(level.slope_ratio) ? 0.0 : std::min(level.slope_ratio / 0.2, 50.0);
     return {1.0,
             std::log1p(slope * slope),
-            static_cast<double>(level.beyond_law) / contacts,
+            pressed / force,
             std::log1p(static_cast<double>(level.overlapping_pairs) / contacts),
             elongation / force,
             std::log(std::max(radius / force / options.mean_spacing, 1e-3)),

@@ -53,6 +53,7 @@ Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter)
 }
 
 void add_flanks(Asperities& found, const Asperities& of_surface, double spacing) {
+    constexpr double kNear = 0.4, kWidest = 0.56;  // of the spacing; a disc of the second has the spacing's square as its area
     if (!(spacing > 0)) return;
     using Cell = std::pair<long, long>;
     const auto cell = [spacing](double x, double y) {
@@ -60,17 +61,21 @@ void add_flanks(Asperities& found, const Asperities& of_surface, double spacing)
     };
     std::multimap<Cell, std::size_t> places;
     for (std::size_t i = 0; i < found.size(); ++i) places.insert({cell(found.x[i], found.y[i]), i});
-    const auto near = [&](double x, double y) {
+    const auto near = [&](double x, double y, double distance) {
         const auto [column, row] = cell(x, y);
         for (long c = column - 1; c <= column + 1; ++c)
             for (auto at = places.lower_bound({c, row - 1}); at != places.end() && at->first <= Cell{c, row + 1}; ++at)
-                if (std::hypot(found.x[at->second] - x, found.y[at->second] - y) < spacing) return true;
+                if (std::hypot(found.x[at->second] - x, found.y[at->second] - y) < distance) return true;
         return false;
     };
     for (std::size_t i = 0; i < of_surface.size(); ++i) {
-        if (near(of_surface.x[i], of_surface.y[i])) continue;
+        if (near(of_surface.x[i], of_surface.y[i], kNear * spacing)) continue;
         for (const AsperityColumn& column : kAsperityColumns)
             if (!(of_surface.*column.values).empty()) (found.*column.values).push_back((of_surface.*column.values)[i]);
+        // Its contact, q a = pi at the widest (law/law.hpp), is not wider than what there is of the surface for a summit.
+        const double q = std::numbers::pi / (spacing * kWidest);
+        if (!found.biharmonic.empty())
+            found.biharmonic.back() = std::max(found.biharmonic.back(), q * q * (found.kappa1.back() + found.kappa2.back()));
     }
 }
 

@@ -31,8 +31,8 @@ inline constexpr double kMostSlopeRatio = 0.2;
 // where the face does not reach, or would leave no summit, stay as they are. As many as the surface's, in their order.
 Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter);
 
-// Adds to the summits found of the difference those of the surface that have none within `spacing`: on the flanks of a steep face, where the
-// difference has no summits, they are what the contact comes to when it is pressed further.
+// Adds to the summits found of the difference those of the surface that have none near: on the flanks of a steep face, where the difference has no
+// summits, they are what the contact comes to when it is pressed further. `spacing`: mean distance of the surface's summits.
 void add_flanks(Asperities& found, const Asperities& of_surface, double spacing);
 
 // Largest slope of the face above asperities it may touch, those with a clearance above `least`; 0 without any.

@@ -108,9 +108,9 @@ std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::
 }
 
 void ResultTable::means() {
-    add("converged", {"step"}, "1", "realizations included in the means", o_.force.count,
-        comment("levels that did not converge (status 4) are left out of the means, and levels without a quantity out of its mean; "
-                "maps, radial means and distributions are of all realizations"));
+    add("converged", {"step"}, "1", "realizations that count in the means", o_.force.count,
+        comment(
+            "levels that did not converge (status 4) are left out of all means of levels, of maps and of distributions, and those that lack a quantity out of its own"));
     if (r_.force_control) {
         add_absent("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
         add_absent("separation_std", {"step"}, unit(1), "standard deviation of the separation over realizations", o_.separation.deviation,

@@ -220,7 +220,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
         const MapGrid& g = options.map;
         const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny), static_cast<std::size_t>(g.nx)};
         const std::vector<double> rests = file.values(name + "_rest", lengths);
-        return map_sums(g, sums.realization.size(), file.values(name, lengths), rests);
+        return map_sums(g, sums.converged(), file.values(name, lengths), rests);
     };
     sums.map_area = map("map_area_fraction");
     sums.map_force = map("map_pressure");

@@ -12,10 +12,8 @@ void require_finite(const Level& level, std::size_t step) {
     if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
 }
 
-// From a cell's sum over realizations to its mean fraction or pressure.
-double map_divisor(const MapGrid& grid, std::size_t realizations) {
-    return grid.side * grid.side * static_cast<double>(std::max<std::size_t>(1, realizations));
-}
+// From a cell's sum over the realizations whose level converged to its mean fraction or pressure.
+double map_divisor(const MapGrid& grid, std::int32_t converged) { return grid.side * grid.side * std::max(1, converged); }
 
 // Rounded to a double on every machine, also where the compiler would fuse it with the sum that follows.
 double rounded_product(double a, double b) {
@@ -42,14 +40,20 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
     for (std::size_t s = 0; s < levels.size(); ++s) {
         require_finite(levels[s], s);
         LevelValues row = levels[s];
-        record.maps.push_back(map_level(options.map, levels[s]));
-        row.outside_map = record.maps.back().outside;
-        row.crowded_cells = count_crowded_cells(options.map, record.maps.back());
+        MapLevel map = map_level(options.map, levels[s]);
+        row.outside_map = map.outside;
+        row.crowded_cells = count_crowded_cells(options.map, map);
         record.levels.push_back(row);
+        record.maps.push_back(row.status == LevelStatus::not_converged ? MapLevel{} : std::move(map));
     }
     for (double wanted : options.pdf_levels) {
         const std::int32_t step = nearest_level(levels, wanted);
-        if (step >= 0) record.distributions.push_back(distributions_of(options.pdf, levels[static_cast<std::size_t>(step)], step));
+        if (step < 0) continue;
+        const Level& level = levels[static_cast<std::size_t>(step)];
+        Level no_contacts;
+        no_contacts.separation = level.separation;
+        const bool failed = level.status == LevelStatus::not_converged;
+        record.distributions.push_back(distributions_of(options.pdf, failed ? no_contacts : level, step));
     }
     return record;
 }
@@ -135,10 +139,12 @@ Observations Accumulators::finish() const {
     o.force = o.statistics([](const LevelValues& r) { return r.force; });
     o.area = o.statistics([](const LevelValues& r) { return r.area; });
 
-    const double divisor = map_divisor(options.map, o.realizations);
-    const auto divide = [divisor](const std::vector<ExactSum>& sums, std::vector<double>& means, std::vector<double>& rests) {
+    const std::vector<std::int32_t> counts = converged();
+    const auto cells = static_cast<std::size_t>(options.map.cells());
+    const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means, std::vector<double>& rests) {
         means.reserve(sums.size()), rests.reserve(sums.size());
         for (const ExactSum& sum : sums) {
+            const double divisor = map_divisor(options.map, counts[means.size() / cells]);
             means.push_back(sum.high / divisor);
             rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
         }
@@ -148,7 +154,6 @@ Observations Accumulators::finish() const {
 
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
-    const auto cells = static_cast<std::size_t>(options.map.cells());
     for (std::size_t s = 0; s < steps && !o.radii.empty(); ++s) {
         for (double v : mean(o.map_area_fraction.data() + s * cells)) o.radial_area_fraction.push_back(v);
         for (double v : mean(o.map_pressure.data() + s * cells)) o.radial_pressure.push_back(v);
@@ -159,11 +164,18 @@ Observations Accumulators::finish() const {
     return o;
 }
 
-std::vector<ExactSum> map_sums(const MapGrid& grid, std::size_t realizations, const std::vector<double>& means,
+std::vector<std::int32_t> Accumulators::converged() const {
+    std::vector<std::int32_t> counts(steps, 0);
+    for (std::size_t k = 0; k < rows.size(); ++k) counts[k % steps] += rows[k].status != LevelStatus::not_converged;
+    return counts;
+}
+
+std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged, const std::vector<double>& means,
                                const std::vector<double>& rests) {
-    const double divisor = map_divisor(grid, realizations);
     std::vector<ExactSum> sums(means.size());
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = ExactSum::of_two(rounded_product(means[k], divisor), rests[k]);
+    const auto cells = static_cast<std::size_t>(grid.cells());
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        sums[k] = ExactSum::of_two(rounded_product(means[k], map_divisor(grid, converged[k / cells])), rests[k]);
     return sums;
 }
 

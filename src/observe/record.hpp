@@ -36,7 +36,7 @@ struct RealizationRecord {
     std::int64_t realization = 1;
     SurfaceStatistics surface;
     std::vector<LevelValues> levels;
-    std::vector<MapLevel> maps;                // one a level
+    std::vector<MapLevel> maps;                // one a level; empty where it did not converge, as are distributions
     std::vector<Distributions> distributions;  // one a pdf level
 };
 
@@ -66,6 +66,7 @@ struct Accumulators {
     void add(const RealizationRecord& record);
     // Appends the sums over later realizations of the same case: they are then, bit for bit, those of adding all records one by one.
     void append(const Accumulators& later);
+    std::vector<std::int32_t> converged() const;  // realizations whose level converged, for each step
     Observations finish() const;
 };
 
@@ -96,7 +97,7 @@ struct Observations {
 };
 
 // The sums over realizations that gave these means of a map, from what finish() leaves of them: exactly the same.
-std::vector<ExactSum> map_sums(const MapGrid& grid, std::size_t realizations, const std::vector<double>& means,
+std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged, const std::vector<double>& means,
                                const std::vector<double>& rests);
 
 }  // namespace rsc

@@ -347,7 +347,9 @@ Shape shape_of(const Case& settings) {
     made.radius = keys.radius.value_or(0);
     made.rim_radius = keys.rim_radius;
     if (!keys.file.empty()) {
-        auto map = std::make_shared<HeightMap>(read_map(settings, keys.file, std::nullopt, keys.channel).map);
+        Surface second = read_map(settings, keys.file, std::nullopt, keys.channel);
+        made.told = told(*second.origin.measured, settings.run.length_unit);
+        auto map = std::make_shared<HeightMap>(std::move(second.map));
         map->periodic = settings.indentation.boundary == Boundary::periodic;
         made.map = std::move(map);
     }

@@ -74,10 +74,31 @@ void print_measured(std::ostream& out, const Job& job) {
             job.seam);
 }
 
+// A second rough body: what was done to its map, and whether it is taken between its points.
+void print_second(std::ostream& out, const Job& job) {
+    const ShapeKeys& keys = job.indenter.shape->keys();
+    if (!keys.map) return;
+    for (const std::string& line : keys.told) out << "body 2: " << line << '\n';
+    const HeightMap& map = *keys.map;
+    const Domain& d = job.domain;
+    double dx = job.measured ? job.measured->dx : 0, dy = job.measured ? job.measured->dy : 0;
+    if (job.spectrum && by_elements(job.settings)) dx = dy = d.Lx / element_points(job.settings, *job.spectrum);
+    const auto between = [](double step, double steps_of_2, int points, double tip, double first) {
+        const double at = (first - tip) / steps_of_2 + 0.5 * (points - 1);
+        return !(std::abs(step / steps_of_2 - 1) <= 1e-9) || std::abs(at - std::round(at)) > 1e-6;
+    };
+    if (!between(dx, map.dx, map.nx, job.indenter.x0, d.x0) && !between(dy, map.dy, map.ny, job.indenter.y0, d.y0)) return;
+    const char* l = job.settings.run.length_unit.c_str();
+    out << format("body 2 is interpolated between its points, which are %g x %g %s apart", map.dx, map.dy, l);
+    if (dx > 0) out << format("; those of body 1 are %g x %g %s apart", dx, dy, l);
+    out << (dx > 1.000001 * map.dx || dy > 1.000001 * map.dy ? ": coarser, and blind to what lies between\n" : "\n");
+}
+
 // The columns after the first three are the level's declared quantities (observe/quantities.hpp).
 void print_heading(std::ostream& out, const Job& job) {
     print_case(out, job);
     print_measured(out, job);
+    print_second(out, job);
     const std::string l = job.settings.run.length_unit, f = job.settings.run.force_unit;
     out << format("\n%5s %12s %9s", "level", format("Z0 [%s]", l.c_str()).c_str(), "Z0/sigma");
     for (const LevelQuantity& q : level_quantities()) {

@@ -7,7 +7,9 @@
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
+#include "contact/contact_curve.hpp"
 #include "contact/element_contact.hpp"
+#include "contact/friction.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -80,6 +82,59 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
     CHECK(std::hypot(force.x - fx, force.y - fy) <= tolerance * size);
 }
 
+// Smooth bodies with friction: N grows as the approach to some power p, so Q = mu N [1 - (1 - xi/xi_full)^p] (Cattaneo and Mindlin's for
+// p = 3/2; a punch sticks all over until it slides).
+void friction(const char* name, const ShapeKeys& keys, double depth, double side) {
+    const Shape s = shape(name, keys);
+    const HeightMap map = flat_map(48, 48, side / 48);
+    ElementContact one(map, {kE, s, 0, 0}, elements()), other(map, {kE, s, 0, 0}, elements());
+    ContactCurve curve(one, other);
+    const Friction mu{0.3, 0.8};
+    const double full = full_slip(curve, mu, depth), N = curve.load(depth).force, p = s->smooth(kE)->force_power;
+    CHECK_RELATIVE(full, 0.3 / 0.8 * depth, 1e-9);
+    for (const auto& point : slide_to(curve, mu, depth, {0.3 * full, 0.7 * full, full})) {
+        constexpr double kCoarse = 0.01;  // of elements on so few points
+        CHECK_CLOSE(point.force / (0.3 * N), 1 - std::pow(1 - point.displacement / full, p), kCoarse);
+    }
+}
+
+// Pressed until all yields, N = H A; nowhere more than H.
+void hardness(const char* name, const ShapeKeys& keys, double depth, double side) {
+    constexpr double H = 0.5;
+    const HeightMap map = flat_map(48, 48, side / 48);
+    SolverOptions options = elements();
+    options.hardness.H0 = H;
+    ElementContact contact(map, {kE, shape(name, keys), 0, 0}, options);
+    const Level level = contact.at_separation(-depth);
+    for (const double p : level.pixels.pressure) CHECK(p <= H * (1 + 1e-12));
+    CHECK_RELATIVE(level.force, H * level.area_pixels, 1e-3);
+    CHECK(level.contacts == 1);
+}
+
+// Two maps that repeat: heights add, so a flat on their sum carries the same at the same distance of mean planes.
+void two_maps() {
+    constexpr int n = 32;
+    HeightMap first = flat_map(n, n, 1.0 / n), sum = flat_map(n, n, 1.0 / n);
+    auto second = std::make_shared<HeightMap>(flat_map(n, n, 1.0 / n));
+    first.periodic = sum.periodic = second->periodic = true;
+    const double q = 2 * std::numbers::pi / n;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            first.row(j)[i] = 3e-3 * std::cos(2 * q * i) * std::cos(3 * q * j);
+            second->row(j)[i] = 2e-3 * std::sin(4 * q * i + q * j);
+            sum.row(j)[i] = first(i, j) + second->row(j)[i];
+        }
+    ShapeKeys keys;
+    keys.map = second;
+    const Indenter body{kE, shape("map", keys), 0, 0, {1, 1}}, flat{kE, Shape(kInfinity), 0, 0, {1, 1}};
+    const auto two = make_element_contact(first, body, elements()), one = make_element_contact(sum, flat, elements());
+    for (const double Z0 : {3e-3, 1e-3}) {
+        const double N = two->at_separation(Z0).force;
+        CHECK(N > 0);
+        CHECK_RELATIVE(N, one->at_separation(Z0).force, 1e-6);
+    }
+}
+
 }  // namespace
 
 TESTS {
@@ -98,6 +153,13 @@ TESTS {
     closed_form("sphere", keys, 1e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("cone", keys, 5e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("punch", keys, 1e-3, 0.12, 24, 1e-2, 2e-2, 0.5);
+
+    for (const char* name : {"paraboloid", "cone", "punch"}) {
+        const double depth = name[0] == 'c' ? 5e-3 : 1e-3;
+        friction(name, keys, depth, 0.14);
+        hardness(name, keys, 20 * depth, name[1] == 'u' ? 0.14 : 0.8);
+    }
+    two_maps();
 
     // A cylinder along y, ending at the border: away from the ends the peak pressure and the half-width b of line contact, p0 = E* b/(2 R).
     keys.angle = 0;

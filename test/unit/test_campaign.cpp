@@ -70,8 +70,8 @@ void test_archive() {
     left.append(right);
     CHECK(to_bytes(left) == to_bytes(sums));
     const Observations o = sums.finish();
-    CHECK(same(map_sums(job.observe.map, 6, o.map_area_fraction, o.map_area_rest), sums.map_area));
-    CHECK(same(map_sums(job.observe.map, 6, o.map_pressure, o.map_force_rest), sums.map_force));
+    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_area_fraction, o.map_area_rest), sums.map_area));
+    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_pressure, o.map_force_rest), sums.map_force));
     Accumulators other(job.observe, job.levels.size() + 1);
     CHECK_THROWS(sums_from_bytes(to_bytes(sums), other), Error);
 }

@@ -1,4 +1,5 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points, means of levels that failed.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "contact/spots.hpp"
 #include "error.hpp"
 #include "observe/map.hpp"
+#include "observe/record.hpp"
 #include "rough/surface.hpp"
 #include "run/job.hpp"
 #include "run/resolution.hpp"
@@ -59,6 +61,31 @@ void means() {
     CHECK(resistance.count[0] == 2 && resistance.mean[0] == 4.0);
     const LevelStatistics none = o.statistics([](const LevelValues&) { return kNotComputed; });
     CHECK(none.count[0] == 0 && std::isnan(none.mean[0]));
+}
+
+// So do they in maps, radial means and distributions: of two realizations of which one failed, they are those of the other.
+void observed() {
+    ObserveOptions options;
+    options.map = make_map_grid(0, 0, 1, 1, 4);
+    options.tip_x = options.tip_y = 0.5;
+    options.radial_bins = 2;
+    options.pdf_levels = {0.0};
+    options.pdf = make_pdf_bins(10, 1e3, 1e-2, 10, 1e300);
+    const auto record = [&](std::int64_t number, double force, LevelStatus status) {
+        Level level;
+        level.status = status;
+        level.add_contact(0, 0.4, 0.6, force, 0.1, 0.01);
+        level.force = force;
+        return observe(options, number, {}, {level});
+    };
+    Accumulators alone(options, 1), both(options, 1);
+    alone.add(record(1, 2.0, LevelStatus::overlapping));
+    both.add(record(1, 2.0, LevelStatus::overlapping));
+    both.add(record(2, 50.0, LevelStatus::not_converged));
+    const Observations a = alone.finish(), b = both.finish();
+    CHECK(a.map_pressure == b.map_pressure && a.map_area_fraction == b.map_area_fraction && a.radial_pressure == b.radial_pressure);
+    CHECK(a.distributions[0].pressure_pdf == b.distributions[0].pressure_pdf && both.converged()[0] == 1);
+    CHECK(*std::max_element(b.map_pressure.begin(), b.map_pressure.end()) > 0);
 }
 
 // A map covered by contact, whatever its cells: the fraction is the same in each, and nothing is lost.
@@ -205,6 +232,7 @@ void bounds() {
 TESTS {
     statuses();
     means();
+    observed();
     cells();
     own_areas();
     borders();

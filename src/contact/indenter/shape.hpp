@@ -41,6 +41,7 @@ struct ShapeKeys {
     double slope = 0;                                    // cone
     double radius = 0, rim_radius = 0;                   // punch: of its flat end, of its rounded rim [length]
     std::shared_ptr<const HeightMap> map;                // map: heights of body 2, upwards positive as body 1's are
+    std::vector<std::string> told;                       // map: what was done to it, for the screen
 };
 
 class IndenterShape {
