@@ -134,10 +134,12 @@ void ResultTable::measured() {
     if (!m.fit) return;
     const SelfAffineFit& found = *m.fit;
     std::vector<double> fit;
-    for (const double k : m.spectrum.wavenumber) fit.push_back(found(k));
+    for (const double k : m.spectrum.wavenumber) fit.push_back(found.around(k));
     const auto one = [](double v) { return std::vector<double>{v}; };
     add("psd_fit", {"wavenumber"}, unit(4), "self-affine spectrum fitted to psd", fit,
-        {{"Phi0", one(found.Phi0.value)},
+        {{"aspect", one(found.aspect)},
+         {"direction", one(found.direction * 180 / std::numbers::pi)},
+         {"Phi0", one(found.Phi0.value)},
          {"Phi0_error", one(found.Phi0.error)},
          {"kl", one(found.kl.value)},
          {"kl_error", one(found.kl.error)},
@@ -148,8 +150,8 @@ void ResultTable::measured() {
          {"plateau", std::vector<std::int32_t>{found.plateau ? 1 : 0}},
          {"ks_seen", std::vector<std::int32_t>{found.ks_seen ? 1 : 0}},
          {"comment",
-          "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere; least squares in logarithms; ks_seen 0: the "
-          "power law reaches the grid's shortest wave"}});
+          "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, k = hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction "
+          "[degree] of the lay, mean over all directions; least squares in logarithms; ks_seen 0: the power law reaches the grid's shortest wave"}});
 }
 
 }  // namespace rsc

@@ -52,7 +52,8 @@ struct SummitCount {
 // on top. Near the border of a map that is not periodic, and near breaks (whose pits were raised), they go through fewer points.
 //
 // With a body above (Detail::subgrid only) the summits are those of the difference, map less its face: x, y is their place, z the height of
-// the surface there, curvatures and biharmonic are the difference's. Under one that does not repeat, on a periodic map, those within
+// the surface there, curvatures and biharmonic are the difference's. On a surface with a lay the biharmonic is that of
+// the round profile that flattens like the elongated summit (Asperities::biharmonic). Under one that does not repeat, on a periodic map, those within
 // the map.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
                            Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr,

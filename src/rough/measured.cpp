@@ -70,9 +70,7 @@ Roughness roughness(const HeightMap& map) {
 
 bool Measured::gaussian() const { return std::abs(parameters.ssk) <= 0.3 && std::abs(parameters.sku - 3) <= 0.6; }
 
-double Measured::shortest_wave() const { return fit ? 2 * std::numbers::pi / fit->ks.value : 2 * std::max(dx, dy); }
-
-double Measured::points_per_wave() const { return shortest_wave() / std::max(dx, dy); }
+double Measured::points_per_wave() const { return shortest_wave / std::max(dx, dy); }
 
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
@@ -101,11 +99,23 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     }
     m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);
-    m.isotropy = isotropy_ratio(map);
+    const Isotropy slopes = isotropy(map);
+    m.isotropy = slopes.ratio;
     m.texture = measure_texture(map);
     count_heights(map, m);
     m.spectrum = measure_spectrum(map);
-    if (can_fit(m.spectrum)) m.fit = fit_self_affine(m.spectrum);
+    // Grooves without an end are stretched no further than synthesis is.
+    const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
+    const MeasuredSpectrum stretched = aspect > 1 ? measure_spectrum(map, aspect, slopes.direction) : MeasuredSpectrum();
+    m.shortest_wave = 2 * std::max(m.dx, m.dy);
+    if (can_fit(m.spectrum)) {
+        m.fit = fit_self_affine(m.spectrum);
+        m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
+    }
+    if (can_fit(stretched)) {
+        m.fit = fit_self_affine(stretched);
+        m.fit->aspect = aspect, m.fit->direction = slopes.direction;
+    }
     return m;
 }
 
@@ -135,7 +145,8 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;
-        lines.push_back(format("spectrum: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
+        lines.push_back(format("spectrum%s: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
+                               fit.aspect > 1 ? format(" (waves between along and across the lay, aspect %.2f)", fit.aspect).c_str() : "",
                                fit.hurst.value, fit.hurst.error, two_pi / fit.kl.value, l, fit.plateau ? " (plateau above)" : "",
                                two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (the grid's: no end seen)", m.points_per_wave()));
     } else {

@@ -45,8 +45,8 @@ struct Measured {
     double height_bin = 0;           // their width [length]
     MeasuredSpectrum spectrum;
     std::optional<SelfAffineFit> fit;  // none for a map too small or too flat for one
+    double shortest_wave = 0;          // where the spectrum averaged over directions ends, or twice the grid step [length]
     bool gaussian() const;             // skewness within 0.3 of 0, kurtosis within 0.6 of 3: as samples of Gaussian surfaces have them
-    double shortest_wave() const;      // 2 pi/ks [length]
     double points_per_wave() const;    // grid steps in the shortest wave
 };
 

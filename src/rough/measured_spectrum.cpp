@@ -195,7 +195,17 @@ double SelfAffineFit::operator()(double k) const {
     return Phi0.value * std::pow(k / kl.value, -2 * (1 + hurst.value));
 }
 
-MeasuredSpectrum measure_spectrum(const HeightMap& map) {
+double SelfAffineFit::around(double k) const {
+    constexpr int angles = 180;
+    double sum = 0;
+    for (int a = 0; a < angles; ++a) {
+        const double angle = std::numbers::pi * (a + 0.5) / angles;
+        sum += (*this)(k * std::hypot(std::sqrt(aspect) * std::cos(angle), std::sin(angle) / std::sqrt(aspect)));
+    }
+    return aspect == 1 ? (*this)(k) : sum / angles;
+}
+
+MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
     const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
     const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
     // The window makes a constant a wave as long as the map: the mean it sees goes first.
@@ -226,21 +236,23 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
     fftw_execute(plan.get());
 
     const double step_x = 2 * std::numbers::pi / map.Lx(), step_y = 2 * std::numbers::pi / map.Ly(), ring = std::min(step_x, step_y);
-    const double nyquist = std::numbers::pi / std::max(map.dx, map.dy);
+    // Waves of all directions with a stretched wavenumber up to this are on the grid.
+    const double stretch = std::sqrt(aspect), nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
+    const double along = std::cos(direction), across = std::sin(direction);
     const auto rings = static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
     std::vector<double> power(rings + 1, 0.0), count(rings + 1, 0.0);
     Plane plane(rings);
     for (int j = 0; j < ny; ++j) {
         const double ky = step_y * (j <= ny / 2 ? j : j - ny);
         for (int i = 0; i < columns; ++i) {
-            const double kx = step_x * i, q = std::hypot(kx, ky) / ring;
+            const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * across), (ky * along - kx * across) / stretch) / ring;
             if (!(q < static_cast<double>(rings) + 0.5)) continue;
             const auto r = static_cast<std::size_t>(q + 0.5);
             const double copies = i == 0 || 2 * i == nx ? 1 : 2;  // the other half plane is the mirror image
             const double of_mode = copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
             power[r] += of_mode;
             count[r] += copies;
-            plane.add(r, kx, ky, of_mode, copies);
+            if (aspect == 1) plane.add(r, kx, ky, of_mode, copies);
         }
     }
     // Parseval: the squares of the modes sum up to nx ny times those of the windowed heights.
@@ -257,7 +269,7 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map) {
         s.psd.push_back(scale * power[r] / count[r]);
         s.modes.push_back(count[r]);
     }
-    plane.finish(s, ring, scale);
+    if (aspect == 1) plane.finish(s, ring, scale);
     return s;
 }
 
@@ -384,7 +396,7 @@ HeightParameters height_parameters(const HeightMap& map) {
     return p;
 }
 
-double isotropy_ratio(const HeightMap& map) {
+Isotropy isotropy(const HeightMap& map) {
     double xx = 0, xy = 0, yy = 0;
     for (int j = 0; j + 1 < map.ny; ++j) {
         double row_xx = 0, row_xy = 0, row_yy = 0;
@@ -397,7 +409,8 @@ double isotropy_ratio(const HeightMap& map) {
         xx += row_xx, xy += row_xy, yy += row_yy;
     }
     const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
-    return mean + apart > 0 ? std::sqrt(std::max(0.0, mean - apart) / (mean + apart)) : 1.0;
+    if (!(mean + apart > 0)) return {};
+    return {std::sqrt(std::max(0.0, mean - apart) / (mean + apart)), 0.5 * (std::atan2(xy, 0.5 * (xx - yy)) + std::numbers::pi)};
 }
 
 }  // namespace rsc

@@ -17,7 +17,10 @@ struct SelfAffineFit {
     Fitted hurst;   // Hurst exponent; above 1 for slopes steeper than -4, below 0 for slopes flatter than -2
     bool plateau = false;
     bool ks_seen = false;  // the power law ends before the grid's shortest wave
+    // The surface's lay: the wavenumber is hypot(sqrt(aspect) k along, k across/sqrt(aspect)), so that Phi is a function of it alone.
+    double aspect = 1, direction = 0;  // ratio of the correlation lengths along and across the lay; the lay from the x axis [rad]
     double operator()(double k) const;
+    double around(double k) const;  // mean over all directions at wavenumber k of the surface itself
 };
 
 // Power spectral density over the wavenumber k = 2 pi/lambda, averaged over rings: the integral of Phi 2 pi k dk is the mean square
@@ -40,7 +43,8 @@ struct MeasuredSpectrum {
 
 // A map that is not periodic is multiplied by a Hann window, whose loss of power is restored. No point may be missing.
 // Throws Error(no_memory).
-MeasuredSpectrum measure_spectrum(const HeightMap& map);
+// With a lay the rings are ellipses of the stretched wavenumber of SelfAffineFit; plane_psd is then empty.
+MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect = 1, double direction = 0);
 
 // Least squares in the logarithms, a ring weighing as many modes as it has: a line of slope -2(1+hurst), -0.5 <= hurst <= 1.5, between kl
 // and ks that holds a hundredth of the mean square height or more; below kl a constant at its height (plateau) or a line of its own (none); beyond ks another (noise, the window's leakage). Whether
@@ -57,8 +61,11 @@ struct HeightParameters {
 };
 HeightParameters height_parameters(const HeightMap& map);
 
-// Rms slopes along the directions in which they are smallest and largest, their ratio: 1 for an isotropic surface, towards 0 for
-// grooves. From first differences.
-double isotropy_ratio(const HeightMap& map);
+// The ratio of the rms slopes along the directions in which they are smallest and largest, 1 for an isotropic surface, towards 0 for
+// grooves, and the direction of the smallest, from the x axis [rad]. From first differences.
+struct Isotropy {
+    double ratio = 1, direction = 0;
+};
+Isotropy isotropy(const HeightMap& map);
 
 }  // namespace rsc

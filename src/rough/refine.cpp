@@ -74,7 +74,7 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         const double rx = std::round(x), ry = std::round(y);
         if (!(std::abs(rx) <= travel && std::abs(ry) <= travel)) return {};
         if (!(rx >= patch.first_x && rx <= patch.last_x && ry >= patch.first_y && ry <= patch.last_y)) return {};
-        const int orders = last ? kOrders : kOrders - 1;
+        const int orders = last ? kOrders : 3;
         alignas(64) double wx[kOrders][kTaps], wy[kOrders][kTaps];
         stencil.weights(x - rx, orders, wx);
         stencil.weights(y - ry, orders, wy);
@@ -92,8 +92,9 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
             // The height that is still missing to the top is half of gradient times step.
-            return RefinedSummit{x + s.x, y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2], d[3][0],
-                                 d[2][2], d[0][3]};
+            return RefinedSummit{
+                x + s.x, y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2], d[4][0], d[3][1], d[2][2],
+                d[1][3], d[0][4]};
         }
         last = s.peak && length <= kNear;
         x += s.x;

@@ -21,7 +21,7 @@ struct Patch {
 struct RefinedSummit {
     double x = 0, y = 0, z = 0;
     double zxx = 0, zxy = 0, zyy = 0;
-    double zxxxx = 0, zxxyy = 0, zyyyy = 0;
+    double zxxxx = 0, zxxxy = 0, zxxyy = 0, zxyyy = 0, zyyyy = 0;
 };
 
 // A body above as a patch sees it: its middle is at (x, y), its steps are dx and dy.

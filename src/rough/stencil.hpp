@@ -10,8 +10,8 @@ public:
     static constexpr int kMostReach = 15;
     static constexpr int kHalf = kMostReach + 1;      // weights W_q of the points 0 ... reach, padded with zeros
     static constexpr int kTaps = 2 * kMostReach + 2;  // weights of the points -reach ... reach, padded with zeros
-    static constexpr int kOrders = 4;
-    static constexpr int kOrder[kOrders] = {0, 1, 2, 4};  // the derivatives weights() knows
+    static constexpr int kOrders = 5;
+    static constexpr int kOrder[kOrders] = {0, 1, 2, 3, 4};  // the derivatives weights() knows
 
     // For lines without waves shorter than `points_per_wave` >= 4 steps: the least error over that band, a self-affine surface's
     // long waves weighing more than its short ones. The reach is the shortest with a relative rms error of the fourth derivative

@@ -35,7 +35,7 @@ void RefinedSummits::append(const RefinedSummits& other) {
     join(found.x, other.found.x), join(found.y, other.found.y), join(found.z, other.found.z);
     join(found.radius, other.found.radius), join(found.angle, other.found.angle);
     join(found.kappa1, other.found.kappa1), join(found.kappa2, other.found.kappa2);
-    join(found.biharmonic, other.found.biharmonic);
+    join(found.biharmonic, other.found.biharmonic), join(elongated, other.elongated);
     join(row, other.row), join(column, other.column), join(maximum, other.maximum);
     join(u, other.u), join(v, other.v), join(moved, other.moved);
     saddles += other.saddles;
@@ -215,6 +215,24 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
     return {};
 }
 
+// The biharmonic of the round profile that flattens like an elongated summit. To first order a contact feels the quartic by its mean over the rim
+// of its ellipse, (3/8)(c_LL r + c_SS/r) + c_LS/8 for axes of the ratio sqrt(r) = long over short and an ellipse of unit area over pi, c_LL, c_LS and
+// c_SS being the quartic's terms along the long and the short axis (physics, section 16).
+void SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, RefinedSummits& to) const {
+    const double dx = place_.dx, dy = place_.dy, z40 = s.zxxxx / (dx * dx * dx * dx), z31 = s.zxxxy / (dx * dx * dx * dy),
+                 z22 = s.zxxyy / (dx * dx * dy * dy), z13 = s.zxyyy / (dx * dy * dy * dy), z04 = s.zyyyy / (dy * dy * dy * dy);
+    const Asperities& a = to.found;
+    const double c = std::cos(a.angle.back()), t = std::sin(a.angle.back()), cc = c * c, tt = t * t, ct = c * t;
+    const double along = z40 * cc * cc + 4 * z31 * cc * ct + 6 * z22 * cc * tt + 4 * z13 * ct * tt + z04 * tt * tt;
+    const double across = z40 * tt * tt - 4 * z31 * ct * tt + 6 * z22 * cc * tt - 4 * z13 * cc * ct + z04 * cc * cc;
+    const double both = (z40 + z04 - 4 * z22) * cc * tt + 2 * (z13 - z31) * ct * (cc - tt) + z22 * (cc * cc + tt * tt);
+    const double k1 = a.kappa1.back(), k2 = a.kappa2.back();
+    constexpr double kAxes = 0.636;  // axes of a Hertz contact: (kappa1/kappa2)^0.636 (Brewe and Hamrock 1977)
+    const double r = std::pow(k1 / k2, 2 * kAxes);
+    to.found.biharmonic.push_back(z40 + 2 * z22 + z04 - lowered);
+    to.elongated.push_back((r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2)) - lowered);
+}
+
 void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
     const Rows seen = above_ ? Rows([&](int d) { return difference_row(j + d, row(d)); }) : row;
     RowPlace place = place_;
@@ -249,7 +267,7 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
             to.saddles += maximum;
             continue;
         }
-        to.found.biharmonic.push_back(s->zxxxx / (dx2 * dx2) + 2 * s->zxxyy / (dx2 * dy2) + s->zyyyy / (dy2 * dy2) - lowered);
+        append_biharmonic(*s, lowered, to);
         to.row.push_back(j);
         to.column.push_back(i);
         to.maximum.push_back(maximum);
@@ -298,7 +316,7 @@ long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
     }
     if (dropped == 0) return 0;
     Asperities& a = s.found;
-    for (auto* values : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic, &s.u, &s.v, &s.moved})
+    for (auto* values : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic, &s.elongated, &s.u, &s.v, &s.moved})
         keep_marked(*values, keep);
     keep_marked(s.row, keep), keep_marked(s.column, keep), keep_marked(s.maximum, keep);
     return maxima;

@@ -11,11 +11,12 @@ namespace rsc {
 // Summits found in some rows, in the order of the points they were reached from.
 struct RefinedSummits {
     Asperities found;
-    std::vector<int> row, column;  // of the start
-    std::vector<char> maximum;     // the start is a maximum of the grid
-    std::vector<double> u, v;      // place in grid steps, x = x0 + u dx, y = y0 + v dy
-    std::vector<double> moved;     // from the start, the larger of both directions [grid steps]
-    long saddles = 0;              // grid maxima without a summit in reach
+    std::vector<int> row, column;   // of the start
+    std::vector<char> maximum;      // the start is a maximum of the grid
+    std::vector<double> u, v;       // place in grid steps, x = x0 + u dx, y = y0 + v dy
+    std::vector<double> elongated;  // biharmonic of the round profile that flattens like the elongated summit [1/length^3]
+    std::vector<double> moved;      // from the start, the larger of both directions [grid steps]
+    long saddles = 0;               // grid maxima without a summit in reach
     void append(const RefinedSummits& other);
 };
 
@@ -46,6 +47,7 @@ private:
     bool smooth_around(int i, int j, const RefinedSummit& summit, double bend) const;
     double usual_bend() const;
     RefinedSummit of_grid(int i, int j, double bend, bool& broken) const;
+    void append_biharmonic(const RefinedSummit& s, double lowered, RefinedSummits& to) const;
 
     // Rows of the difference, five of them. A periodic surface under a body that does not repeat goes on by kBeside points on either side.
     static constexpr int kBeside = 2, kRows = 5;

@@ -225,7 +225,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     model.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
                                        surface.origin.points_per_wave, nullptr, breaks.get());
     if (measured) {
-        drop_near_filled(model.asperities, count, map, measured->filled, measured->shortest_wave());
+        drop_near_filled(model.asperities, count, map, measured->filled, measured->shortest_wave);
     }
     if (detail_of(settings) == Detail::subgrid)
         model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
@@ -233,7 +233,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
             const Face face(indenter);
             SummitCount unused;
             Asperities found = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
-            if (measured) drop_near_filled(found, unused, *kept, measured->filled, measured->shortest_wave());
+            if (measured) drop_near_filled(found, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
         };
     require_summits(model, surface.origin.name, map.periodic ? "" : " inside the map");

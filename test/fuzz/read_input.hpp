@@ -31,7 +31,7 @@ inline void read_input(const std::string& path, std::optional<double> L) {
         const rsc::Measured measured = rsc::measure(map, {rsc::Missing::fill, kForms[map.nx % 4], map.ny % 2 == 0 ? 3 * map.dx : 0.0});
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) PROMISE(std::isfinite(map(i, j)), "a measured height");
-        PROMISE(std::isfinite(measured.parameters.sq) && measured.shortest_wave() > 0, "what was measured");
+        PROMISE(std::isfinite(measured.parameters.sq) && measured.shortest_wave > 0, "what was measured");
         PROMISE(!rsc::report(measured, "mm").empty(), "the report");
     } catch (const rsc::Error& error) {
         refused(error);

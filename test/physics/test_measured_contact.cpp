@@ -197,7 +197,7 @@ void filled_points() {
     const Job job = prepare(settings);
     CHECK(job.measured && job.measured->missing > 1200 && job.measured->missing < 1300);
     const Asperities& a = job.given->asperities;
-    const double wave = job.measured->shortest_wave();
+    const double wave = job.measured->shortest_wave;
     CHECK_RELATIVE(wave, 1.0 / 32, 0.1);
     double nearest = 1;
     for (std::size_t k = 0; k < a.size(); ++k) nearest = std::fmin(nearest, std::hypot(a.x[k] - 0.5, a.y[k] - 0.5));

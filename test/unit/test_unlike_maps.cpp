@@ -134,7 +134,7 @@ std::vector<Value> everything(const Measured& m, bool transpose = false) {
     }
     one(m.parameters.sq, 1), one(m.parameters.ssk, 0), one(m.parameters.sku, 0), one(m.isotropy, 0);
     v.push_back({m.parameters.sdq, 0, true});
-    one(m.height_bin, 1), one(m.shortest_wave(), 1), one(m.points_per_wave(), 0);
+    one(m.height_bin, 1), one(m.shortest_wave, 1), one(m.points_per_wave(), 0);
     for (std::size_t k = 0; k < m.spectrum.psd.size(); ++k)
         one(m.spectrum.wavenumber[k], -1), one(m.spectrum.psd[k], 4), one(m.spectrum.modes[k], 0);
     CHECK(m.fit.has_value());
