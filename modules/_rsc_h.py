@@ -47,6 +47,7 @@ rsc_contact_rollback(rsc_contact* contact)
 rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0)
 rsc_contact_first_touch(const rsc_contact* contact, double* separation)
 rsc_contact_indent(rsc_contact* contact, double separation, double* force)
+rsc_contact_set_time(rsc_contact* contact, double time)
 rsc_contact_press(rsc_contact* contact, double force, double* separation)
 rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts)
 rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations, int64_t* overlapping_pairs, double* residual)
@@ -145,6 +146,7 @@ BRIEF = {
     "rsc_contact_tip": 'Position of the tip.',
     "rsc_contact_first_touch": 'The separation of first contact.',
     "rsc_contact_indent": 'Computes the contact at a separation.',
+    "rsc_contact_set_time": 'Says at what time the levels that follow are reached, for a body that relaxes (solids%relaxation_share; for others it changes nothing): between two levels loads change linearly with time, and the first level is reached at once.',
     "rsc_contact_press": 'Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force.',
     "rsc_contact_result": 'The last level.',
     "rsc_contact_level": 'Status and solver data of the last level.',

@@ -118,6 +118,7 @@ module rsc
     procedure :: rollback => contact_rollback
     procedure :: tip => contact_tip
     procedure :: first_touch => contact_first_touch
+    procedure :: set_time => contact_set_time
     procedure :: indent => contact_indent
     procedure :: press => contact_press
     procedure :: separation => contact_separation

@@ -654,17 +654,25 @@ class Contact(_Object):
         (closed)."""
         return super().copy()
 
-    def indent(self, separation):
-        """Computes the contact at a separation and returns the force [force]. The answer depends on the separation and the tip alone.
-        separation: Z0, height of the tip above z = 0 [length]. Raises ArgumentError if it is not finite, NotConverged (the last iterate can
-        be read), Error."""
+    def indent(self, separation, time=None):
+        """Computes the contact at a separation and returns the force [force]. The answer depends on the separation and the tip alone, unless
+        the case has hardness or a body that relaxes.
+        separation: Z0, height of the tip above z = 0 [length]; time: of the level, for a body that relaxes (solids%relaxation_share): loads
+        change linearly with it from the last level; None: that of the last level [time]. Raises ArgumentError if one is not finite, or the
+        time is before the last level; NotConverged (the last iterate can be read), Error."""
+        self._at(time)
         return _number("rsc_contact_indent", self, separation)
 
-    def press(self, force):
+    def press(self, force, time=None):
         """Finds the separation at which the sphere carries a force, computes the contact there, and returns the separation Z0 [length].
-        force: N >= 0; 0 gives the separation of first touch [force]. Raises ArgumentError if it is negative or not finite, or no asperity
-        lies under the sphere; NotConverged (also if the force jumps over N), Error."""
+        force: N >= 0; 0 gives the separation of first touch [force]; time: as for indent. Raises ArgumentError if it is negative or not
+        finite, or no asperity lies under the sphere; NotConverged (also if the force jumps over N), Error."""
+        self._at(time)
         return _number("rsc_contact_press", self, force)
+
+    def _at(self, time):
+        if time is not None:
+            _call("rsc_contact_set_time", self, time)
 
     def curve(self, separations=None, forces=None, progress=None):
         """A level for each of the separations [length], or of the forces [force] (one of the two, shape (n,)). Returns a dictionary of arrays of

@@ -333,6 +333,12 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
  * RSC_INTERNAL, the contact then holding no result. */
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
+/* Says at what time the levels that follow are reached, for a body that relaxes (solids%relaxation_share; for others it changes nothing):
+ * between two levels loads change linearly with time, and the first level is reached at once. The time stays until it is set again, and
+ * goes back with rsc_contact_rollback; at first it is 0. contact: the contact; time: t, not before that of the last level [time]. Errors:
+ * -1 null; -2 not finite, or before the last level. */
+RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);
+
 /* Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force.
  * contact: the contact; force: N >= 0; 0 gives the separation of first touch [force]; separation (out, may be null): Z0 [length].
  * Errors: -1 null, or no asperity lies under the sphere; -2 negative or not finite; RSC_NOT_CONVERGED, also if the force jumps

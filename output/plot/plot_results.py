@@ -132,7 +132,7 @@ class Result:
         """The levels with contact as stretches in which the bodies only approach or only part, [(levels, parting)]. Where the answer does not
         depend on the way to it, the levels in order of their separation are one stretch."""
         at, z = self.loaded(), self.mean("separation") if "separation" in self else self.depth()[0]
-        remembers = self.case.get("solids%hardness", "Infinity") != "Infinity" or ("jumps" in self and self.worst("jumps").any())
+        remembers = self.case.get("solids%hardness", "Infinity") != "Infinity" or ("jumps" in self and self.worst("jumps").any()) or ("time" in self and "energy_lost" in self)
         if not remembers or at.size < 2:
             return [(at[np.argsort(-z[at], kind="stable")], False)]
         away = np.diff(z[at]) > 0

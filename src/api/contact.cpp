@@ -39,8 +39,8 @@ static_assert(static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
               static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 void require_contact_keys(const Case& settings) {
-    require_sound(settings, {"solver", "solids%resistivity", "asperities%law", "indentation%selection", "indentation%selection_factor",
-                             "surface%sigma", "surface%L"});
+    require_sound(settings, {"solver", "solids%resistivity", "solids%relaxation_share", "solids%relaxation_time", "asperities%law",
+                             "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
 }
 
 // Asperities, and points for elements, are made for one solver%model: a case that asks for the other is refused. 'auto' takes what there is.
@@ -222,10 +222,19 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         // Asked again for the level it holds, it does not compute it again.
         const rsc::Indenter& tip = contact->contact.indenter();
         const auto& known = contact->known;
-        const bool same = known.level && known.level->separation == separation && known.x0 == tip.x0 && known.y0 == tip.y0;
+        const bool same = known.level && known.level->separation == separation && known.x0 == tip.x0 && known.y0 == tip.y0 &&
+                          (!contact->contact.relaxes() || known.level->time == contact->contact.time());
         if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
         put(force, contact->known.level->force);
         tell_convergence(*contact);
+    });
+}
+
+int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
+    return guarded(2, [&] {
+        require(contact, 1, "contact");
+        require_finite(time, 2, "time");
+        contact->contact.set_time(time);
     });
 }
 

@@ -71,6 +71,7 @@ int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
         require(original, 2, "original");
         auto made = std::make_unique<rsc_contact>(*original);
         made->go_back(original->state());
+        made->contact.set_time(original->contact.time());
         made->committed = original->committed;
         return made.release();
     });

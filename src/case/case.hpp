@@ -39,12 +39,13 @@ struct Case {
         std::int64_t seed = 1;
         int realizations = 1, first_realization = 1;
         int threads = 0;  // 0: all
-        std::string length_unit = "mm", force_unit = "N";
+        std::string length_unit = "mm", force_unit = "N", time_unit = "s";
     } run;
     struct Solids {
         double E[2] = {78.0e3, kInfinity}, nu[2] = {0.42, 0.0}, R[2] = {kInfinity, 2.5};
         double hardness = kInfinity, size_effect = 0.0, resistivity[2] = {0.0, 0.0}, friction = 0.0;
         std::vector<double> layer_thickness, layer_E, layer_nu;  // from the top; empty: none
+        std::vector<double> relaxation_share, relaxation_time;   // g_k, tau_k of body 1; empty: elastic
     } solids;
     struct Surface {
         Source source = Source::synthetic;
@@ -84,6 +85,8 @@ struct Case {
         LevelUnit unit = LevelUnit::sigma;
         Spacing spacing = Spacing::linear;
         std::vector<double> levels;       // explicit list instead, in `unit`; empty: start, stop, steps
+        std::optional<double> duration;   // from the first to the last level
+        std::vector<double> times;        // explicit list instead
         std::optional<double> centre[2];  // default: the middle of the surface
         Selection selection = Selection::overlap;
         double selection_factor = 1.5;
@@ -124,6 +127,8 @@ struct ModelChoice {
     const char* why = "";  // of `auto`, for the screen
 };
 ModelChoice model_of(const Case& settings);
+// Whether body 1 relaxes: shares that are all 0 leave it elastic.
+bool relaxes(const Case& settings);
 inline bool by_elements(const Case& settings) { return model_of(settings).model == Model::elements; }
 
 }  // namespace rsc

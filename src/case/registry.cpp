@@ -49,6 +49,10 @@ Key pure_number(Key key) {
     key.unit = "1";
     return key;
 }
+Key timed(Key key) {
+    key.unit = "time";
+    return key;
+}
 // The order of the names is the order of the enumeration.
 Key one_of(const char* group, const char* name, std::vector<const char*> choices, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, choice, 1, false, 32, "", kAny, std::move(choices), "", meaning, slot};
@@ -88,6 +92,7 @@ std::vector<Key> make_registry() {
         text("run", "length_unit", 64, "unit of every length, as UDUNITS spells it; '1' for dimensionless lengths",
              RSC_SLOT(run.length_unit)),
         text("run", "force_unit", 64, "unit of every force, as UDUNITS spells it; '1' for dimensionless forces", RSC_SLOT(run.force_unit)),
+        text("run", "time_unit", 64, "unit of every time, as UDUNITS spells it; '1' for dimensionless times", RSC_SLOT(run.time_unit)),
 
         array("solids", "E", 2, "force/length^2", kPositiveOrInfinite,
               "Young's modulus of body 1 (rough) and of body 2 (the indenter); Infinity: rigid", RSC_FIRST(solids.E)),
@@ -114,6 +119,13 @@ std::vector<Key> make_registry() {
                list("solids", "layer_E", kMostLayers, "force/length^2", "none", "Young's moduli of the layers", RSC_SLOT(solids.layer_E))),
         within(above(-1, 0.5),
                list("solids", "layer_nu", kMostLayers, "1", "none", "Poisson's ratios of the layers", RSC_SLOT(solids.layer_nu))),
+
+        within(between(0, 1),
+               list("solids", "relaxation_share", kMostRelaxations, "1", "none",
+                    "shares g_k of E(1) that body 1 loses in time, E(1) (1 - sum g_k (1 - exp(-t/tau_k))); their sum is 1 at most",
+                    RSC_SLOT(solids.relaxation_share))),
+        within(kPositive, list("solids", "relaxation_time", kMostRelaxations, "time", "none",
+                               "the times tau_k in which it does so, one a share", RSC_SLOT(solids.relaxation_time))),
 
         one_of(
             "surface", "source", names(kSourceNames),
@@ -219,6 +231,11 @@ std::vector<Key> make_registry() {
         one_of("indentation", "spacing", names(kSpacingNames), "spacing of the levels", RSC_CHOICE(indentation.spacing)),
         list("indentation", "levels", 10000, "`unit`", "start, stop and steps give the levels",
              "list of levels instead of start, stop and steps", RSC_SLOT(indentation.levels)),
+        timed(optional("indentation", "duration", 1, kPositive, "none",
+                       "time from the first to the last level, spread evenly, for a body that relaxes; the first level is reached at once",
+                       RSC_SLOT(indentation.duration))),
+        list("indentation", "times", 10000, "time", "none", "the time of each level instead of `duration`, rising",
+             RSC_SLOT(indentation.times)),
         optional("indentation", "centre", 2, kAny, "the middle of the surface", "x and y of the tip of the indenter",
                  RSC_FIRST(indentation.centre)),
         one_of("indentation", "selection", names(kSelectionNames),

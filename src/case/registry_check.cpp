@@ -100,10 +100,13 @@ private:
             complain({"run%length_unit"}, "length_unit: " + wrong);
         if (const std::string wrong = unit_problem(c_.run.force_unit, Quantity::force); !wrong.empty())
             complain({"run%force_unit"}, "force_unit: " + wrong);
+        if (const std::string wrong = unit_problem(c_.run.time_unit, Quantity::time); !wrong.empty())
+            complain({"run%time_unit"}, "time_unit: " + wrong);
     }
 
     void check_solids() {
         check_layers();
+        check_relaxation();
         if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
             complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform, one at most may be rigid");
         if (std::isfinite(c_.solids.hardness)) {
@@ -142,6 +145,43 @@ private:
         if (c_.indentation.boundary == Boundary::periodic && !by_elements(c_))
             complain({"solids%layer_thickness", "solver%model"},
                      "layer_thickness: with boundary = 'periodic' not available yet for asperities; use model = 'elements'");
+    }
+
+    void check_relaxation() {
+        const Case::Solids& s = c_.solids;
+        const Case::Indentation& i = c_.indentation;
+        if (s.relaxation_share.size() != s.relaxation_time.size())
+            complain({"solids%relaxation_share", "solids%relaxation_time"},
+                     "relaxation_share, relaxation_time: have " + std::to_string(s.relaxation_share.size()) + " and " +
+                         std::to_string(s.relaxation_time.size()) + " values; each share needs its time");
+        double sum = 0;
+        for (const double g : s.relaxation_share) sum += g;
+        if (sum > 1 + 1e-12)
+            complain({"solids%relaxation_share"},
+                     "relaxation_share: the shares add up to " + namelist::from_real(sum) + "; a body has no more than 1 to lose");
+        if (i.duration && !i.times.empty())
+            complain({"indentation%duration", "indentation%times"}, "duration: times are given; one of the two");
+        const std::size_t levels = i.levels.empty() ? static_cast<std::size_t>(std::max(i.steps, 0)) : i.levels.size();
+        if (!i.times.empty() && i.times.size() != levels)
+            complain({"indentation%times", i.levels.empty() ? "indentation%steps" : "indentation%levels"},
+                     "times: has " + std::to_string(i.times.size()) + " values for " + std::to_string(levels) + " levels");
+        if (std::adjacent_find(i.times.begin(), i.times.end(), [](double a, double b) { return !(b > a); }) != i.times.end())
+            complain({"indentation%times"}, "times: must rise from each level to the next");
+        if (!relaxes(c_)) return;
+        if (!i.duration && i.times.empty())
+            complain({"indentation%duration", "solids%relaxation_share"},
+                     "duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give duration or times");
+        const auto together = [&](bool given, const char* key) {
+            if (given)
+                complain({"solids%relaxation_share", key},
+                         std::string("relaxation_share: together with ") + (std::strchr(key, '%') + 1) + " it is not available yet");
+        };
+        together(std::isfinite(s.hardness), "solids%hardness");
+        together(s.friction > 0, "solids%friction");
+        together(!s.layer_thickness.empty(), "solids%layer_thickness");
+        together(c_.compare.listed(), "compare%levels");
+        together(c_.solver.method == Method::dgesv, "solver%method");
+        if (std::isinf(s.E[0])) complain({"solids%relaxation_share", "solids%E"}, "relaxation_share: E(1) = Infinity makes body 1 rigid");
     }
 
     void check_surface() {
@@ -335,6 +375,11 @@ void require_valid(const Case& settings) {
     for (const Problem& problem : check_case(settings))
         text += (text.empty() ? "&" : "\n&") + std::string(problem.keys.front()->group) + ": " + problem.text;
     if (!text.empty()) throw Error(Failure::bad_input, text);
+}
+
+bool relaxes(const Case& settings) {
+    const auto& shares = settings.solids.relaxation_share;
+    return std::any_of(shares.begin(), shares.end(), [](double g) { return g > 0; });
 }
 
 ModelChoice model_of(const Case& settings) {

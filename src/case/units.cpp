@@ -68,14 +68,21 @@ double factor_between(const Unit& from, const Unit& to) {
     return std::strtod(digits, nullptr);
 }
 
-const char* name_of(Quantity quantity) { return quantity == Quantity::length ? "length" : "force"; }
+// What a quantity is called, the unit it is taken in unless told otherwise, one that measures it, and examples.
+struct Known {
+    const char *name, *usual, *measure, *examples;
+};
+const Known& known(Quantity quantity) {
+    static constexpr Known all[] = {
+        {"length", "mm", "m", "'mm', 'um' or 'm'"}, {"force", "N", "N", "'N', 'mN' or 'uN'"}, {"time", "s", "s", "'s', 'ms' or 'hour'"}};
+    return all[static_cast<std::size_t>(quantity)];
+}
 
 std::string problem_of(Session& session, const std::string& text, const Unit& unit, Quantity quantity) {
-    const std::string of = std::string("a unit of ") + name_of(quantity) + " as UDUNITS spells it is expected, such as " +
-                           (quantity == Quantity::length ? "'mm', 'um' or 'm'" : "'N', 'mN' or 'uN'");
+    const Known& wanted = known(quantity);
+    const std::string of = std::string("a unit of ") + wanted.name + " as UDUNITS spells it is expected, such as " + wanted.examples;
     if (!unit) return "'" + text + "' is no unit; " + of;
-    if (factor_between(unit, session.parse(quantity == Quantity::length ? "m" : "N")) == 0)
-        return "'" + text + "' is no unit of " + name_of(quantity) + "; " + of;
+    if (factor_between(unit, session.parse(wanted.measure)) == 0) return "'" + text + "' is no unit of " + wanted.name + "; " + of;
     return {};
 }
 
@@ -83,7 +90,7 @@ std::string problem_of(Session& session, const std::string& text, const Unit& un
 
 std::string unit_problem(const std::string& text, Quantity quantity) {
     // Known without being looked up: the defaults work where the list of units is missing.
-    if (text.empty() || text == "1" || text == (quantity == Quantity::length ? "mm" : "N")) return {};
+    if (text.empty() || text == "1" || text == known(quantity).usual) return {};
     Session session;
     return problem_of(session, text, session.parse(trimmed(text)), quantity);
 }

@@ -5,7 +5,7 @@
 
 namespace rsc {
 
-enum class Quantity { length, force };
+enum class Quantity { length, force, time };
 
 // An error message if `text` is no unit of the quantity, otherwise empty. '1' and '' (pure numbers, for calculations without
 // dimensions) are accepted for any quantity. Units with another zero ("m @ 5") are refused.

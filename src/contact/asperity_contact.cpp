@@ -6,6 +6,7 @@
 #include "contact/interaction/products.hpp"
 #include "contact/law/hardness.hpp"
 #include "contact/ranking.hpp"
+#include "contact/relaxing_asperities.hpp"
 #include "contact/solver/dgesv.hpp"
 #include "contact/solver/uniqueness.hpp"
 #include "contact/spots.hpp"
@@ -65,6 +66,16 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, const W
     return contacts * contacts / direct_rate(kernel) > mesh_cost ? Method::mesh : Method::direct;
 }
 
+std::unique_ptr<Law> law_of(const Asperities& asperities, double E_star, const SolverOptions& options,
+                            std::optional<RelaxingAsperities>& relaxing) {
+    auto law = make_yielding(make_law(options.law, asperities, E_star), asperities, options.hardness, traits(options.law).sinks);
+    if (options.relaxation.none()) return law;
+    const Creep creep(options.relaxation);
+    auto relaxes = make_relaxing(std::move(law), asperities.size(), creep);
+    relaxing.emplace(asperities, *relaxes, creep);
+    return relaxes;
+}
+
 }  // namespace
 
 struct AsperityContact::Impl {
@@ -76,6 +87,7 @@ struct AsperityContact::Impl {
     SolverOptions options;
     double found_x, found_y;  // the tip when the summits were found
     std::shared_ptr<const Kernel> kernel;
+    std::optional<RelaxingAsperities> relaxing;
     std::unique_ptr<Law> law;
     Ranking ranking;
 
@@ -105,8 +117,7 @@ struct AsperityContact::Impl {
           found_x(indenter_.x0),
           found_y(indenter_.y0),
           kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
-          law(make_yielding(make_law(options_.law, asperities, indenter_.E_star), asperities, options_.hardness,
-                            traits(options_.law).sinks)),
+          law(law_of(asperities, indenter_.E_star, options_, relaxing)),
           direct(make_direct_products(kernel)),
           newton(*law) {
         use(Method::direct);
@@ -115,6 +126,9 @@ struct AsperityContact::Impl {
         ranking.assign(asperities, indenter);
     }
 
+    double scale() const { return relaxing ? relaxing->scale() : 1.0; }  // forces of the law over true ones
+    // How far earlier loads of a body that relaxes raise its surface between flats, as solve() counts separations.
+    double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     void use(Method how);
     void select(double Z0);  // candidates and method
@@ -147,8 +161,9 @@ void AsperityContact::Impl::use(Method how) {
 }
 
 void AsperityContact::Impl::select(double Z0) {
-    candidates = select_candidates(ranking, asperities, indenter, options, *law, Z0);
+    candidates = select_candidates(ranking, asperities, indenter, options, *law, Z0 - raised());
     use(choose_method(options, *kernel, candidates.set));
+    if (relaxing) relaxing->lower(candidates, *products);
 }
 
 NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_start) {
@@ -208,13 +223,14 @@ Level AsperityContact::Impl::report(double Z0) const {
     double extreme = 0;
     for (std::size_t k : order) {
         const double area = law->area(set.asperity[k], v[k]);
-        level.add_contact(set.asperity[k], set.x[k], set.y[k], force[k], std::sqrt(area / std::numbers::pi), v[k]);
-        level.force += force[k];
+        const double f = force[k] / scale();
+        level.add_contact(set.asperity[k], set.x[k], set.y[k], f, std::sqrt(area / std::numbers::pi), v[k]);
+        level.force += f;
         level.area += area;
         level.beyond_law += law->beyond(set.asperity[k], v[k]);
         level.yields.push_back(law->yields(set.asperity[k], v[k]));
         level.plastic_contacts += level.yields.back();
-        if (force[k] > kExtreme * indenter.E_star * area) extreme += area;
+        if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
     if (traits(options.law).elliptic_spots)
@@ -306,7 +322,7 @@ Level AsperityContact::pass(double Z0) {
     my.earlier.remember_passed(Z0, my.candidates, my.solution.v);
     Level level;
     level.separation = Z0;
-    for (double f : my.solution.force) level.force += f;
+    for (double f : my.solution.force) level.force += f / my.scale();
     level.iterations = my.outcome.iterations;
     level.products = my.products_taken() - products_before;
     return level;
@@ -333,27 +349,40 @@ Level AsperityContact::settle(const Level& passed) {
 void AsperityContact::accept(Level& level) {
     Impl& my = *impl_;
     if (!my.law->path_dependent()) return;
-    level.plastic_work = my.law->work_lost();
-    my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
-    if (my.solution.v.empty()) return;
     const WorkingSet& set = my.candidates.set;
-    my.law->commit(set.size(), set.asperity.data(), my.solution.v.data());
+    my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
+    if (my.relaxing) {
+        my.relaxing->accept(set, my.solution, *my.products);
+        level.energy_lost = my.relaxing->lost();
+    } else {
+        my.law->commit(set.size(), set.asperity.data(), my.solution.v.data());
+        level.plastic_work = my.law->work_lost();
+    }
+    if (my.solution.v.empty()) return;
     // The same forces; energy and stiffness from now on are those of unloading.
     my.products->set_points(set.size(), set.x.data(), set.y.data());
     my.newton.take(set, my.solution.v);
-    level.plastic_work = my.law->work_lost();
 }
+
+bool AsperityContact::relaxes() const { return impl_->relaxing.has_value(); }
+
+void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
 
 std::vector<double> AsperityContact::residual_depths() const {
     std::vector<double> depths;
-    if (!path_dependent()) return depths;
+    if (!path_dependent() || relaxes()) return depths;
     for (std::size_t i = 0; i < impl_->asperities.size(); ++i) depths.push_back(impl_->law->residual_depth(static_cast<int>(i)));
     return depths;
 }
 
-// Pairs: an asperity that yielded, how deep.
+// Pairs: an asperity that yielded, how deep; of a body that relaxes what it writes, behind the time.
 std::vector<double> AsperityContact::memory() const {
     std::vector<double> pairs;
+    if (relaxes()) {
+        pairs.push_back(accepted_time());
+        impl_->relaxing->write(pairs);
+        return pairs;
+    }
     for (std::size_t i = 0; path_dependent() && i < impl_->asperities.size(); ++i)
         if (const double deepest = impl_->law->deepest(static_cast<int>(i)); deepest > 0)
             pairs.insert(pairs.end(), {static_cast<double>(i), deepest});
@@ -362,16 +391,22 @@ std::vector<double> AsperityContact::memory() const {
 
 void AsperityContact::recall(const std::vector<double>& memory, const Level* level) {
     Impl& my = *impl_;
-    std::vector<int> yielded;
-    Vector deepest;
-    for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
-        if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
-            throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
-        yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
+    if (relaxes()) {
+        if (memory.empty()) throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
+        my.relaxing->read(std::span(memory).subspan(1));
+        recall_time(memory[0]);
+    } else {
+        std::vector<int> yielded;
+        Vector deepest;
+        for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
+            if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
+                throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
+            yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
+        }
+        my.law->forget();
+        my.law->prepare(yielded);
+        my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
     }
-    my.law->forget();
-    my.law->prepare(yielded);
-    my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
     my.earlier = {};
     my.candidates = {};
     my.solution.clear();
@@ -416,7 +451,7 @@ double AsperityContact::force_at_most(double depth) {
     const WorkingSet set = select_candidates(my.ranking, my.asperities, my.indenter, my.options, *my.law, Z0).set;
     double sum = 0;
     for (std::size_t k = 0; k < set.g0.size(); ++k) sum += my.law->force(set.asperity[k], set.g0[k]);
-    return sum;
+    return sum / my.scale();
 }
 
 std::optional<double> AsperityContact::likely_separation() const {
@@ -426,19 +461,20 @@ std::optional<double> AsperityContact::likely_separation() const {
 
 std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.size(); }
 
-double AsperityContact::shift() const { return impl_->kernel->shift(); }
+double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.rough_stiffness(); }
+double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.rough_stiffness() / impl_->scale(); }
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
-    const double slope = impl_->newton.stiffness(1e-12);
+    const double slope = impl_->newton.stiffness(1e-12) / impl_->scale();
     return slope / (1 + shift() * slope);
 }
 
 // The shift c adds c N^2/2 to F'BF/2, which is no energy of the bodies.
 double AsperityContact::energy() const {
+    if (relaxes()) return impl_->relaxing->stored();
     if (impl_->solution.v.empty()) return 0;
     double N = 0;
     for (double f : impl_->solution.force) N += f;
@@ -460,7 +496,7 @@ void AsperityContact::move_tip(double x0, double y0) {
     my.ranking.move(x0, y0);
 }
 
-double AsperityContact::first_touch() const { return impl_->ranking.highest(); }
+double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }
 
 const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
 

@@ -32,6 +32,7 @@ public:
     const Indenter& indenter() const override;
     const Asperities* asperities() const override;
     bool path_dependent() const override;
+    bool relaxes() const override;
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
     std::vector<double> residual_depths() const override;
@@ -45,6 +46,7 @@ protected:
     Level settle(const Level& passed) override;
     double slope() override;
     void accept(Level& level) override;
+    void step(double dt) override;
     double shift() const override;
     double tolerance() const override;
     double force_at_most(double depth) override;

@@ -17,6 +17,12 @@ public:
     // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way have no effect on later levels.
     Level at_force(double N);
 
+    // The time of the levels that follow, for bodies that relax (relaxes(); others do not ask): loads are taken to change linearly with it
+    // from the last accepted level; the first level is reached at once. Throws Error(bad_input) if it is not finite or before that level.
+    void set_time(double time);
+    double time() const { return time_; }
+    virtual bool relaxes() const { return false; }
+
     // Of the last level:
     // dN/dZ0 (negative; 0 without contact) [force/length].
     virtual double stiffness() = 0;
@@ -41,7 +47,8 @@ public:
         forget_levels();
     }
 
-    // True if a level depends on those before it. energy() is then the recoverable energy, and stiffness() that of unloading.
+    // True if a level depends on those before it. energy() is then the recoverable energy, and stiffness() that of unloading; of bodies that
+    // relax, the energy their springs hold, and the stiffness of a sudden step.
     virtual bool path_dependent() const { return false; }
     // All that accepted levels leave behind, as numbers that only a contact made alike understands; empty where nothing stays.
     virtual std::vector<double> memory() const { return {}; }
@@ -77,6 +84,11 @@ protected:
     virtual double slope();
     // The last level solved is accepted: a model with a path stores it, and adds the plastic work to the level.
     virtual void accept(Level& level) { (void)level; }
+    // Where relaxes(): trials that follow end a step that began at the last accepted level and takes dt.
+    virtual void step(double dt) { (void)dt; }
+    // The time of the last accepted level, as the first number of memory(); NaN: there is none.
+    double accepted_time() const { return accepted_.value_or(std::numeric_limits<double>::quiet_NaN()); }
+    void recall_time(double accepted);
 
     // Between flats that repeat, solve() counts separations from where no force raises the surface (Kernel::shift()): the level at
     // the separation Z0 of the mean planes is its Z0 - shift() N. first_touch() is the same.
@@ -103,6 +115,11 @@ private:
     // Accepts a level, unless it did not converge, and completes it by what an area is needed for.
     void finish(Level& level);
     double last_force_ = 0;  // of the last level, 0 if it did not converge
+    void begin() {
+        if (relaxes()) step(accepted_ ? time_ - *accepted_ : 0.0);
+    }
+    double time_ = 0;
+    std::optional<double> accepted_;  // the time of the last accepted level
 };
 
 }  // namespace rsc

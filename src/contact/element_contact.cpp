@@ -1,5 +1,6 @@
 #include "contact/element_contact.hpp"
 
+#include "contact/load_memory.hpp"
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"
 #include "contact/pressed_out.hpp"
@@ -10,7 +11,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
 constexpr int kBlock = 16;            // pixels of a side of the blocks whose highest points are kept
 
@@ -45,6 +46,19 @@ struct ElementContact::Impl {
     PressedOut pressed;
     bool accepted = false;  // the last level: from then on the contact is elastic until pressed further
 
+    // Of a body that relaxes. p is then the pressures times scale().
+    std::optional<LoadMemory> loads;
+    std::unique_ptr<PixelProducts> loads_products;  // the solver's own keep its set of pixels
+    // How far earlier loads lower the pixels that could touch at `lowered_at` or higher, in this step; NaN: not known for any.
+    double lowered_at = kUnknown;
+    std::vector<Pixel> lowered_pixels;
+    std::vector<double> lowered;
+
+    double scale() const { return loads ? loads->compliance() : 1.0; }
+    std::int32_t place(const Pixel& pixel) const { return static_cast<std::int32_t>(pixel.y * heights.nx + pixel.x); }
+    std::vector<double> deflections(std::vector<Pixel> where, const std::vector<std::int32_t>& places, const std::vector<double>& q);
+    void take_off_rest(double Z0);
+
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
         : heights(heights_),
           indenter(indenter_),
@@ -55,6 +69,7 @@ struct ElementContact::Impl {
           blocks_x((heights_.nx + kBlock - 1) / kBlock),
           blocks_y((heights_.ny + kBlock - 1) / kBlock),
           pressed(heights_.nx, heights_.ny) {
+        if (!options.relaxation.none()) loads.emplace(Creep(options.relaxation));
         block_top.assign(at(blocks_x) * at(blocks_y), -kInfinity);
         for (int j = 0; j < heights.ny; ++j) {
             const double* row = heights.row(j);
@@ -114,6 +129,54 @@ void ElementContact::Impl::select(double Z0) {
     }
 }
 
+// K q at the pixels `where`, row by row, of pressures q on the places of the memory.
+std::vector<double> ElementContact::Impl::deflections(std::vector<Pixel> where, const std::vector<std::int32_t>& places,
+                                                      const std::vector<double>& q) {
+    if (!loads_products)
+        loads_products = make_tree_products(substrate_of(indenter), heights.dx, heights.dy, kInnerError, 0.1 * options.tolerance);
+    std::vector<Pixel> all;
+    std::vector<double> source, w;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < places.size() || k < where.size();) {
+        const std::int32_t next = k < where.size() ? place(where[k]) : std::numeric_limits<std::int32_t>::max();
+        const bool carries = i < places.size() && places[i] <= next;
+        const std::int32_t now = carries ? places[i] : next;
+        all.push_back({now % heights.nx, now / heights.nx});
+        source.push_back(carries ? q[i++] : 0.0);
+        k += now == next;
+    }
+    w.resize(all.size());
+    if (all.empty()) return w;
+    loads_products->set_pixels(all);
+    loads_products->apply(source.data(), w.data(), PixelProducts::Accuracy::full);
+    std::vector<double> wanted;
+    std::size_t j = 0;
+    for (const Pixel& pixel : where) {
+        while (!(all[j] == pixel)) ++j;
+        wanted.push_back(w[j]);
+    }
+    return wanted;
+}
+
+// The deflection that earlier loads have left is taken off g0; what is left of it nowhere cannot touch.
+void ElementContact::Impl::take_off_rest(double Z0) {
+    if (loads->places().empty()) return;
+    if (!(Z0 >= lowered_at)) {
+        lowered_at = Z0;
+        lowered_pixels = pixels;
+        lowered = deflections(pixels, loads->places(), loads->rest());
+    }
+    std::size_t kept = 0, j = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        while (!(lowered_pixels[j] == pixels[k])) ++j;
+        const double g = g0[k] - lowered[j];
+        if (!(g > 0)) continue;
+        pixels[kept] = pixels[k];
+        g0[kept++] = g;
+    }
+    pixels.resize(kept), g0.resize(kept);
+}
+
 // Pressures of the last level, or extrapolated through the last two where they lie near enough; all zero without any.
 void ElementContact::Impl::predict(double Z0) {
     p.assign(pixels.size(), 0.0);
@@ -149,7 +212,7 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
     for (std::size_t k = 0; k < pixels.size(); ++k) {
         if (!(p[k] > 0)) continue;
         touching.push_back(pixels[k]);
-        pressure.push_back(p[k]);
+        pressure.push_back(p[k] / scale());
     }
     add_pixels(level, heights, indenter, options.hardness.H0, touching, std::move(pressure));
     judge_edges(level, indenter, options);
@@ -164,6 +227,7 @@ ElementContact::ElementContact(ElementContact&&) noexcept = default;
 Level ElementContact::solve(double Z0) {
     Impl& my = *impl_;
     my.select(Z0);
+    if (my.loads) my.take_off_rest(Z0);
     my.predict(Z0);
     const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p);
     Impl::Past now{Z0, {}, {}};
@@ -182,6 +246,19 @@ Level ElementContact::solve(double Z0) {
 void ElementContact::accept(Level& level) {
     Impl& my = *impl_;
     my.accepted = true;
+    if (my.loads) {
+        std::vector<std::int32_t> where;
+        std::vector<double> p;
+        for (std::size_t k = 0; k < my.p.size(); ++k)
+            if (my.p[k] > 0) where.push_back(my.place(my.pixels[k])), p.push_back(my.p[k] / my.scale());
+        my.loads->accept(where, p, [&](const std::vector<double>& q) {
+            std::vector<Pixel> places;
+            for (const std::int32_t i : my.loads->places()) places.push_back({i % my.heights.nx, i / my.heights.nx});
+            return my.deflections(std::move(places), my.loads->places(), q);
+        });
+        level.energy_lost = my.heights.dx * my.heights.dy * my.loads->lost();
+        return;
+    }
     if (!path_dependent()) return;
     std::vector<Pixel> pixels;
     std::vector<double> depth;
@@ -191,19 +268,37 @@ void ElementContact::accept(Level& level) {
     level.plastic_work = my.options.hardness.H0 * my.heights.dx * my.heights.dy * my.pressed.sum();
 }
 
-bool ElementContact::path_dependent() const { return std::isfinite(impl_->options.hardness.H0); }
+bool ElementContact::path_dependent() const { return relaxes() || std::isfinite(impl_->options.hardness.H0); }
 
-// Triples: column and row of a point that was pressed out, how far.
+bool ElementContact::relaxes() const { return impl_->loads.has_value(); }
+
+void ElementContact::step(double dt) {
+    impl_->loads->step(dt);
+    impl_->lowered_at = kUnknown;
+}
+
+// Triples: column and row of a point that was pressed out, how far; of a body that relaxes its loads, behind the time.
 std::vector<double> ElementContact::memory() const {
     std::vector<double> triples;
+    if (relaxes()) {
+        triples.push_back(accepted_time());
+        impl_->loads->write(triples);
+        return triples;
+    }
     for (const auto& [i, j, depth] : impl_->pressed.points()) triples.insert(triples.end(), {double(i), double(j), depth});
     return triples;
 }
 
 void ElementContact::recall(const std::vector<double>& memory, const Level* level) {
     Impl& my = *impl_;
-    my.pressed = pressed_out_of(my.heights, memory);
-    my.find_top();
+    if (relaxes()) {
+        recall_loads(*my.loads, memory, my.heights);
+        recall_time(memory[0]);
+        step(0);
+    } else {
+        my.pressed = pressed_out_of(my.heights, memory);
+        my.find_top();
+    }
     forget_levels();
     if (!level) return;
     Impl::Past past{level->separation, {}, level->pixels.pressure};
@@ -231,10 +326,13 @@ double ElementContact::stiffness() {
     return slope / (1 + shift() * slope);
 }
 
+double ElementContact::slope() { return Contact::slope() / impl_->scale(); }
+
 // The part of p'Kp/2 that comes from the shift is no energy of the bodies.
 double ElementContact::energy() const {
     const Impl& my = *impl_;
     const double pixel = my.heights.dx * my.heights.dy;
+    if (my.loads) return pixel * my.loads->stored();
     double N = 0;
     for (double p : my.p) N += pixel * p;
     return pixel * my.solver.energy() - 0.5 * shift() * N * N;

@@ -3,6 +3,9 @@
 //
 // With a hardness H, p <= H: where p = H the gap w may be negative, and -w is pressed out for good: the heights are lowered by it when
 // the level is accepted. Then H times the volume pressed out is the work lost, and what is left is elastic: W = p'Kp/2 comes back.
+//
+// A body that relaxes (solids%relaxation_share) has a level as the elastic problem with a gap that earlier loads have opened
+// (load_memory.hpp).
 #pragma once
 
 #include "contact/contact.hpp"
@@ -24,6 +27,7 @@ public:
     // W = p'Kp dx dy/2, evaluated as g0'p - p'Kp/2, which equals it at the solution.
     double energy() const override;
     bool path_dependent() const override;
+    bool relaxes() const override;
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
     ResidualProfile residual_profile() const override;
@@ -38,6 +42,8 @@ protected:
     // Contacts and their areas: pixel_spots.hpp.
     Level solve(double Z0) override;
     void accept(Level& level) override;
+    void step(double dt) override;
+    double slope() override;
     double tolerance() const override;
     // A smooth indenter's where it is known, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
     double force_at_most(double depth) override;

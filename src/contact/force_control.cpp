@@ -16,6 +16,7 @@ constexpr int kPasses = 2;            // failures of predicted starts after whic
 
 Level Contact::at_separation(double Z0) {
     if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
+    begin();
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
     finish(level);
     return level;
@@ -23,12 +24,28 @@ Level Contact::at_separation(double Z0) {
 
 void Contact::finish(Level& level) {
     const bool converged = level.status != LevelStatus::not_converged;
-    if (converged) accept(level);
+    if (converged) {
+        accept(level);
+        accepted_ = time_;
+    }
+    if (relaxes()) level.time = time_;
     last_force_ = converged ? level.force : 0.0;
     if (const Period& period = indenter().period; period.finite()) {
         level.pressure = level.force / period.area();
         level.area_fraction = level.area / period.area();
     }
+}
+
+void Contact::set_time(double time) {
+    if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
+    if (relaxes() && accepted_ && time < *accepted_)
+        throw Error(Failure::bad_input, format("a time of %.9g lies before that of the last level, %.9g", time, *accepted_));
+    time_ = time;
+}
+
+void Contact::recall_time(double accepted) {
+    accepted_.reset();
+    if (std::isfinite(accepted)) accepted_ = time_ = accepted;
 }
 
 double Contact::slope() {
@@ -111,6 +128,7 @@ Level Contact::solve_between_planes(double Z0) {
 // Newton on ln N(Z0), whose slope the stiffness gives, kept inside a bracket that shrinks at every level.
 Level Contact::at_force(double N) {
     if (!(N > 0) || !std::isfinite(N)) throw Error(Failure::bad_input, "the force must be positive and finite");
+    begin();
     double above = first_touch();  // separations that carry less
     if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it carries no force");
     if (std::optional<Level> level = solve_under(N)) {

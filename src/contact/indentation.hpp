@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/indenter/shape.hpp"
+#include "contact/law/relaxation.hpp"
 #include "contact/period.hpp"
 #include "rough/asperities.hpp"
 
@@ -66,6 +67,7 @@ struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
     Hardness hardness;
+    Relaxation relaxation;
     Interaction interaction = Interaction::point;
     Selection selection = Selection::overlap;
     double selection_factor = 1.5;

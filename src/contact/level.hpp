@@ -57,6 +57,8 @@ struct LevelValues {
     double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
     double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
     std::int32_t plastic_contacts = 0;                          // contacts that yield at this level
+    double time = kNotComputed;                                 // of bodies that relax [time]
+    double energy_lost = kNotComputed;                          // work that will not come back, since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
     std::int32_t iterations = 0;  // Newton steps

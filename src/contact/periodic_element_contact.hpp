@@ -21,7 +21,8 @@ public:
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
-    bool path_dependent() const override;  // with a hardness, as in element_contact.hpp
+    bool path_dependent() const override;  // with a hardness, or where it relaxes, as in element_contact.hpp
+    bool relaxes() const override;
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
     ResidualProfile residual_profile() const override;
@@ -32,6 +33,7 @@ protected:
     Level solve(double Z0) override;
     std::optional<Level> solve_under(double N) override;
     void accept(Level& level) override;
+    void step(double dt) override;
     double closed() const override;
     double tolerance() const override;
     double force_at_most(double depth) override;

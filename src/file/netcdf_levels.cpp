@@ -37,7 +37,9 @@ void ResultTable::global_attributes(const std::string& history) {
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
                     "makes this file again, "
                     "equal but for the attribute `history`.");
-    if (r_.path_dependent) file_.attribute("path", "with hardness, levels depend on those before them: points that yielded stay lowered");
+    if (r_.path_dependent)
+        file_.attribute("path", r_.relaxes ? "levels depend on those before them: a body that relaxes remembers its loads"
+                                           : "with hardness, levels depend on those before them: points that yielded stay lowered");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
@@ -82,6 +84,9 @@ void ResultTable::levels() {
         const std::vector<double> values = of_rows<double>([&](const LevelValues& l) { return q.of(l); });
         if (q.always)
             add(q.name, dims, units(q), q.meaning, values, attributes);
+        else if (q.of_step)
+            add(q.name, {"step"}, units(q), q.meaning,
+                std::vector<double>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(o_.steps)), attributes);
         else if (q.y)
             add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
                        pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })), q.comment);

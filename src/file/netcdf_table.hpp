@@ -54,7 +54,10 @@ private:
     static bool computed(const std::vector<double>& values);
     std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y);
     bool components_ = false;  // the dimension of vectors is declared
-    std::string units(const LevelQuantity& q) const { return q.unit ? q.unit : unit(q.length_power, q.force_power); }
+    std::string units(const LevelQuantity& q) const {
+        if (!q.unit) return unit(q.length_power, q.force_power);
+        return std::string(q.unit) == "time" ? r_.time_unit : q.unit;
+    }
     void means();
     void surfaces();
     void theory();

@@ -46,9 +46,11 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
     result.case_text = std::move(case_text);
     result.length_unit = c.run.length_unit;
     result.force_unit = c.run.force_unit;
+    result.time_unit = c.run.time_unit;
     result.seed = c.run.seed;
     result.force_control = c.indentation.control != Control::separation;
-    result.path_dependent = std::isfinite(c.solids.hardness);
+    result.relaxes = relaxes(c);
+    result.path_dependent = result.relaxes || std::isfinite(c.solids.hardness);
     result.indenter = indenter;
     result.sigma = sigma > 0 ? sigma : kAbsent;
     result.theory = theory;

@@ -59,9 +59,10 @@ struct ComparedLevels {
 };
 
 struct Result {
-    std::string title, case_text, length_unit, force_unit;
+    std::string title, case_text, length_unit, force_unit, time_unit;
     std::int64_t seed = 1;
     bool path_dependent = false;  // a level depends on those before it
+    bool relaxes = false;         // because body 1 relaxes
     bool force_control = false;   // the separation of a level then differs between realizations
     Indenter indenter;
     double sigma = kAbsent;         // the length separations are divided by

@@ -80,6 +80,12 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "plastic_work", .member = &V::plastic_work, .length_power = 1, .force_power = 1,
      .meaning = "plastic work of the contacts that yielded, since the first level",
      .comment = "elements: H times the volume of the plastic residual; levels after yielding depend on those before", .always = false},
+    {.name = "time", .member = &V::time, .unit = "time", .of_step = true, .meaning = "time of the level",
+     .comment = "loads are taken to change linearly with it from level to level; the first level is reached at once", .always = false,
+     .heading = "time", .width = 11, .digits = 6},
+    {.name = "energy_lost", .member = &V::energy_lost, .length_power = 1, .force_power = 1,
+     .meaning = "work that the relaxing body has lost since the first level",
+     .comment = "energy is then what it holds: energy + energy_lost is the work done, int N d(-Z0)", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
      .comment = "of contacts; elements: of pixels, each with its own pressure. No metal carries such pressures elastically: solids%hardness "

@@ -13,7 +13,8 @@ struct LevelQuantity {
     Member member;                          // doubles may be NaN: not computed
     double LevelValues::*y = nullptr;       // of a vector: `member` is x, files have a dimension more
     int length_power = 0, force_power = 0;  // of its unit
-    const char* unit = nullptr;             // a unit of its own instead
+    const char* unit = nullptr;             // a unit of its own instead; "time": that of times
+    bool of_step = false;                   // the same in every realization
     const char* meaning = "";               // long_name
     const char* comment = "";
     bool always = true;       // false: files hold it only if some level has it (computed; a count: not 0)

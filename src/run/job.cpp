@@ -28,6 +28,14 @@ std::vector<double> spaced(const Case::Indentation& keys) {
     return values;
 }
 
+// None where the case gives none.
+std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
+    if (!keys.duration) return keys.times;
+    std::vector<double> times(levels, 0.0);
+    for (std::size_t k = 1; k < levels; ++k) times[k] = *keys.duration * static_cast<double>(k) / static_cast<double>(levels - 1);
+    return times;
+}
+
 // As many files as realizations.
 void require_maps(const Case& settings) {
     const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
@@ -131,6 +139,7 @@ Job prepare(const Case& settings) {
 
     const auto& indentation = settings.indentation;
     job.levels = spaced(indentation);
+    job.times = times_of(indentation, job.levels.size());
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
         const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
@@ -178,7 +187,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
         contact = make_element_contact(map, job.indenter, job.solver);
-        if (settings.run.realizations == 1) resolution.emplace(job, number, threads, map);
+        if (settings.run.realizations == 1 && !relaxes(settings)) resolution.emplace(job, number, threads, map);
     } else {
         if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
         SurfaceModel model = job.spectrum ? make_surface_model(settings, *job.spectrum, number, threads)
@@ -198,12 +207,14 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     }
     r.levels.reserve(job.levels.size());
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
+        if (!job.times.empty()) contact->set_time(job.times[k]);
         if (settings.indentation.control != Control::separation) {
             r.levels.push_back(contact->at_force(job.levels[k]));
         } else {
             r.levels.push_back(contact->at_separation(job.levels[k]));
         }
         Level& level = r.levels.back();
+        if (!job.times.empty()) level.time = job.times[k];
         add_answers(*contact, level, settings.solids.resistivity);
         if (resolution) resolution->judge(k, level);
         if (job.measured && job.given) judge_filled(level, *job.measured, job.domain);

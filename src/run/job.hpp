@@ -18,6 +18,7 @@ struct Job {
     SolverOptions solver;
     double sigma = 0;                  // the length unit='sigma' and delta0 mean
     std::vector<double> levels;        // separations [length], or forces [force] with control='force' or 'pressure'
+    std::vector<double> times;         // of the levels; empty: none are given
     double level_unit = 1;             // what 1 of the case's levels is of them
     std::optional<Spectrum> spectrum;  // of a synthetic surface
     std::optional<Moments> theory;     // its moments

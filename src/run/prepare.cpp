@@ -405,6 +405,11 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.method = settings.solver.method;
     options.law = settings.asperities.law;
     options.hardness = {settings.solids.hardness, settings.solids.size_effect};
+    if (relaxes(settings)) {
+        const Case::Solids& s = settings.solids;
+        const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
+        options.relaxation = {s.relaxation_share, s.relaxation_time, compliance(0) / (compliance(0) + compliance(1))};
+    }
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;

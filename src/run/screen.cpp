@@ -26,7 +26,9 @@ const char* fallback_text(Fallback fallback) {
 
 const char* name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
 // Columns of what only two flats have are theirs alone.
-bool shown(const LevelQuantity& q, const Job& job) { return q.heading && (q.always || job.indenter.period.finite()); }
+bool shown(const LevelQuantity& q, const Job& job) {
+    return q.heading && (q.always || (q.of_step ? !job.times.empty() : job.indenter.period.finite()));
+}
 
 }  // namespace
 
@@ -105,6 +107,7 @@ void print_heading(std::ostream& out, const Job& job) {
         if (!shown(q, job)) continue;
         std::string heading = q.heading;
         if (q.length_power != 0 || q.force_power != 0) heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
+        if (q.of_step) heading += " [" + job.settings.run.time_unit + "]";
         out << format(" %*s", q.width, heading.c_str());
     }
     out << '\n';
@@ -217,8 +220,11 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
                   levels.rend() - last, last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
 }
 
-// The summary of plastic contacts for cases with hardness.
+// The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that relax.
 void print_yielding(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+    if (relaxes(job.settings) && !levels.empty() && job.settings.run.realizations == 1)
+        out << format("  %.4g %s %s of the work done are lost in the body that relaxes. Levels depend on those before them.\n",
+                      levels.back().energy_lost, job.settings.run.force_unit.c_str(), job.settings.run.length_unit.c_str());
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
     const auto most = std::max_element(levels.begin(), levels.end(),
                                        [](const LevelValues& p, const LevelValues& q) { return p.plastic_contacts < q.plastic_contacts; });
@@ -277,7 +283,8 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     const auto extreme = std::max_element(levels.begin(), levels.end(), [](const LevelValues& p, const LevelValues& q) {
         return p.extreme_area_fraction < q.extreme_area_fraction;
     });
-    if (!std::isfinite(job.settings.solids.hardness) && extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
+    if (!std::isfinite(job.settings.solids.hardness) && !relaxes(job.settings) && extreme != levels.end() &&
+        extreme->extreme_area_fraction > kExtremeShare)
         out << format(
             "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal carries them elastically; solids%%hardness "
             "bounds them.\n",

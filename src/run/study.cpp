@@ -37,6 +37,7 @@ std::string variable_name(const std::string& axis) {
 std::string units_of(const Key& key, const Case& settings) {
     const std::string unit = key.unit, &l = settings.run.length_unit, &f = settings.run.force_unit;
     if (unit == "length") return unit_of(l, 1);
+    if (unit == "time") return settings.run.time_unit;
     if (unit == "force/length^2") return unit_of(l, -2, f, 1);
     return unit == "1" ? "1" : "";
 }

@@ -122,6 +122,16 @@ double PeriodicElements::closed() const {
     return impl_->highest < infinity ? -infinity : impl_->mean + kRounding * impl_->rms;
 }
 
+std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p) {
+    const auto nx = static_cast<std::size_t>(impl_->relief.nx);
+    std::vector<double> plane(nx * static_cast<std::size_t>(impl_->relief.ny), 0.0);
+    for (std::size_t k = 0; k < p.size(); ++k)
+        plane[static_cast<std::size_t>(pixels[k].y) * nx + static_cast<std::size_t>(pixels[k].x)] = p[k] / impl_->pressure_unit();
+    impl_->grid->deflect(plane);
+    for (double& u : plane) u *= impl_->rms;
+    return plane;
+}
+
 double PeriodicElements::closing_pressure() { return 0 - impl_->grid->least_inverse() * impl_->pressure_unit(); }
 
 double PeriodicElements::separation() const { return impl_->zero + impl_->grid->Z0() * impl_->rms; }

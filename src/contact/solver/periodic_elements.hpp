@@ -39,6 +39,9 @@ public:
     // solution still holds.
     void heights_changed();
 
+    // K p at every point, row by row, of pressures p on some of them; its mean is 0.
+    std::vector<double> deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p);
+
     // The mean pressure of full contact: -min of K^-1 z.
     double closing_pressure();
 

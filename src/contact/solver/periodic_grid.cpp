@@ -487,6 +487,13 @@ void PeriodicGrid::press_out() {
         if (p_[k] >= highest_) w_[k] = std::max(w_[k], 0.0);
 }
 
+void PeriodicGrid::deflect(std::vector<double>& plane) {
+    fine().apply([&](int j, double* row) { std::copy_n(plane.data() + at(j) * at(nx_), nx_, row); },
+                 [&](int j, const double* row) {
+                     for (int i = 0; i < nx_; ++i) plane[at(j) * at(nx_) + at(i)] = unit_ * row[i];
+                 });
+}
+
 double PeriodicGrid::least_inverse() {
     std::vector<double> least(at(ny_));
     fine().apply(

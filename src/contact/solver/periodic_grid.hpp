@@ -60,6 +60,8 @@ public:
     // Heights were lowered by the penetrations at the highest pressure.
     void press_out();
 
+    void deflect(std::vector<double>& plane);  // pressures of all pixels become K p
+
     double least_inverse();  // the least of K^-1 z
     void release();          // gives back what only solving needs
 

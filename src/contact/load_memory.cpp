@@ -1,0 +1,112 @@
+#include "contact/load_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+
+// Means over 0 < t < 1 of e^2, e l and l^2, where e = exp(-x t) and l = (1 - e)/x.
+struct Squares {
+    double ee, el, ll;
+};
+Squares squares(double x) {
+    constexpr double small = 1e-2;  // below, the fractions lose digits
+    const double one = x > 0 ? -std::expm1(-x) / x : 1.0, two = x > 0 ? -std::expm1(-2 * x) / (2 * x) : 1.0;
+    if (x < small) return {two, 0.5 - x * (0.5 - x * (7 / 24.0 - x / 8)), 1 / 3.0 - x * (0.25 - x * (7 / 60.0 - x / 24))};
+    return {two, (one - two) / x, (1 - 2 * one + two) / (x * x)};
+}
+
+}  // namespace
+
+LoadMemory::LoadMemory(const Creep& creep)
+    : creep_(creep), passage_(creep_, 0), y_(creep_.retardations().size()), yf_(y_.size(), 0.0), yy_(y_.size(), 0.0) {}
+
+std::vector<double> LoadMemory::rest() const {
+    std::vector<double> r(places_.size(), 0.0);
+    for (std::size_t k = 0; k < y_.size(); ++k)
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] += passage_.lags[k].stay * y_[k][i] + passage_.lags[k].before * f_[i];
+    return r;
+}
+
+void LoadMemory::accept(std::span<const std::int32_t> where, std::span<const double> f, const Deflect& deflect) {
+    std::vector<std::int32_t> all;
+    std::set_union(places_.begin(), places_.end(), where.begin(), where.end(), std::back_inserter(all));
+    const auto spread = [&](std::span<const std::int32_t> at, std::span<const double> values) {
+        std::vector<double> over(all.size(), 0.0);
+        for (std::size_t i = 0, k = 0; k < at.size(); ++i)
+            if (all[i] == at[k]) over[i] = values[k++];
+        return over;
+    };
+    const std::vector<double> now = spread(where, f), before = spread(places_, f_);
+    for (auto& y : y_) y = spread(places_, y);
+    places_ = std::move(all);
+    const std::vector<double> d = deflect(now);
+    const double f01 = dot(before, d), f11 = dot(now, d), f00 = ff_;
+    for (std::size_t k = 0; k < y_.size(); ++k) {
+        const auto [rate, flow] = creep_.retardations()[k];
+        const auto [stay, a, b] = passage_.lags[k];
+        const double y0d = dot(y_[k], d), yf = yf_[k], yy = yy_[k];
+        // Lost: y'' K y' over the flow, where y' = alpha exp(-rate t) + beta (1 - exp(-rate t))/rate.
+        const Squares mean = squares(rate * passage_.dt);
+        const double alpha2 = flow * flow * f00 - 2 * flow * rate * yf + rate * rate * yy,
+                     both = flow * (flow * (f01 - f00) - rate * (y0d - yf)), beta2 = flow * flow * (f11 - 2 * f01 + f00);
+        lost_ += passage_.dt / flow * (mean.ee * alpha2 + 2 * mean.el * both + mean.ll * beta2);
+        yy_[k] = stay * stay * yy + a * a * f00 + b * b * f11 + 2 * (stay * a * yf + stay * b * y0d + a * b * f01);
+        yf_[k] = stay * y0d + a * f01 + b * f11;
+        for (std::size_t i = 0; i < now.size(); ++i) y_[k][i] = stay * y_[k][i] + a * before[i] + b * now[i];
+    }
+    f_ = now;
+    ff_ = f11;
+}
+
+double LoadMemory::stored() const {
+    double sum = ff_;
+    for (std::size_t k = 0; k < y_.size(); ++k) sum += creep_.retardations()[k].rate / creep_.retardations()[k].flow * yy_[k];
+    return 0.5 * sum;
+}
+
+void LoadMemory::forget() { *this = LoadMemory(Creep(creep_)); }
+
+void LoadMemory::write(std::vector<double>& numbers) const {
+    numbers.insert(numbers.end(), {static_cast<double>(places_.size()), ff_, lost_});
+    numbers.insert(numbers.end(), yf_.begin(), yf_.end());
+    numbers.insert(numbers.end(), yy_.begin(), yy_.end());
+    numbers.insert(numbers.end(), places_.begin(), places_.end());
+    numbers.insert(numbers.end(), f_.begin(), f_.end());
+    for (const auto& y : y_) numbers.insert(numbers.end(), y.begin(), y.end());
+}
+
+std::size_t LoadMemory::read(std::span<const double> numbers) {
+    forget();
+    const std::size_t terms = y_.size(), head = 3 + 2 * terms;
+    const double count = numbers.size() >= head ? numbers[0] : -1;
+    if (!(count >= 0 && count <= 2147483647.0) || numbers.size() < head + static_cast<std::size_t>(count) * (2 + terms) ||
+        std::any_of(numbers.begin(), numbers.end(), [](double v) { return !std::isfinite(v); }))
+        throw Error(Failure::bad_input, "this is no memory of loads");
+    const auto n = static_cast<std::size_t>(count);
+    const double* next = numbers.data() + 1;
+    const auto take = [&](std::vector<double>& to, std::size_t size) { to.assign(next, next + size), next += size; };
+    ff_ = *next++, lost_ = *next++;
+    take(yf_, terms), take(yy_, terms);
+    for (std::size_t i = 0; i < n; ++i) places_.push_back(static_cast<std::int32_t>(*next++));
+    take(f_, n);
+    for (auto& y : y_) take(y, n);
+    if (!std::is_sorted(places_.begin(), places_.end()) || (n > 0 && places_[0] < 0))
+        throw Error(Failure::bad_input, "this is no memory of loads");
+    return static_cast<std::size_t>(next - numbers.data());
+}
+
+void recall_loads(LoadMemory& loads, const std::vector<double>& memory, const HeightMap& map) {
+    if (memory.empty() || loads.read(std::span(memory).subspan(1)) + 1 != memory.size() ||
+        (!loads.places().empty() && loads.places().back() / map.nx >= map.ny))
+        throw Error(Failure::bad_input, "this is no memory of loads on this map");
+}
+
+}  // namespace rsc

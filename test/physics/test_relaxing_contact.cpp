@@ -1,0 +1,207 @@
+// Contacts of a body that relaxes, asperities and elements, free and between flats, against the elastic contact: the correspondence principle
+// while contacts grow, the two elastic answers in the limits, conservation of energy, convergence, memories.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
+#include "error.hpp"
+#include "physics/random_asperities.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kE = 10, kFlat = std::numeric_limits<double>::infinity();
+const Relaxation kBody{{0.3, 0.4}, {0.2, 3}};
+
+HeightMap waves() {
+    HeightMap map;
+    constexpr int n = 32;
+    map.allocate(n, n, n);
+    map.dx = map.dy = 1.0 / n, map.x0 = map.y0 = 0;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const double x = 2 * std::numbers::pi * i / n, y = 2 * std::numbers::pi * j / n;
+            map.row(j)[i] = 0.01 * (std::cos(x) * std::cos(2 * y + 1) + 0.7 * std::cos(3 * x + 2 * y) + 0.4 * std::sin(5 * y - 2 * x));
+        }
+    return map;
+}
+
+// Six asperities, or a wavy map.
+struct Kind {
+    const char* name;
+    bool elements, periodic;
+    LawKind law = LawKind::hertz;
+    double depth = 0.02;
+};
+constexpr Kind kModels[] = {{"asperities", false, false},
+                            {"fourth order", false, false, LawKind::fourth_order},
+                            {"asperities between flats", false, true},
+                            {"elements", true, false},
+                            {"elements between flats", true, true, LawKind::hertz, 0.008}};
+
+std::unique_ptr<Contact> make(const Kind& model, const Relaxation& body) {
+    static const HeightMap map = waves();
+    static const Asperities asperities = [] {
+        Asperities a;
+        a.x = {0.2, 0.35, 0.7, 0.8, 0.4, 0.6}, a.y = {0.3, 0.4, 0.2, 0.75, 0.8, 0.5}, a.z = {0.002, 0.0, -0.004, 0.006, 0.003, -0.01};
+        a.radius = {0.2, 0.1, 0.15, 0.1, 0.3, 0.25};
+        for (double r : a.radius) a.kappa1.push_back(1.3 / r), a.kappa2.push_back(1 / (1.3 * r));
+        a.angle = {0, 1, 2, 0.5, 0.3, 0.1}, a.biharmonic = {20, 30, 10, 40, 5, 9};
+        return a;
+    }();
+    SolverOptions options;
+    options.tolerance = 1e-11;
+    options.law = model.law;
+    options.relaxation = body;
+    Indenter indenter{kE, model.periodic ? kFlat : 4.0, 0.5, 0.5, model.periodic ? Period{1, 1} : Period{}};
+    if (model.elements) return make_element_contact(map, indenter, options);
+    return std::make_unique<AsperityContact>(asperities, indenter, options);
+}
+
+// Pressed in at a constant rate, the contact is the elastic one of its separation, and N = int phi(t - t') dN_e: of second order in the steps.
+void test_growing(const Kind& model) {
+    const Creep creep(kBody);
+    const auto run = [&](int steps, double& worst_area) {
+        const auto soft = make(model, kBody), elastic = make(model, {});
+        const double touch = elastic->first_touch();
+        double expected = 0, last = 0, force = 0;
+        for (int k = 0; k <= steps; ++k) {
+            const double Z0 = touch - model.depth * k / steps, t = 2.0 * k / steps;
+            soft->set_time(t);
+            const Level level = soft->at_separation(Z0), e = elastic->at_separation(Z0);
+            // int phi over the steps that remain, the rise of N_e being linear in each.
+            const Passage rest(creep, 2.0 / steps);
+            const double left = 2 - t;
+            double mean = creep.last();
+            for (std::size_t b = 0; b < creep.branches().size(); ++b)
+                mean += creep.branches()[b].share * rest.decays[b].change * std::exp(-creep.branches()[b].rate * left);
+            expected += mean * (e.force - last);
+            last = e.force, force = level.force;
+            if (k > 0) worst_area = check::worse(worst_area, std::abs(level.area - e.area) / e.area);
+        }
+        return force / expected - 1;
+    };
+    double area = 0, ignored = 0;
+    const double coarse = run(10, ignored), fine = run(20, area);
+    CHECK(std::abs(fine) < (model.elements ? 2e-3 : 1e-7));  // asperities: nothing but the solver's tolerance
+    if (model.elements) CHECK(std::abs(fine) < 0.35 * std::abs(coarse));
+    CHECK(area < (model.elements ? 0.06 : 1e-7));  // a pixel more or less
+}
+
+// Held at once and for long, the two elastic contacts; under a force, too; and everything forgotten after a long time without contact.
+void test_limits(const Kind& model) {
+    const auto soft = make(model, kBody), elastic = make(model, {});
+    const double touch = elastic->first_touch(), Z0 = touch - model.depth;
+    const Level e = elastic->at_separation(Z0);
+    const auto as_elastic = [&](const Level& level, double of) {
+        CHECK_RELATIVE(level.force, of * e.force, 1e-8);
+        CHECK_RELATIVE(level.area, e.area, 1e-8);
+    };
+    as_elastic(soft->at_separation(Z0), 1);
+    CHECK_RELATIVE(soft->stiffness(), elastic->stiffness(), 1e-7);
+    CHECK_RELATIVE(soft->energy(), elastic->energy(), 1e-8);
+    soft->set_time(1e-10);
+    as_elastic(soft->at_separation(Z0), 1);
+    double time = 0;
+    for (int k = 0; k < 6; ++k) soft->set_time(time += 1e4), (void)soft->at_separation(Z0);
+    soft->set_time(time += 1e4);
+    as_elastic(soft->at_separation(Z0), 0.3);
+    const auto pressed = make(model, kBody);
+    for (int k = 0; k < 7; ++k) pressed->set_time(1e4 * k), (void)pressed->at_force(0.3 * e.force);
+    pressed->set_time(1e5);
+    const Level held = pressed->at_force(0.3 * e.force);
+    CHECK_RELATIVE(held.separation - touch, e.separation - touch, 1e-7);
+    CHECK_RELATIVE(held.area, e.area, 1e-6);
+    for (int k = 0; k < 7; ++k) soft->set_time(time += 1e4), CHECK(soft->at_separation(touch + 5 * model.depth).force == 0);
+    as_elastic(soft->at_separation(Z0), 1);
+}
+
+// Down, held, up, down again: work = stored + lost; and the forces converge, both with the square of the step.
+void test_path(const Kind& model) {
+    struct End {
+        double balance, force, lost;
+    };
+    const auto run = [&](int steps) {
+        const auto soft = make(model, kBody);
+        const double touch = soft->first_touch();
+        double work = 0;
+        Level last;
+        for (int k = 0; k <= steps; ++k) {
+            const double t = 3.0 * k / steps;
+            soft->set_time(t);
+            const double depth = model.depth * (t < 1 ? t : t < 1.5 ? 1 : t < 2 ? 2.5 - t : 0.5 + 0.2 * (t - 2));
+            const Level level = soft->at_separation(touch - depth);
+            if (k > 0) work += 0.5 * (level.force + last.force) * (last.separation - level.separation);
+            last = level;
+        }
+        return End{(soft->energy() + last.energy_lost) / work - 1, last.force, last.energy_lost / work};
+    };
+    const End a = run(60), b = run(120), c = run(240);
+    CHECK(c.lost > 0.1 && std::abs(c.balance) < 1e-4 && std::abs(c.balance) < 0.3 * std::abs(a.balance));
+    const double order = std::abs(a.force - b.force) / std::abs(b.force - c.force);
+    if (!model.elements) CHECK(std::abs(order - 4) < 0.3);
+    CHECK(std::abs(b.force - c.force) < 1e-3 * c.force);
+}
+
+// Trials that were not accepted, another contact that took over the memory: they go on alike.
+void test_memory(const Kind& model) {
+    const auto soft = make(model, kBody), copy = make(model, kBody);
+    const double touch = soft->first_touch();
+    Level level;
+    for (const double depth : {0.5, 1.0, 0.8}) soft->set_time(soft->time() + 0.3), level = soft->at_separation(touch - model.depth * depth);
+    copy->recall(soft->memory(), &level);
+    CHECK(copy->time() == soft->time());
+    CHECK_RELATIVE(copy->energy(), soft->energy(), 1e-9);
+    CHECK_RELATIVE(copy->stiffness(), soft->stiffness(), 1e-7);
+    for (Contact* c : {soft.get(), copy.get()}) c->set_time(2);
+    const Level a = soft->at_force(0.7 * level.force), b = copy->at_separation(a.separation);
+    CHECK_RELATIVE(b.force, a.force, 1e-8);
+    CHECK_RELATIVE(b.energy_lost, a.energy_lost, 1e-6);
+    CHECK_THROWS(soft->set_time(1.9), Error);
+    CHECK_THROWS(copy->recall({0.0, 3.0}, nullptr), Error);
+}
+
+// A paraboloid by pixels and as an asperity: pressed, held under the force, let back.
+void test_one_summit() {
+    HeightMap map;
+    constexpr int n = 96;
+    map.allocate(n, n, n);
+    map.dx = map.dy = 1.0 / n, map.x0 = map.y0 = 0.5 / n;
+    constexpr double radius = 2;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) map.row(j)[i] = -(std::pow((i + 0.5) / n - 0.5, 2) + std::pow((j + 0.5) / n - 0.5, 2)) / (2 * radius);
+    Asperities one;
+    one.x = one.y = {0.5}, one.z = {0}, one.radius = {radius};
+    SolverOptions options;
+    options.tolerance = 1e-8;
+    options.relaxation = kBody;
+    const Indenter flat{kE, kFlat, 0.5, 0.5};
+    AsperityContact asperity(one, flat, options);
+    ElementContact elements(map, flat, options);
+    for (int k = 0; k <= 30; ++k) {
+        const double t = 0.05 * k, depth = 0.04 * (t < 0.5 ? 0.3 + t : t < 1 ? 0.8 : 1.4 - 0.6 * t);
+        asperity.set_time(t), elements.set_time(t);
+        const Level a = asperity.at_separation(-depth), e = elements.at_separation(-depth);
+        CHECK_RELATIVE(a.force, e.force, 0.01);
+        CHECK_RELATIVE(a.area, e.area, 0.04);
+    }
+}
+
+}  // namespace
+
+TESTS {
+    for (const Kind& kind : kModels) {
+        test_growing(kind);
+        test_limits(kind);
+        test_path(kind);
+        test_memory(kind);
+    }
+    test_one_summit();
+}
