@@ -296,7 +296,7 @@ RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* 
  * a_case: the case, null for the defaults. Errors: -1, -2 null; -3 keys that are refused; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case);
 
-/* A copy that is independent of the original, with its last level, its plastic residual (solids%hardness) and its committed state.
+/* A copy that is independent of the original, with its last level, what stays of its path (solids%hardness, solids%adhesion) and its committed state.
  * contact (out): the handle; original: the contact, which other threads may use only by functions that take it as pointer to const.
  * Errors: -1, -2 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original);
@@ -310,7 +310,7 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * then is not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
-/* Stores the state for rsc_contact_rollback: the tip, the last level, and the plastic residual (solids%hardness). A new contact is committed
+/* Stores the state for rsc_contact_rollback: the tip, the last level, and what the path has left (solids%hardness, solids%adhesion). A new contact is committed
  * when it is made. For codes that try a step and may have to repeat it.
  * contact: the contact. Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_commit(rsc_contact* contact);
@@ -326,8 +326,9 @@ RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* 
  * contact: the contact; separation (out) [length]. Errors: -1 null, or no asperity lies under the sphere; -2 null. */
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
-/* Computes the contact at a separation. The result depends on the separation and the tip alone, and with solids%hardness on the levels
- * before. A level near the last one is computed faster; the last one itself is not computed again.
+/* Computes the contact at a separation. The result depends on the separation and the tip alone, and with solids%hardness or solids%adhesion on
+ * the levels before (with adhesion it follows from the last level at fixed grips). A level near the last one is computed faster; the last one
+ * itself is not computed again.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, results then being those of the last iterate; RSC_NO_MEMORY,
  * RSC_INTERNAL, the contact then holding no result. */
@@ -341,6 +342,8 @@ RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);
 
 /* Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force.
  * contact: the contact; force: N >= 0; 0 gives the separation of first touch [force]; separation (out, may be null): Z0 [length].
+ * With solids%adhesion N may be negative, and the level is the first on the way from the last one that carries it, N = 0 included; where none
+ * does, the state of the smallest force is held, and the status is RSC_NOT_CONVERGED.
  * Errors: -1 null, or no asperity lies under the sphere; -2 negative or not finite; RSC_NOT_CONVERGED, also if the force jumps
  * over N, results then being those of the last iterate; RSC_NO_MEMORY, RSC_INTERNAL, the contact then holding no result. */
 RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation);
@@ -447,7 +450,7 @@ RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const doubl
                                   double* lateral_y, double* moment_x, double* moment_y, int32_t* level_status, int32_t* status,
                                   int32_t threads);
 
-/* Saves a contact in a file: tip, options, the last level, the plastic residual (solids%hardness) and the committed state, but neither the
+/* Saves a contact in a file: tip, options, the last level, what the path has left (solids%hardness, solids%adhesion) and the committed state, but neither the
  * asperities nor the surface of elements. The saved and the restored contact continue alike, an elastic one bit for bit. For that,
  * earlier levels no longer serve as starts for the next ones, so that results after a save may differ within the tolerance. The file
  * depends on the machine type; later versions of the library can read it. It is written completely or not at all. An existing file is

@@ -21,6 +21,7 @@ from plot_python import needs
 if __name__ == "__main__":
     needs("numpy", "netCDF4", "matplotlib")
 
+import plot_adhesion
 import plot_area
 import plot_compare
 import plot_curves
@@ -40,7 +41,7 @@ from plot_style import WIDTHS, plt
 # To add a picture, write a function of (results, options) that returns a figure, or None where the results do not hold what it draws.
 PICTURES = {"load": plot_curves.load, "area": plot_area.area, "flats": plot_flats.flats, "study": plot_study.study, "map": plot_map.maps, "radial": plot_radial.radial,
             "spots": plot_spots.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions, "surface": plot_surface.surface, "texture": plot_texture.texture, "stiffness": plot_curves.stiffness,
-            "resistance": plot_curves.resistance, "loop": plot_friction.loop, "stick": plot_friction.stick, "time": plot_time.time}
+            "resistance": plot_curves.resistance, "loop": plot_friction.loop, "stick": plot_friction.stick, "time": plot_time.time, "pull": plot_adhesion.pull}
 
 Options = namedtuple("Options", "width step say", defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)))
 

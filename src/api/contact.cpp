@@ -241,10 +241,11 @@ int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
 int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation) {
     return guarded(2, [&] {
         require(contact, 1, "contact");
-        if (!(force >= 0) || !std::isfinite(force)) refuse(2, "force", "must be positive or zero, and finite");
+        const bool pulls = contact->contact.pulls();
+        if (!(force >= 0 || pulls) || !std::isfinite(force)) refuse(2, "force", "must be positive or zero, and finite");
         const double touch = contact->contact.first_touch();
         if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere: no force can be carried");
-        compute(*contact, [&] { return force > 0 ? contact->contact.at_force(force) : contact->contact.at_separation(touch); });
+        compute(*contact, [&] { return force > 0 || pulls ? contact->contact.at_force(force) : contact->contact.at_separation(touch); });
         put(separation, contact->known.level->separation);
         tell_convergence(*contact);
     });

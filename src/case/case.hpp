@@ -44,6 +44,7 @@ struct Case {
     struct Solids {
         double E[2] = {78.0e3, kInfinity}, nu[2] = {0.42, 0.0}, R[2] = {kInfinity, 2.5};
         double hardness = kInfinity, size_effect = 0.0, resistivity[2] = {0.0, 0.0}, friction = 0.0;
+        double adhesion = 0.0, adhesion_range = 0.0;
         std::vector<double> layer_thickness, layer_E, layer_nu;  // from the top; empty: none
         std::vector<double> relaxation_share, relaxation_time;   // g_k, tau_k of body 1; empty: elastic
     } solids;

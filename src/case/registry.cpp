@@ -112,6 +112,13 @@ std::vector<Key> make_registry() {
         scalar("solids", "friction", real, "1", kNotNegative,
                "coefficient of friction mu; if above 0, the result has the tangential force at each level (one realization only)",
                RSC_SLOT(solids.friction)),
+        scalar("solids", "adhesion", real, "force/length", kNotNegative,
+               "work of adhesion w: above 0 bodies stick, forces may be negative, and levels depend on those before them",
+               RSC_SLOT(solids.adhesion)),
+        scalar(
+            "solids", "adhesion_range", real, "length", kNotNegative,
+            "range z0 of the attraction, constant traction w/z0 across gaps below z0 (Dugdale); 0: that of the contact's edge alone (JKR)",
+            RSC_SLOT(solids.adhesion_range)),
         within(kPositive, list("solids", "layer_thickness", kMostLayers, "length", "none",
                                "thicknesses of layers on body 1, top first; E(1) and nu(1) then belong to the body below them",
                                RSC_SLOT(solids.layer_thickness))),

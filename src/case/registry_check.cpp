@@ -104,9 +104,29 @@ private:
             complain({"run%time_unit"}, "time_unit: " + wrong);
     }
 
+    void check_adhesion() {
+        const Case::Solids& s = c_.solids;
+        if (!(s.adhesion > 0)) {
+            if (s.adhesion_range > 0) complain({"solids%adhesion_range", "solids%adhesion"}, "adhesion_range: needs solids%adhesion > 0");
+            return;
+        }
+        const auto refuse = [&](bool asked, const char* with, const std::string& what) {
+            if (asked) complain({"solids%adhesion", with}, "adhesion: " + what);
+        };
+        refuse(std::isfinite(s.hardness), "solids%hardness", "with solids%hardness it is not available yet");
+        refuse(s.friction > 0, "solids%friction", "with solids%friction it is not available yet");
+        refuse(s.adhesion_range > 0, "solids%adhesion_range", "with adhesion_range > 0 it is not available yet; 0 is JKR");
+        refuse(by_elements(c_), "solver%model", "with model = 'elements' it is not available yet");
+        refuse(c_.compare.listed(), "compare%levels", "with model = 'elements' it is not available yet; give no compare%levels");
+        refuse(c_.solver.method == Method::dgesv, "solver%method", "the paper's method knows no tension; give another method than 'dgesv'");
+        refuse(c_.indentation.selection == Selection::paper, "indentation%selection",
+               "pulls in asperities beyond the circle of selection = 'paper'; give 'overlap'");
+    }
+
     void check_solids() {
         check_layers();
         check_relaxation();
+        check_adhesion();
         if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
             complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform, one at most may be rigid");
         if (std::isfinite(c_.solids.hardness)) {
@@ -299,9 +319,9 @@ private:
                 complain({"indentation%stop", "indentation%spacing"},
                          "stop = " + namelist::from_real(i.stop) + ": must be positive " + why);
         };
-        if (i.control == Control::force)
+        if (i.control == Control::force && !(c_.solids.adhesion > 0))
             positive("with control = 'force'");
-        else if (i.control == Control::pressure)
+        else if (i.control == Control::pressure && !(c_.solids.adhesion > 0))
             positive("with control = 'pressure'");
         else if (!explicit_levels && i.spacing == Spacing::log)
             positive("with spacing = 'log'");
@@ -392,6 +412,7 @@ ModelChoice model_of(const Case& settings) {
     }
     // Keys that elements do not support.
     if (settings.compare.listed()) return {Model::asperities, "compare%levels compares them with elements"};
+    if (settings.solids.adhesion > 0) return {Model::asperities, "solids%adhesion needs them"};
     if (settings.solids.friction > 0) return {Model::asperities, "solids%friction needs them"};
     if (settings.solids.hardness < Case::kInfinity && settings.solids.size_effect > 0)
         return {Model::asperities, "solids%size_effect needs them"};

@@ -1,17 +1,15 @@
 #include "contact/asperity_contact.hpp"
 
+#include "contact/adhesive_contact.hpp"
+#include "contact/asperity_level.hpp"
 #include "contact/candidates.hpp"
-#include "contact/expected_error.hpp"
-#include "contact/interaction/mesh.hpp"
 #include "contact/interaction/products.hpp"
 #include "contact/law/hardness.hpp"
 #include "contact/ranking.hpp"
 #include "contact/relaxing_asperities.hpp"
 #include "contact/solver/dgesv.hpp"
 #include "contact/solver/uniqueness.hpp"
-#include "contact/spots.hpp"
 #include "contact/start.hpp"
-#include "contact/validity.hpp"
 #include "contact/working_set.hpp"
 #include "error.hpp"
 
@@ -22,48 +20,12 @@ using Vector = std::vector<double>;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// The summits of the difference between surface and indenter, or nothing where the asperities are to be taken as they are.
-std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                                                const SummitSearch& search) {
-    require_sound(indenter);
-    if (!search || indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0)) return std::nullopt;
-    double highest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < asperities.size(); ++i)
-        highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
-    constexpr double depth = 8;  // rms heights below the highest: from 4 sigma down to where the model ends
-    const double steepest = steepest_above(asperities, indenter, highest - depth * options.sigma);
-    if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
-        Asperities found = search(indenter);
-        // Paraboloids, which go on widening, would carry far too much there.
-        if (options.law == LawKind::fourth_order) add_flanks(found, asperities, options.mean_spacing);
-        return found;
-    }
-    return moved_summits(asperities, indenter);
-}
-
 // Distance that a tip may move before the summits of the difference are searched again.
 double summits_keep(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     double curvature = 0;
     for (std::size_t i = 0; i < asperities.kappa1.size(); ++i) curvature += std::sqrt(asperities.kappa1[i] * asperities.kappa2[i]);
     const double size = options.rms_slope * static_cast<double>(asperities.kappa1.size()) / curvature;
     return std::fmax(0.1 * size, 0.02 * options.rms_slope * indenter.shape->hertz_radius());  // NaN where it is no sphere
-}
-
-// `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures. The dense method is never the cheapest.
-Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates) {
-    if (kernel.none()) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
-    if (options.method != Method::automatic) return options.method;
-    // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
-    constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
-    const double contacts = contacts_per_candidate * static_cast<double>(candidates.size());
-    double scale = 1e300;  // of a smooth part, in extents of the candidates
-    if (kernel.smooth() && candidates.size() > 0) {
-        const auto [west, east] = std::minmax_element(candidates.x.begin(), candidates.x.end());
-        const auto [south, north] = std::minmax_element(candidates.y.begin(), candidates.y.end());
-        scale = kernel.smooth()->scale() / std::max({*east - *west, *north - *south, 1e-300});
-    }
-    const double mesh_cost = mesh_overhead * MeshPotential::estimated_cost(at(candidates.size()), 1e-3, 1, scale);
-    return contacts * contacts / direct_rate(kernel) > mesh_cost ? Method::mesh : Method::direct;
 }
 
 std::unique_ptr<Law> law_of(const Asperities& asperities, double E_star, const SolverOptions& options,
@@ -145,9 +107,6 @@ struct AsperityContact::Impl {
         return has_one_solution(*law, *kernel, candidates.set.asperity, candidates.set.x, candidates.set.y, v, force, slope);
     }
     Level report(double Z0) const;
-    std::vector<Spot> spots(const Level& level) const;
-    double beside() const;
-    mutable std::optional<double> beside_;  // until the tip moves
 };
 
 void AsperityContact::Impl::use(Method how) {
@@ -186,29 +145,6 @@ NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
     return result;
 }
 
-// The contacts of a level as they lie on the surface: their long axes are those of the smaller curvature.
-std::vector<Spot> AsperityContact::Impl::spots(const Level& level) const {
-    std::vector<Spot> spots;
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        const double root = std::sqrt(law->axes(level.asperity[k]));
-        spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root, asperities.angle[at(level.asperity[k])]});
-    }
-    return spots;
-}
-
-// Z0 from which on down the flank of some summit touches the indenter, slope^2/(2 curvature) before its top does.
-double AsperityContact::Impl::beside() const {
-    if (beside_) return *beside_;
-    double highest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < asperities.size(); ++i) {
-        const Vec2 slope = indenter.shape->gradient(asperities.x[i] - indenter.x0, asperities.y[i] - indenter.y0);
-        const double nearer = 0.5 * (slope.x * slope.x + slope.y * slope.y) * asperities.radius[i];
-        highest = std::fmax(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer);
-    }
-    beside_ = highest;
-    return highest;
-}
-
 Level AsperityContact::Impl::report(double Z0) const {
     const WorkingSet& set = candidates.set;
     const auto& [v, force, slope] = solution;
@@ -233,17 +169,7 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
-    if (traits(options.law).elliptic_spots)
-        level.area = union_area(spots(level), &level.overlapping_pairs, indenter.period, &level.own_area);
-    else
-        level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
-    if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
-    if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
-    expect_error(level, asperities, indenter, options);
-    judge_range(level, indenter, options);
-    // The surface's own summits touch only where the indenter is flat beside them.
-    if (!of_difference && (level.slope_ratio > kMostSlopeRatio || (level.contacts == 0 && Z0 < beside())))
-        level.status = graver(level.status, LevelStatus::out_of_validity);
+    judge_asperities(level, *law, asperities, indenter, options, !of_difference);
     return level;
 }
 
@@ -487,7 +413,6 @@ void AsperityContact::move_tip(double x0, double y0) {
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size());
     my.indenter.x0 = x0;
     my.indenter.y0 = y0;
-    my.beside_.reset();
     if (my.of_difference && !my.law->path_dependent() &&
         std::hypot(x0 - my.found_x, y0 - my.found_y) > summits_keep(my.of_surface, my.indenter, my.options)) {
         forget();
@@ -501,5 +426,11 @@ double AsperityContact::first_touch() const { return impl_->ranking.highest() + 
 const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
 
 const Asperities* AsperityContact::asperities() const { return &impl_->asperities; }
+
+std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                                               SummitSearch search) {
+    if (options.adhesion.work > 0) return std::make_unique<AdhesiveContact>(asperities, indenter, options, std::move(search));
+    return std::make_unique<AsperityContact>(asperities, indenter, options, std::move(search));
+}
 
 }  // namespace rsc

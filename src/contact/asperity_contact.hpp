@@ -58,4 +58,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+// The contact of asperities that the options ask for: this one, or with adhesion the one of adhesive_contact.hpp.
+std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                                               SummitSearch search = {});
+
 }  // namespace rsc

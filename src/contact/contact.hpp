@@ -13,7 +13,7 @@ public:
     // throws for a level that did not converge: see Level::status. Throws Error(bad_input) if Z0 is not finite.
     Level at_separation(double Z0);
 
-    // The separation at which the indenter carries the force N > 0 [force], and the answer there, to the tolerance or to the
+    // The separation at which the indenter carries the force N [force], N > 0 but with adhesion, and the answer there, to the tolerance or to the
     // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way have no effect on later levels.
     Level at_force(double N);
 
@@ -50,6 +50,8 @@ public:
     // True if a level depends on those before it. energy() is then the recoverable energy, and stiffness() that of unloading; of bodies that
     // relax, the energy their springs hold, and the stiffness of a sudden step.
     virtual bool path_dependent() const { return false; }
+    // Whether forces may be negative: adhesion.
+    virtual bool pulls() const { return false; }
     // All that accepted levels leave behind, as numbers that only a contact made alike understands; empty where nothing stays.
     virtual std::vector<double> memory() const { return {}; }
     // Goes back to such a memory and to the last level that was accepted before it was taken; null: there was none. energy() and stiffness()

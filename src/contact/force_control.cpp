@@ -24,7 +24,7 @@ Level Contact::at_separation(double Z0) {
 
 void Contact::finish(Level& level) {
     const bool converged = level.status != LevelStatus::not_converged;
-    if (converged) {
+    if (converged || level.fallback == Fallback::held) {
         accept(level);
         accepted_ = time_;
     }
@@ -127,7 +127,8 @@ Level Contact::solve_between_planes(double Z0) {
 
 // Newton on ln N(Z0), whose slope the stiffness gives, kept inside a bracket that shrinks at every level.
 Level Contact::at_force(double N) {
-    if (!(N > 0) || !std::isfinite(N)) throw Error(Failure::bad_input, "the force must be positive and finite");
+    if (!(N > 0 || pulls()) || !std::isfinite(N))
+        throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
     begin();
     double above = first_touch();  // separations that carry less
     if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it carries no force");

@@ -63,11 +63,18 @@ struct Hardness {
     double length = 0;                 // of the size effect [length]
 };
 
+// Bodies that stick (law/sticking.hpp).
+struct Adhesion {
+    double work = 0;   // w [force/length]; 0: they do not
+    double range = 0;  // z0 of the attraction [length]; 0: JKR
+};
+
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
     Hardness hardness;
     Relaxation relaxation;
+    Adhesion adhesion;
     Interaction interaction = Interaction::point;
     Selection selection = Selection::overlap;
     double selection_factor = 1.5;

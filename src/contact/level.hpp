@@ -21,8 +21,9 @@ enum class Fallback : std::int32_t {
     dgesv_not_converged = 2,  // the paper's iteration did not reach the tolerance in max_iterations
     dgesv_singular = 3,       // its matrix was singular
     not_unique = 4,           // it converged, but the solution could not be proved to be the only one, and the rule for such levels holds
+    held = 5,                 // adhesion: no state carries the force asked for; this is the last stable one, of the smallest force
 };
-inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique"};
+inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique", "held"};
 // No metal bears mean pressures above this share of E* elastically.
 inline constexpr double kExtreme = 0.1, kExtremeShare = 0.01;  // told from this share of the contact area on
 
@@ -56,6 +57,11 @@ struct LevelValues {
     std::int64_t beyond_law = 0;                                // contacts past the range in which the law's profile describes a summit
     double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
     double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
+    // Adhesion:
+    double energy_lost = kNotComputed;    // in all jumps since the beginning [force length]
+    double least_force = kNotComputed;    // the smallest met since the beginning [force]
+    double cohesive_area = kNotComputed;  // under the traction w/z0, out of contact [length^2]
+    std::int32_t jumps = 0;               // on the way from the level before
     std::int32_t plastic_contacts = 0;                          // contacts that yield at this level
     double time = kNotComputed;                                 // of bodies that relax [time]
     double energy_lost = kNotComputed;                          // work that will not come back, since the first level [force length]

@@ -39,7 +39,7 @@ void ResultTable::global_attributes(const std::string& history) {
                     "equal but for the attribute `history`.");
     if (r_.path_dependent)
         file_.attribute("path", r_.relaxes ? "levels depend on those before them: a body that relaxes remembers its loads"
-                                           : "with hardness, levels depend on those before them: points that yielded stay lowered");
+                                           : "levels depend on those before them: points that yielded (solids hardness) stay lowered, what is attached (solids adhesion) stays attached until it is pulled off");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
@@ -93,6 +93,12 @@ void ResultTable::levels() {
         else
             add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
     }
+    std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t k = 0; k < pull_off.size(); ++k)
+        for (std::size_t s = 0; s < o_.steps; ++s) pull_off[k] = std::fmin(pull_off[k], o_.row(k, s).least_force);
+    if (computed(pull_off))
+        add_absent("pull_off_force", {"realization"}, r_.force_unit, "the smallest force met", pull_off,
+                   "adhesion: negative where bodies have to be pulled apart; also between levels");
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {
@@ -230,6 +236,7 @@ void ResultTable::regimes() {
     const bool known = m.m2 > 0 && m.m4 > 0;
     std::vector<double> first, second, hertz;
     for (double N : o_.force.mean) {
+        if (N < 0) N = kAbsent;  // adhesion
         first.push_back(known ? area_one_asperity(N, m.mean_radius(), E) : kAbsent);
         second.push_back(known ? area_proportional(N, m.m2, E) : kAbsent);
         hertz.push_back(smooth && std::isfinite(N) ? smooth->area_under(N) : kAbsent);

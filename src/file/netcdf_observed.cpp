@@ -64,7 +64,7 @@ void ResultTable::radial() {
     const double R = r_.indenter.shape->hertz_radius();
     for (double N : o_.force.mean)
         for (double r : o_.radii)
-            hertz.push_back(std::isfinite(R) && std::isfinite(N) ? hertz_contact(N, R, r_.indenter.E_star).pressure(r) : kAbsent);
+            hertz.push_back(std::isfinite(R) && N >= 0 ? hertz_contact(N, R, r_.indenter.E_star).pressure(r) : kAbsent);
     add_absent("hertz_pressure", dims, unit(-2, 1), "pressure of the smooth sphere at force_mean (Hertz)", hertz,
                "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); absent for flat on flat and for what is no sphere");
 }

@@ -50,7 +50,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
     result.seed = c.run.seed;
     result.force_control = c.indentation.control != Control::separation;
     result.relaxes = relaxes(c);
-    result.path_dependent = result.relaxes || std::isfinite(c.solids.hardness);
+    result.path_dependent = result.relaxes || std::isfinite(c.solids.hardness) || c.solids.adhesion > 0;
     result.indenter = indenter;
     result.sigma = sigma > 0 ? sigma : kAbsent;
     result.theory = theory;

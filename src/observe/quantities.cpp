@@ -41,7 +41,8 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "fallback gives the reason if it is not the requested one"},
     {.name = "fallback", .member = &V::fallback, .meaning = "reason why the requested solver was not used",
      .comment = "solver%method = 'dgesv': 2: the paper's iteration did not reach the tolerance; 3: its matrix was singular; 4: it "
-                "converged, but its solution could not be proved to be unique; 'mesh': 1: there is no interaction"},
+                "converged, but its solution could not be proved to be unique; 'mesh': 1: there is no interaction; adhesion: 5: no "
+                "state carries the force asked for, and the level is the last stable one, that of the smallest force"},
     {.name = "products", .member = &V::products,
      .meaning = "matrix-vector products with the interaction matrix B (direct, mesh), or linear systems solved (dgesv)"},
     {.name = "overlapping_pairs", .member = &V::overlapping_pairs,
@@ -84,8 +85,15 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "loads are taken to change linearly with it from level to level; the first level is reached at once", .always = false,
      .heading = "time", .width = 11, .digits = 6},
     {.name = "energy_lost", .member = &V::energy_lost, .length_power = 1, .force_power = 1,
-     .meaning = "work that the relaxing body has lost since the first level",
-     .comment = "energy is then what it holds: energy + energy_lost is the work done, int N d(-Z0)", .always = false},
+     .meaning = "energy lost since the first level, by relaxing or in jumps",
+     .comment = "relaxing: energy + energy_lost is the work done, int N d(-Z0); adhesion: in a cycle, the area of the loop of N against Z0", .always = false, .statistics = true, .plain = "energy lost"},
+    {.name = "jumps", .member = &V::jumps, .meaning = "jumps on the way from the level before",
+     .comment = "adhesion: places that attach or let go at one separation, all that follows at once being one jump", .always = false,
+     .heading = "jumps", .width = 6},
+    {.name = "least_force", .member = &V::least_force, .force_power = 1, .meaning = "the smallest force met since the first level",
+     .comment = "adhesion: also between levels; pull_off_force is its last value", .always = false},
+    {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2, .meaning = "area under attraction out of contact",
+     .comment = "adhesion_range > 0", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
      .comment = "of contacts; elements: of pixels, each with its own pressure. No metal carries such pressures elastically: solids%hardness "

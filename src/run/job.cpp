@@ -198,7 +198,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         r.statistics = model.statistics;
         search = model.search;
         solver.rms_slope = model.domain.rms_slope;
-        contact = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
+        contact = make_asperity_contact(r.asperities, job.indenter, solver, search);
     }
     std::optional<FrictionRows> friction;
     if (settings.solids.friction > 0) {

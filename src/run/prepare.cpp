@@ -395,7 +395,7 @@ Period period_of(const Case& settings, const SurfaceDomain& domain) {
 
 std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter, const SolverOptions& options) {
     if (model.points) return make_element_contact(*model.points, indenter, options);
-    return std::make_unique<AsperityContact>(model.asperities, indenter, options, model.search);
+    return make_asperity_contact(model.asperities, indenter, options, model.search);
 }
 
 double sigma_of(const Case& settings, const SurfaceDomain& domain) { return settings.surface.sigma.value_or(domain.sigma); }
@@ -410,6 +410,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
         const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
         options.relaxation = {s.relaxation_share, s.relaxation_time, compliance(0) / (compliance(0) + compliance(1))};
     }
+    options.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;

@@ -20,6 +20,7 @@ const char* fallback_text(Fallback fallback) {
         case Fallback::dgesv_not_converged: return "dgesv did not converge";
         case Fallback::dgesv_singular: return "dgesv's matrix was singular";
         case Fallback::not_unique: return "dgesv's solution is not proved unique";
+        case Fallback::held: return "no state carries this force; held at the smallest";
     }
     return "";
 }
@@ -240,6 +241,37 @@ void print_yielding(std::ostream& out, std::span<const LevelValues> levels, cons
     out << ". Levels depend on those before them.\n";
 }
 
+// What a run with adhesion ends in, and for which attraction the model of its contacts' edges holds.
+void print_sticking(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+    const Case& c = job.settings;
+    if (!(c.solids.adhesion > 0) || levels.empty()) return;
+    const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
+    long jumps = 0;
+    double lost = 0, least = 0;
+    for (const LevelValues& level : levels)
+        jumps += level.jumps, lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
+    if (c.run.realizations == 1)
+        out << format("  adhesion: the smallest force met is %.4g %s; %ld jumps lost %.4g %s %s. Levels depend on those before them.\n",
+                      least, f, jumps, lost, f, l);
+    // Tabor's parameter is this length over the range of the attraction; JKR holds from 5 on.
+    const auto reach = [&](double radius) { return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2)); };
+    double summit = kNotComputed;
+    if (job.theory)
+        summit = 0.737 / std::sqrt(job.theory->m4);
+    else if (job.given && job.given->asperities.size() > 0) {
+        summit = 0;
+        for (double r : job.given->asperities.radius) summit += r / static_cast<double>(job.given->asperities.radius.size());
+    }
+    if (summit > 0)
+        out << format(
+            "  JKR (adhesion_range = 0): right for summits of mean radius (%.3g %s) if the attraction reaches no further than %.3g %s "
+            "(Tabor's parameter 5)",
+            summit, l, reach(summit) / 5, l);
+    if (const double R = job.indenter.shape->hertz_radius(); summit > 0 && std::isfinite(R))
+        out << format("; for a smooth sphere it would be %.3g %s", reach(R) / 5, l);
+    if (summit > 0) out << ".\n";
+}
+
 // Dundurs' second parameter, which couples the normal and the tangential problem; 0 for equal bodies.
 double coupling(const Case::Solids& s) {
     const auto compliance = [&](int i) { return std::isinf(s.E[i]) ? 0.0 : 2 * (1 + s.nu[i]) / s.E[i]; };  // 1/G
@@ -290,6 +322,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
             "bounds them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
     print_yielding(out, levels, job);
+    print_sticking(out, levels, job);
     print_words(out, job, elements);
     std::int64_t crowded = 0;
     for (const LevelValues& level : levels) crowded += level.crowded_cells;

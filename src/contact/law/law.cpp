@@ -35,6 +35,7 @@ public:
         const double slope = std::numbers::pi * radius_[at(asperity)];
         return {slope * u, slope, 0.5 * slope * u * u};
     }
+    double widening(int, double u) const override { return 0.5 / u; }
     double yield_penetration(int asperity, double pressure) const override {
         const double root = 0.75 * std::numbers::pi * pressure / E_star_;  // f/A = 4 E*/(3 pi) sqrt(u/r)
         return root * root * radius_[at(asperity)];
@@ -105,6 +106,12 @@ public:
 
     double axes(int asperity) const override { return summit(asperity).axes; }
     bool beyond(int asperity, double u) const override { return u > summit(asperity).last; }
+
+    double widening(int asperity, double u) const override {
+        const Summit& s = summit(asperity);
+        const double t = s.t * u;
+        return t < 1 && u <= s.last ? 0.5 / (u * profile_.radius(t) * std::sqrt(1 - t)) : 0.0;
+    }
 
     // A(u) = spot r u R(t)^2 with t R(t)^2 = asin^2(sqrt(t)), up to t = kFlattest.
     Spread spread(int asperity, double u) const override {

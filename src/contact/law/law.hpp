@@ -49,8 +49,13 @@ public:
     virtual double area(int asperity, double u) const = 0;  // contact area [length^2]; 0 for u <= 0
     virtual double axes(int asperity) const = 0;            // b/a <= 1 of the contact ellipse
     virtual bool beyond(int asperity, double u) const = 0;  // the penetration is past the law's own range: see the laws
-    virtual Spread spread(int asperity, double u) const = 0;
-    virtual double yield_penetration(int asperity, double pressure) const = 0;  // where the mean pressure f/A first is so high
+
+    // What only some uses ask of a law; those that are never asked leave it out.
+    // Hardness: how the area grows, and where the mean pressure f/A first is so high.
+    virtual Spread spread(int asperity, double u) const { return (void)asperity, (void)u, Spread{}; }
+    virtual double yield_penetration(int asperity, double pressure) const { return (void)asperity, (void)pressure, 0.0; }
+    // Adhesion (sticking.hpp): d ln a/du of the contact radius a, 0 where the radius stays [1/length].
+    virtual double widening(int asperity, double u) const { return (void)asperity, (void)u, 0.0; }
 
     // Of laws that are not convex: no secant between two penetrations up to `high` is steeper.
     virtual double steepest(int asperity, double high) const { return (void)asperity, (void)high, 0.0; }

@@ -1,0 +1,583 @@
+#include "contact/adhesive_contact.hpp"
+
+#include "contact/asperity_level.hpp"
+#include "contact/interaction/products.hpp"
+#include "contact/law/sticking.hpp"
+#include "contact/ranking.hpp"
+#include "contact/solver/attached.hpp"
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// In penetrations at which an asperity lets go: how near a place is brought to its touching, and the attached to where they let go.
+constexpr double kTouching = 1e-8, kFold = 1e-5, kShortest = 1e-9;
+// Of the way to where an asperity is expected to let go: by its own law, and as its rate of change grows.
+constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+// What the accepted levels leave.
+struct Past {
+    double separation = kInfinity;
+    std::vector<int> asperity;  // attached, increasing
+    Vector s;
+    double lost = 0;         // energy, since the beginning
+    double least_force = 0;  // met since the beginning
+};
+
+}  // namespace
+
+struct AdhesiveContact::Impl {
+    const Asperities& of_surface;
+    SummitSearch search;
+    std::optional<Asperities> of_difference;
+    const Asperities& asperities;  // one of the two
+    Indenter indenter;
+    SolverOptions options;
+    std::shared_ptr<const Kernel> kernel;
+    std::unique_ptr<Law> law;
+    Sticking sticking;
+    Ranking ranking;
+    std::unique_ptr<Products> direct, mesh;
+    Products* products = nullptr;
+    AttachedSolver solver;
+    double goal = 1e-9;  // relative residual
+
+    Past accepted, now;
+    int jumps = 0, steps = 0;
+    bool lost_way = false;  // an avalanche did not end
+    Level level;            // of `now`
+    double slope = 0, energy = 0;
+
+    // The places at hand: those that may attach, and the attached.
+    WorkingSet set;
+    Vector clearance;
+    std::vector<int> place;      // of an asperity in the set; -1: not in it
+    double covered = kInfinity;  // places with a clearance above this are in the set
+    double margin = 0;           // by which forces may raise a place
+    std::vector<int> active;     // positions in the set
+
+    // A state on the way.
+    struct Point {
+        double Z = 0;
+        Vector s;  // of the attached
+        Vector u;  // penetrations of the others
+        std::vector<Sticking::State> states;
+        double force = 0, energy = 0, residual = 0;
+        AttachedSolver::Change change;
+    };
+    Point here;
+
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
+        : of_surface(asperities_),
+          search(std::move(search_)),
+          of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
+          asperities(of_difference ? *of_difference : of_surface),
+          indenter(indenter_),
+          options(options_),
+          kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
+          law(make_law(options_.law, asperities, indenter_.E_star)),
+          sticking(*law, options_.adhesion.work),
+          direct(make_direct_products(kernel)),
+          solver(sticking),
+          place(asperities.size(), -1) {
+        const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion: with ") + what); };
+        if (std::isfinite(options.hardness.H0)) refuse("solids%hardness it is not available yet");
+        if (options.method == Method::dgesv) refuse("solver%method = 'dgesv' it is not available: the paper's method knows no tension");
+        if (options.selection == Selection::paper) refuse("indentation%selection = 'paper' it is not available: others are pulled in, too");
+        if (options.adhesion.range > 0) refuse("solids%adhesion_range > 0 (Maugis and Dugdale) it is not available yet");
+        ranking.assign(asperities, indenter);
+    }
+
+    void cover(double lowest);
+    void choose_products();
+    void attach(const std::vector<int>& attached, const Vector& s);
+    bool find(double Z, Vector s, Point& point);
+    void complete(Point& point);
+    double raised() const;
+    bool settle(double Z, Vector s);
+    void jump(double Z, double energy_before, Vector s);
+    void let_go(std::size_t weakest, double Z, double energy_before);
+    bool go(double target, std::optional<double> wanted);
+    bool begin(double target);
+    void least_between(const Point& a, const Point& b);
+    bool find_force(const Point& a, const Point& b, double wanted);
+    double scale(int position) const { return -sticking.lets_go(set.asperity[at(position)]); }
+    Past past() const;
+    Level report();
+};
+
+// Brings all places into the set that may attach down to a separation; the attached stay.
+void AdhesiveContact::Impl::cover(double lowest) {
+    std::vector<int> attached;
+    for (int p : active) attached.push_back(set.asperity[at(p)]);
+    const Vector s = here.s;
+    for (int i : set.asperity) place[at(i)] = -1;
+    set = {}, clearance.clear();
+    covered = lowest - margin;
+    std::vector<int> fresh;
+    const std::size_t last = ranking.above(covered, fresh);
+    sticking.prepare(fresh);
+    const auto add = [&](int i, double height) {
+        place[at(i)] = set.size();
+        set.asperity.push_back(i);
+        set.x.push_back(asperities.x[at(i)]), set.y.push_back(asperities.y[at(i)]);
+        clearance.push_back(height);
+    };
+    for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
+    for (int i : attached)
+        if (place[at(i)] < 0) add(i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
+    set.g0.resize(clearance.size());
+    choose_products();
+    attach(attached, s);
+}
+
+void AdhesiveContact::Impl::choose_products() {
+    const bool on_mesh = choose_method(options, *kernel, set) == Method::mesh;
+    if (on_mesh && !mesh) mesh = make_mesh_products(kernel, std::min(1e-6, 0.1 * options.tolerance), 1e-3);
+    products = on_mesh ? mesh.get() : direct.get();
+    goal = std::max(std::min(1e-9, options.tolerance), 100 * products->full_error());
+    products->set_points(set.size(), set.x.data(), set.y.data());
+    solver.use(*products);
+}
+
+// These asperities with these states are the attached ones.
+void AdhesiveContact::Impl::attach(const std::vector<int>& attached, const Vector& s) {
+    std::vector<std::pair<int, double>> order;
+    for (std::size_t k = 0; k < attached.size(); ++k) order.emplace_back(place[at(attached[k])], s[k]);
+    std::sort(order.begin(), order.end());
+    active.clear(), here.s.clear();
+    for (const auto& [position, state] : order) active.push_back(position), here.s.push_back(state);
+    products->set_active(active);
+}
+
+// The equilibrium of the attached at Z near s.
+bool AdhesiveContact::Impl::find(double Z, Vector s, Point& point) {
+    ++steps;
+    for (std::size_t k = 0; k < clearance.size(); ++k) set.g0[k] = clearance[k] - Z;
+    if (!solver.solve(set, goal, s)) return false;
+    point.Z = Z;
+    point.s = std::move(s);
+    point.states = solver.states();
+    point.force = solver.force(), point.energy = solver.energy(), point.residual = solver.residual();
+    point.u.clear();
+    for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)]);
+    return true;
+}
+
+// The margin wanted: twice what the forces of the state found last raise any place by at most, or 0 while the margin at hand is enough.
+double AdhesiveContact::Impl::raised() const {
+    double most = 0;
+    for (double phi : solver.phi()) most = std::max(most, -phi);
+    for (std::size_t k = 0; k < solver.states().size(); ++k) {  // beside a contact that pulls
+        const Sticking::State& state = solver.states()[k];
+        most = std::max(most, -solver.phi()[at(active[k])] - state.f * kernel->near() / std::sqrt(state.area / std::numbers::pi));
+    }
+    return 1.2 * most > margin ? 2 * most : 0.0;
+}
+
+// How the state found last changes with Z.
+void AdhesiveContact::Impl::complete(Point& point) { point.change = solver.change(); }
+
+// At Z, from states of the attached that are no equilibrium: those that touch attach, those that find no equilibrium let go, one after the other.
+bool AdhesiveContact::Impl::settle(double Z, Vector s) {
+    const std::size_t most = 100 + 4 * clearance.size();
+    for (std::size_t k = 0; k < most; ++k) {
+        if (!find(Z, s, here)) {
+            const std::size_t weakest = solver.weakest();
+            active.erase(active.begin() + static_cast<std::ptrdiff_t>(weakest));
+            s.erase(s.begin() + static_cast<std::ptrdiff_t>(weakest));
+            products->set_active(active);
+            continue;
+        }
+        if (const double more = raised(); more > margin) {
+            margin = more;
+            cover(Z);
+            s = here.s;
+            continue;
+        }
+        s = here.s;
+        int touching = -1;
+        double deepest = 0;
+        for (std::size_t p = 0; p < here.u.size(); ++p) {
+            const int position = products->passive()[p];
+            if (const double u = here.u[p] / scale(position); u > deepest) deepest = u, touching = position;
+        }
+        if (touching < 0) {
+            complete(here);
+            return true;
+        }
+        const auto before = std::lower_bound(active.begin(), active.end(), touching) - active.begin();
+        active.insert(active.begin() + before, touching);
+        s.insert(s.begin() + before, sticking.state_at(set.asperity[at(touching)], deepest * scale(touching)));
+        products->set_active(active);
+    }
+    return false;
+}
+
+void AdhesiveContact::Impl::jump(double Z, double energy_before, Vector s) {
+    if (!settle(Z, std::move(s))) lost_way = true;
+    ++jumps;
+    now.lost += energy_before - here.energy;
+    now.least_force = std::min(now.least_force, here.force);
+}
+
+void AdhesiveContact::Impl::let_go(std::size_t weakest, double Z, double energy_before) {
+    Vector s = here.s;
+    active.erase(active.begin() + static_cast<std::ptrdiff_t>(weakest));
+    s.erase(s.begin() + static_cast<std::ptrdiff_t>(weakest));
+    products->set_active(active);
+    jump(Z, energy_before, std::move(s));
+}
+
+// The smallest force between two states, going up, where dN/dZ0 changes its sign.
+void AdhesiveContact::Impl::least_between(const Point& a, const Point& b) {
+    Point low = a, high = b, middle;
+    for (int i = 0; i < 40; ++i) {
+        const double share = low.change.force / (low.change.force - high.change.force);
+        const double Z = low.Z + std::clamp(share, 0.05, 0.95) * (high.Z - low.Z);
+        Vector s(low.s.size());
+        for (std::size_t k = 0; k < s.size(); ++k) s[k] = low.s[k] + (Z - low.Z) / (high.Z - low.Z) * (high.s[k] - low.s[k]);
+        if (!find(Z, s, middle)) break;
+        complete(middle);
+        now.least_force = std::min(now.least_force, middle.force);
+        const double gained = std::abs(middle.change.force * (high.Z - low.Z));
+        (middle.change.force < 0 ? low : high) = middle;
+        if (gained <= 1e-10 * std::abs(middle.force)) break;
+    }
+}
+
+// Between two states of which one carries more and one less than wanted: the one that carries it.
+bool AdhesiveContact::Impl::find_force(const Point& a, const Point& b, double wanted) {
+    Point low = a, high = b, middle;
+    const double precise = 0.1 * options.tolerance * std::max(std::abs(wanted), 1e-3 * std::max(std::abs(a.force), std::abs(b.force)));
+    for (int i = 0; i < 100; ++i) {
+        const Point& nearer = std::abs(low.force - wanted) < std::abs(high.force - wanted) ? low : high;
+        double Z = nearer.Z + (wanted - nearer.force) / nearer.change.force;
+        const double first = std::min(low.Z, high.Z), last = std::max(low.Z, high.Z);
+        if (!(Z > first && Z < last) || i % 8 == 7) Z = 0.5 * (low.Z + high.Z);
+        const double share = (Z - low.Z) / (high.Z - low.Z);
+        Vector s(low.s.size());
+        for (std::size_t k = 0; k < s.size(); ++k) s[k] = low.s[k] + share * (high.s[k] - low.s[k]);
+        if (Z == low.Z || Z == high.Z || !find(Z, s, middle)) return false;
+        complete(middle);
+        if (std::abs(middle.force - wanted) <= precise) {
+            here = middle;
+            return true;
+        }
+        ((middle.force < wanted) == (low.force < wanted) ? low : high) = middle;
+    }
+    return false;
+}
+
+// Takes up the accepted state. False: nothing is attached and nothing touches on the way to the target.
+bool AdhesiveContact::Impl::begin(double target) {
+    now = accepted;
+    jumps = steps = 0;
+    lost_way = false;
+    active.clear();
+    here = {};
+    const double highest = ranking.highest();
+    if (now.asperity.empty()) {
+        if (!(target < highest)) return false;
+        here.Z = highest;
+        cover(highest);
+        find(here.Z, {}, here);
+        complete(here);
+        return true;
+    }
+    for (int i : set.asperity) place[at(i)] = -1;
+    set = {}, clearance.clear();
+    // cover() keeps the attached: they stand in a set of their own first.
+    for (int i : now.asperity) active.push_back(set.size()), set.asperity.push_back(i);
+    here.s = now.s;
+    cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
+    for (int k = 0; k < 2; ++k) {
+        if (!find(now.separation, here.s, here)) lost_way = true;
+        const double more = raised();
+        if (!(more > margin)) break;
+        margin = more;
+        cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
+    }
+    complete(here);
+    return true;
+}
+
+// The path from `here` to a separation, or to the first state that carries the force wanted. False: everything let go before.
+bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
+    const double direction = target > here.Z ? 1 : -1;
+    Point before;  // the state before this one, with the same asperities attached
+    bool known = false;
+    double shorter = 1;  // after a failure
+    for (long guard = 0; here.Z != target; ++guard) {
+        if (lost_way || guard > 1000000) return lost_way = true;
+        if (active.empty() && direction > 0) return false;
+        // A place that touches attaches.
+        const auto& passive = products->passive();
+        std::optional<int> touching;
+        double step = std::abs(target - here.Z);
+        for (std::size_t p = 0; p < passive.size() && !touching; ++p) {
+            const double rate = direction * here.change.u[p];
+            if (rate <= 0) continue;
+            if (here.u[p] >= -kTouching * scale(passive[p])) touching = passive[p];
+            step = std::min(step, -here.u[p] / rate);
+        }
+        if (touching) {
+            Vector s = here.s;
+            const auto k = std::lower_bound(active.begin(), active.end(), *touching) - active.begin();
+            active.insert(active.begin() + k, *touching);
+            s.insert(s.begin() + k, sticking.state_at(set.asperity[at(*touching)], 0.0));
+            products->set_active(active);
+            jump(here.Z, here.energy, std::move(s));
+            known = false, shorter = 1;
+            continue;
+        }
+        // Those that are to let go: no further than most of the way, and there they do.
+        double way = kInfinity;
+        std::size_t weakest = 0;
+        for (std::size_t k = 0; k < active.size(); ++k) {
+            const Sticking::State& state = here.states[k];
+            const double rate = direction * here.change.s[k];
+            if (!(rate < 0)) continue;
+            const double own = (state.u - sticking.lets_go(set.asperity[at(active[k])])) / (state.du * -rate);
+            if (state.df >= 0) {
+                step = std::min(step, kNearWay * own);
+                continue;
+            }
+            double left = kInfinity, share = kFarWay;
+            if (known) {  // 1/rate^2 falls along a straight line to 0
+                const double g = 1 / (rate * rate), g_before = 1 / std::pow(before.change.s[k], 2);
+                if (g < g_before) left = g * std::abs(here.Z - before.Z) / (g_before - g);
+                if (g < 0.3 * g_before) share = kNearWay;
+            }
+            const double mine = std::min(kOwnWay * own, share * left);
+            if (const double end = std::min(own, left); end < kFold * scale(active[k])) {
+                if (end < way) way = end, weakest = k;
+                continue;
+            }
+            step = std::min(step, mine);
+        }
+        if (way <= step) {
+            const double Z = here.Z + direction * way;
+            const double energy_there = here.energy - direction * here.force * way - 2.0 / 3 * here.change.force * way * way;
+            now.least_force = std::min(now.least_force, here.force);
+            let_go(weakest, Z, energy_there);
+            known = false, shorter = 1;
+            continue;
+        }
+        if (wanted) {
+            const double toward = (*wanted - here.force) / here.change.force * direction;
+            const double reach = 0.5 * std::abs(ranking.highest() - here.Z) + (active.empty() ? 0.0 : scale(active[0]));
+            step = std::min(step, toward > 0 ? std::min(1.01 * toward, 4 * reach) : reach);
+        }
+        step *= shorter;
+        double smallest = kInfinity;
+        for (int p : active) smallest = std::min(smallest, scale(p));
+        if (step < kShortest * smallest && shorter < 1 && !active.empty()) {
+            std::size_t fastest = 0;
+            double most = -1;
+            for (std::size_t k = 0; k < active.size(); ++k) {
+                const double rate = std::abs(here.change.s[k]) / here.s[k];
+                if (here.states[k].df < 0 && rate > most) most = rate, fastest = k;
+            }
+            let_go(fastest, here.Z, here.energy);
+            known = false, shorter = 1;
+            continue;
+        }
+        const double Z = step >= std::abs(target - here.Z) ? target : here.Z + direction * step;
+        if (Z == here.Z) return lost_way = true;
+        if (Z - margin < covered) {
+            cover(std::min(Z, std::isfinite(target) ? target : Z - 0.1 * (ranking.highest() - Z)));
+            if (!find(here.Z, here.s, here)) return lost_way = true;
+            complete(here);
+            known = false;
+            continue;
+        }
+        Vector start(here.s.size());
+        for (std::size_t k = 0; k < start.size(); ++k) {
+            const double least = sticking.least(set.asperity[at(active[k])]);
+            start[k] = std::max(here.s[k] + (Z - here.Z) * here.change.s[k], 0.5 * (here.s[k] + least));
+        }
+        Point there;
+        if (!find(Z, std::move(start), there)) {
+            shorter *= 0.3;
+            continue;
+        }
+        if (const double more = raised(); more > margin) {
+            margin = more;
+            covered = kInfinity;
+            continue;
+        }
+        // Where a place has come too deep, back to where it touched.
+        const double length = std::abs(Z - here.Z);
+        double share = 1;
+        for (std::size_t p = 0; p < there.u.size(); ++p) {
+            if (!(there.u[p] > kTouching * scale(passive[p]))) continue;
+            const double slope = direction * here.change.u[p] * length, bend = there.u[p] - here.u[p] - slope;
+            const double root = std::sqrt(std::max(slope * slope - 4 * bend * here.u[p], 0.0));
+            const double x = -2 * here.u[p] / (slope + root);
+            share = std::min(share, x > 0 && x < 1 ? x : -here.u[p] / (there.u[p] - here.u[p]));
+        }
+        if (share < 1) {
+            shorter *= std::max(share, 1e-3) * length / step;
+            continue;
+        }
+        complete(there);
+        // A place that comes up and goes back on the way may have touched.
+        bool between = false;
+        for (std::size_t p = 0; p < there.u.size() && !between; ++p) {
+            const double up = direction * here.change.u[p] * length, down = -direction * there.change.u[p] * length;
+            if (up <= 0 || down <= 0) continue;
+            const double x = up / (up + down), rest = 1 - x;  // of the cubic through both ends, near its highest
+            const double value =
+                here.u[p] * rest * rest * (1 + 2 * x) + up * x * rest * rest + there.u[p] * x * x * (1 + 2 * rest) + down * x * x * rest;
+            between = value > 0;
+        }
+        if (between && shorter > 1e-3) {
+            shorter *= 0.5;
+            continue;
+        }
+        shorter = 1;
+        if (here.change.force < 0 && there.change.force > 0) {
+            // The smallest force lies between, at most so much below both ends.
+            const double most = std::max(std::abs(here.change.force), std::abs(there.change.force)) * length;
+            if (std::min(here.force, there.force) - most < now.least_force) {
+                const bool up = direction > 0;
+                least_between(up ? here : there, up ? there : here);
+            }
+        }
+        const bool crossed = wanted && (here.force - *wanted) * (there.force - *wanted) <= 0;
+        if (crossed && find_force(here, there, *wanted)) return true;
+        now.least_force = std::min(now.least_force, there.force);
+        before = std::move(here);
+        here = std::move(there);
+        known = true;
+    }
+    return true;
+}
+
+Past AdhesiveContact::Impl::past() const {
+    Past p = now;
+    p.separation = here.Z;
+    std::vector<std::pair<int, double>> order;
+    for (std::size_t k = 0; k < active.size(); ++k) order.emplace_back(set.asperity[at(active[k])], here.s[k]);
+    std::sort(order.begin(), order.end());
+    p.asperity.clear(), p.s.clear();
+    for (const auto& [asperity, s] : order) p.asperity.push_back(asperity), p.s.push_back(s);
+    return p;
+}
+
+Level AdhesiveContact::Impl::report() {
+    now = past();
+    Level l;
+    l.separation = here.Z;
+    l.candidates = std::max(set.size(), static_cast<int>(active.size()));
+    l.residual = here.residual;
+    l.iterations = steps;
+    l.products = direct->count() + (mesh ? mesh->count() : 0);
+    l.method = products == mesh.get() && mesh ? Method::mesh : Method::direct;
+    for (std::size_t k = 0; k < now.asperity.size(); ++k) {
+        const int i = now.asperity[k];
+        const Sticking::State state = sticking.at(i, now.s[k]);
+        l.add_contact(i, asperities.x[at(i)], asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
+        l.force += state.f;
+        l.area += state.area;
+        l.beyond_law += state.beyond || law->beyond(i, now.s[k]);
+    }
+    judge_asperities(l, *law, asperities, indenter, options, !of_difference);
+    l.jumps = jumps;
+    l.energy_lost = now.lost;
+    l.least_force = now.least_force;
+    if (lost_way) l.status = LevelStatus::not_converged;
+    slope = active.empty() ? 0.0 : here.change.force;
+    energy = active.empty() ? 0.0 : here.energy;
+    return l;
+}
+
+AdhesiveContact::AdhesiveContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options, std::move(search))) {}
+AdhesiveContact::~AdhesiveContact() = default;
+
+Level AdhesiveContact::solve(double Z0) {
+    Impl& my = *impl_;
+    if (my.begin(Z0)) my.go(Z0, std::nullopt);
+    my.here.Z = Z0;
+    return my.report();
+}
+
+std::optional<Level> AdhesiveContact::solve_under(double N) {
+    Impl& my = *impl_;
+    const bool anything = my.begin(-kInfinity);
+    if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
+        const bool down = my.here.force < N && !(my.active.empty() && N < 0);
+        if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
+            // No state carries it: back to the one with the smallest force.
+            const double least = my.now.least_force;
+            my.begin(-kInfinity);
+            if (!my.active.empty()) my.go(1e300, least * (1 - 1e-7));
+            Level level = my.report();
+            level.fallback = Fallback::held;
+            level.status = LevelStatus::not_converged;
+            return level;
+        }
+    }
+    return my.report();
+}
+
+void AdhesiveContact::accept(Level&) { impl_->accepted = impl_->now; }
+
+double AdhesiveContact::stiffness() { return impl_->slope; }
+double AdhesiveContact::energy() const { return impl_->energy; }
+double AdhesiveContact::tolerance() const { return impl_->options.tolerance; }
+double AdhesiveContact::first_touch() const { return impl_->ranking.highest(); }
+const Indenter& AdhesiveContact::indenter() const { return impl_->indenter; }
+const Asperities* AdhesiveContact::asperities() const { return &impl_->asperities; }
+
+void AdhesiveContact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+    Impl& my = *impl_;
+    if (!my.accepted.asperity.empty())
+        throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while asperities are attached, which is not available yet");
+    my.indenter.x0 = x0, my.indenter.y0 = y0;
+    forget_levels();
+}
+
+void AdhesiveContact::forget_levels() {
+    const Impl& my = *impl_;
+    impl_ = std::make_unique<Impl>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
+}
+
+std::vector<double> AdhesiveContact::memory() const {
+    const Past& past = impl_->accepted;
+    if (past.separation == kInfinity) return {};
+    std::vector<double> numbers = {past.separation, past.lost, past.least_force};
+    for (std::size_t k = 0; k < past.asperity.size(); ++k)
+        numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
+    return numbers;
+}
+
+void AdhesiveContact::recall(const std::vector<double>& memory, const Level* last) {
+    Impl& my = *impl_;
+    my.accepted = {};
+    if (!memory.empty()) {
+        Past& past = my.accepted;
+        bool sound = memory.size() % 2 == 1 && memory.size() >= 3;
+        for (double value : memory) sound = sound && std::isfinite(value);
+        if (sound) past.separation = memory[0], past.lost = memory[1], past.least_force = memory[2];
+        for (std::size_t k = 3; sound && k + 1 < memory.size(); k += 2) {
+            sound = memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && memory[k + 1] > 0;
+            if (!sound) break;
+            past.asperity.push_back(static_cast<int>(memory[k])), past.s.push_back(memory[k + 1]);
+        }
+        if (!sound) throw Error(Failure::bad_input, "this is no memory of these asperities");
+        my.sticking.prepare(past.asperity);
+    }
+    if (last) (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);
+}
+
+}  // namespace rsc

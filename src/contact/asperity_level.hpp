@@ -1,0 +1,24 @@
+// What contacts of asperities have in common, whatever holds them: which summits touch, how products are taken, what a level says beside
+// its forces.
+#pragma once
+
+#include "contact/law/law.hpp"
+#include "contact/level.hpp"
+#include "contact/solver/newton.hpp"
+#include "contact/touching.hpp"
+
+namespace rsc {
+
+// The summits of the difference between surface and indenter, or nothing where the asperities are to be taken as they are.
+std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                                                const SummitSearch& search);
+
+// `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures.
+Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates);
+
+// To a level that has its contacts, their force and the sum of their areas: the area of the union of elliptic spots, overlaps, the range of
+// the model, the error expected, and with them its status. `of_surface`: the asperities are summits of the surface, not of the difference.
+void judge_asperities(Level& level, const Law& law, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                      bool of_surface);
+
+}  // namespace rsc

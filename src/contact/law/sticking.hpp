@@ -1,0 +1,57 @@
+// One asperity that sticks: Johnson, Kendall and Roberts (Proc. R. Soc. A 324, 1971) for any of the laws of law.hpp.
+//
+// The state of an attached asperity is named by s, the penetration at which the law without adhesion has the same contact area. With
+// that law's force f0(s), slope D = df0/ds (the stiffness of a flat punch with this area), area A(s) and work W0(s), a contact whose edge
+// is in equilibrium with the work of adhesion w has
+//     u = s - 2 h,   f = f0 - 2 h D,   h = sqrt(w A/D),   energy W = W0 - 2 h f0 + w A.
+// For a sphere s = a^2/r and this is u = a^2/r - sqrt(2 pi w a/E*), f = 4 E* a^3/(3 r) - sqrt(8 pi w E* a^3). With l = d ln a/ds,
+//     du/ds = 1 - l h,   df/ds = D (1 - 3 l h):
+// at fixed grips the asperity lets go where l h = 1 (sphere: f = -(5/6) pi w r), its force is smallest where l h = 1/3 (-(3/2) pi w r).
+// A free one attaches at u = 0. An elliptic contact is taken for one whose edge is in equilibrium on the average over the edge.
+// Law 'fourth_order': where l h reaches 1/3 again, short of the trough around the summit, the contact would run on by itself to the trough.
+// From there on the radius stays and the stiffness with it, as without adhesion beyond the trough; such contacts count as beyond the law.
+#pragma once
+
+#include "contact/law/law.hpp"
+
+namespace rsc {
+
+class Sticking {
+public:
+    // w: work of adhesion [force/length], positive. The law must outlive this.
+    Sticking(Law& law, double w) : law_(law), w_(w) {}
+
+    // Must come before anything else is asked of these asperities.
+    void prepare(std::span<const int> asperities);
+
+    // The attached asperity in the state s >= least().
+    struct State {
+        double u = 0, f = 0;    // penetration [length], force
+        double du = 0, df = 0;  // derivatives by s; du > 0 but for s = least()
+        double stiffness = 0;   // D: df/du at a fixed contact area
+        double energy = 0;      // elastic energy less w A; at equilibrium with its neighbours fixed its derivative by u is f
+        double area = 0;
+        bool beyond = false;  // the radius stays
+    };
+    State at(int asperity, double s) const;
+
+    double least(int asperity) const { return limits_[place(asperity)].least; }      // where it lets go at fixed grips
+    double lets_go(int asperity) const { return limits_[place(asperity)].lets_go; }  // the penetration there, negative
+    double state_at(int asperity, double u) const;                                   // s of the penetration u > lets_go()
+
+private:
+    struct Limits {
+        double least = 0, lets_go = 0;
+        double last = 0;  // from here on the radius stays; Infinity: nowhere
+    };
+    std::size_t place(int asperity) const { return static_cast<std::size_t>(place_[static_cast<std::size_t>(asperity)]); }
+    State bare(int asperity, double s) const;        // as if `last` were Infinity
+    double spreading(int asperity, double s) const;  // l h
+
+    Law& law_;
+    double w_;
+    std::vector<int> place_;  // of an asperity in limits_; -1: not prepared
+    std::vector<Limits> limits_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,437 @@
+// Asperities that stick (contact/adhesive_contact.hpp), against closed forms, scalar equations, and a slow minimiser of the energy.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "error.hpp"
+
+using namespace rsc;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
+
+// Johnson, Kendall and Roberts on a sphere, by the radius of the contact.
+struct Jkr {
+    double r, w;
+    double u(double a) const { return a * a / r - std::sqrt(2 * pi * w * a / kE); }
+    double f(double a) const { return 4 * kE * a * a * a / (3 * r) - std::sqrt(8 * pi * w * kE * a * a * a); }
+    // Maugis: elastic energy of a punch pressed by u on a sphere, less w pi a^2.
+    double energy(double a) const {
+        const double d = u(a);
+        return kE * (d * d * a - 2.0 / 3 * d * a * a * a / r + std::pow(a, 5) / (5 * r * r)) - w * pi * a * a;
+    }
+    double least() const { return std::cbrt(pi * w * r * r / (8 * kE)); }
+    double touching() const { return std::cbrt(2 * pi * w * r * r / kE); }
+};
+
+// The largest root of a function that rises from `low` on.
+double root(const std::function<double(double)>& rising, double low) {
+    double high = 2 * low;
+    while (rising(high) < 0) high *= 2;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (rising(middle) < 0 ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+Asperities of(std::vector<double> x, std::vector<double> y, std::vector<double> z, std::vector<double> r) {
+    Asperities a;
+    a.x = std::move(x), a.y = std::move(y), a.z = std::move(z), a.radius = std::move(r);
+    return a;
+}
+
+SolverOptions sticky(double w, LawKind law = LawKind::hertz) {
+    SolverOptions options;
+    options.tolerance = 1e-12;
+    options.law = law;
+    options.adhesion.work = w;
+    return options;
+}
+
+// The whole loop of one asperity: it attaches where it touches and lets go at u_c, neither sooner nor later.
+void test_one() {
+    for (double w : {1e-6, 0.01, 0.3}) {
+        const Jkr jkr{0.7, w};
+        const Asperities a = of({0.5}, {0.5}, {0.1}, {jkr.r});
+        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(w));
+        const double unit = pi * w * jkr.r, length = -jkr.u(jkr.least());
+        const auto check = [&](double u, bool attached, const char*) {
+            const Level level = contact->at_separation(0.1 - u);
+            CHECK(level.status != LevelStatus::not_converged);
+            CHECK(level.contacts == (attached ? 1 : 0));
+            const double radius = root([&](double x) { return jkr.u(x) - u; }, jkr.least());
+            CHECK_CLOSE(level.force, attached ? jkr.f(radius) : 0.0, 1e-10 * std::max(unit, std::abs(level.force)));
+            CHECK_CLOSE(contact->energy(), attached ? jkr.energy(radius) : 0.0,
+                        1e-9 * std::max(unit * length, std::abs(contact->energy())));
+            if (attached) CHECK_RELATIVE(level.a.at(0), radius, 1e-9);
+            return level;
+        };
+        check(-length, false, "far");
+        check(-1e-7 * length, false, "just above");
+        const Level touched = check(1e-7 * length, true, "just below");
+        CHECK(touched.jumps == 1);
+        const double first_loss = -jkr.energy(jkr.touching());
+        CHECK_RELATIVE(touched.energy_lost, first_loss, 1e-7);
+        for (double u : {0.5, 2.0, 0.1, 7.0, 30.0, 3.0, 0.0, -0.5, -0.9, -0.2, -0.99, -1 + 1e-6})
+            CHECK(check(u * length, true, "on the way").jumps == 0);
+        const Level away = check(-(1 + 1e-6) * length, false, "away");
+        CHECK(away.jumps == 1);
+        CHECK_RELATIVE(away.energy_lost, first_loss + jkr.energy(jkr.least()), 1e-7);
+        CHECK_RELATIVE(away.least_force, -1.5 * unit, 1e-9);
+    }
+}
+
+// Symmetric groups: one equation g0 = u(a) + c f(a), c the sum of 1/(pi E* d) over the others.
+void test_groups() {
+    for (int n : {2, 6}) {
+        for (double distance : {0.2, 0.6}) {
+            const Jkr jkr{0.5, 0.01};
+            std::vector<double> x, y;
+            const double circle = n == 2 ? 0.5 * distance : distance;
+            for (int k = 0; k < n; ++k) x.push_back(circle * std::cos(2 * pi * k / n)), y.push_back(circle * std::sin(2 * pi * k / n));
+            double c = 0;
+            for (int k = 1; k < n; ++k) c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
+            const auto one = static_cast<std::size_t>(n);
+            const Asperities a = of(x, y, std::vector<double>(one, 0.0), std::vector<double>(one, jkr.r));
+            const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
+            const auto g0 = [&](double radius) { return jkr.u(radius) + c * jkr.f(radius); };
+            // Where they let go together: the smallest g0.
+            double low = 0.3 * jkr.least(), high = 30 * jkr.least();
+            for (int k = 0; k < 300; ++k) {
+                const double p = low + (high - low) / 3, q = high - (high - low) / 3;
+                (g0(p) < g0(q) ? high : low) = g0(p) < g0(q) ? q : p;
+            }
+            const double last = 0.5 * (low + high), length = -g0(last);
+            for (double g : {0.1, 1.0, 5.0, 0.5, -0.1, -0.6, -0.9, -0.999, -1 + 1e-5}) {
+                const Level level = contact->at_separation(-g * length);
+                CHECK(level.contacts == n);
+                const double radius = root([&](double r) { return g0(r) - g * length; }, last);
+                CHECK_CLOSE(level.force, n * jkr.f(radius), 1e-9 * std::max(std::abs(level.force), n * pi * jkr.w * jkr.r));
+            }
+            const Level away = contact->at_separation((1 + 1e-5) * length);
+            CHECK(away.contacts == 0);
+            CHECK(away.jumps == 1);
+        }
+    }
+}
+
+struct Random {
+    Asperities a;
+    double w;
+};
+Random random_system(int n, unsigned seed) {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::vector<double> x, y, z, r;
+    while (static_cast<int>(x.size()) < n) {
+        const double px = uniform(generator), py = uniform(generator);
+        bool close = false;
+        for (std::size_t k = 0; k < x.size(); ++k) close = close || std::hypot(px - x[k], py - y[k]) < 0.2;
+        if (close) continue;
+        x.push_back(px), y.push_back(py), z.push_back(0.02 * uniform(generator)), r.push_back(0.1 + 0.3 * uniform(generator));
+    }
+    return {of(x, y, z, r), std::pow(10.0, -3.5 + 1.5 * uniform(generator))};
+}
+
+// Follows the path by the energy alone: at every small step of the separation, one radius after the other goes downhill in the energy,
+// the elastic part of which is minimised over the forces by elimination, until none moves.
+class Minimiser {
+public:
+    Minimiser(const Random& system) : a_(system.a), w_(system.w), radius_(a_.size(), 0.0) {}
+
+    void go_to(double Z, double step) {
+        const int steps = static_cast<int>(std::ceil(std::abs(Z - Z_) / step));
+        const double from = Z_;
+        for (int k = 1; k <= steps; ++k) Z_ = from + (Z - from) * k / steps, relax();
+    }
+    double force() {
+        solve();
+        double sum = 0;
+        for (double f : f_) sum += f;
+        return sum;
+    }
+    int attached() const {
+        return static_cast<int>(std::count_if(radius_.begin(), radius_.end(), [](double a) { return a > 0; }));
+    }
+    double Z_ = 1;
+
+private:
+    // f = 2 E* a (u - a^2/(3 r)), u = g0 - B f.
+    void solve() {
+        const std::size_t n = radius_.size();
+        std::vector<double> m(n * n);
+        f_.assign(n, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double D = 2 * kE * radius_[i];
+            for (std::size_t j = 0; j < n; ++j)
+                m[i * n + j] = i == j ? 1 : D / (pi * kE * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
+            f_[i] = D * (a_.z[i] - Z_ - radius_[i] * radius_[i] / (3 * a_.radius[i]));
+        }
+        for (std::size_t c = 0; c < n; ++c)
+            for (std::size_t i = c + 1; i < n; ++i) {
+                const double factor = m[i * n + c] / m[c * n + c];
+                for (std::size_t j = c; j < n; ++j) m[i * n + j] -= factor * m[c * n + j];
+                f_[i] -= factor * f_[c];
+            }
+        for (std::size_t i = n; i-- > 0;) {
+            for (std::size_t j = i + 1; j < n; ++j) f_[i] -= m[i * n + j] * f_[j];
+            f_[i] /= m[i * n + i];
+        }
+    }
+    double field(std::size_t i) const {
+        double u = a_.z[i] - Z_;
+        for (std::size_t j = 0; j < f_.size(); ++j)
+            if (j != i) u -= f_[j] / (pi * kE * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
+        return u;
+    }
+    // dU/da / (2 pi a): what the edge gains less w.
+    double pull(std::size_t i) {
+        solve();
+        const double s = field(i) - radius_[i] * radius_[i] / a_.radius[i];
+        return kE * s * s / (2 * pi * radius_[i]) - w_;
+    }
+    // The edge of contact i goes where the energy falls, to the nearest minimum.
+    double move(std::size_t i) {
+        const double begin = radius_[i], seed = 1e-3 * std::cbrt(pi * w_ * a_.radius[i] * a_.radius[i] / kE);
+        solve();
+        if (begin == 0) {
+            if (!(field(i) > 0)) return 0;
+            radius_[i] = std::max(seed, std::sqrt(a_.radius[i] * field(i)));  // as without adhesion
+        }
+        double here = pull(i), step = 0.01 * radius_[i];
+        const double way = here > 0 ? -1 : 1;
+        for (;; step *= 1.2) {  // a step too long for the minimum would pass it and the next maximum
+            const double before = radius_[i];
+            radius_[i] = before + way * step;
+            if (radius_[i] < seed && way < 0) return radius_[i] = 0, begin;
+            double next = pull(i), other = before;
+            if ((next > 0) == (here > 0)) {
+                here = next;
+                continue;
+            }
+            for (int k = 0; k < 60 && std::abs(other - radius_[i]) > 1e-14 * begin; ++k) {  // Illinois
+                const double end = radius_[i], middle = (end * here - other * next) / (here - next);
+                radius_[i] = middle;
+                const double value = pull(i);
+                if (value == 0) break;
+                if ((value > 0) != (next > 0))
+                    other = end, here = next;
+                else
+                    here *= 0.5;
+                next = value;
+            }
+            break;
+        }
+        return std::abs(radius_[i] - begin);
+    }
+    void relax() {
+        for (int sweep = 0; sweep < 10000; ++sweep) {
+            double moved = 0;
+            for (std::size_t i = 0; i < radius_.size(); ++i) moved = std::max(moved, move(i) / std::max(radius_[i], 1e-6));
+            if (moved < 1e-11) return;
+        }
+    }
+    Asperities a_;
+    double w_;
+    std::vector<double> radius_, f_;
+};
+
+void test_minimiser() {
+    for (unsigned seed = 1; seed <= 14; ++seed) {
+        const Random system = random_system(2 + static_cast<int>(seed % 7), seed);
+        Minimiser slow(system);
+        const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+        slow.Z_ = 0.02;
+        for (int k = 0; k <= 60; ++k) {
+            const double depth = 0.02 + length, down = k <= 30 ? k / 30.0 : 2 - k / 30.0;  // down and up
+            const double Z = k <= 30 ? 0.0201 - depth * down : 0.02 + 2.5 * length - (depth + 2.5 * length) * down;
+            slow.go_to(Z, 0.02 * length);
+            const Level level = contact->at_separation(Z);
+            CHECK(level.contacts == slow.attached());
+            CHECK_CLOSE(level.force, slow.force(), 1e-7 * std::max(std::abs(level.force), system.w));
+        }
+    }
+}
+
+// However the way down and up is cut, it ends in the same state, with the same loss.
+void test_cutting() {
+    for (unsigned seed : {21u, 22u, 23u}) {
+        const Random system = random_system(12, seed);
+        double force = 0, lost = 0;
+        for (int cuts : {1, 10, 100, 1000}) {
+            const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            Level level;
+            for (int k = 1; k <= cuts; ++k) level = contact->at_separation(0.02 - 0.03 * k / cuts);
+            const double pressed = level.force;
+            for (int k = 1; k <= cuts; ++k) level = contact->at_separation(-0.01 + 0.018 * k / cuts);
+            const double loss = level.energy_lost;
+            if (cuts == 1) force = level.force + pressed, lost = loss;
+            CHECK_RELATIVE(level.force + pressed, force, 1e-8);
+            CHECK_RELATIVE(loss, lost, 3e-6);
+        }
+    }
+}
+
+// The work of a closed cycle is the energy lost: int N dZ0 between the jumps, which are found by going back and halving the way.
+void test_work() {
+    for (unsigned seed : {31u, 32u}) {
+        const Random system = random_system(5, seed);
+        const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+        Level level = contact->at_separation(0.05);
+        double work = 0, lost = 0;
+        const double least = 1e-9;
+        const std::function<void(double, int)> go = [&](double Z, int depth) {
+            const std::vector<double> memory = contact->memory();
+            const Level before = level;
+            const double slope = contact->stiffness(), width = before.separation - Z;
+            level = contact->at_separation(Z);
+            const double mean = 0.5 * (before.force + level.force);
+            // int N dZ between the ends by the trapezoidal rule and the slopes; where that is not fine enough, half the way twice.
+            const double whole = width * mean + width * width / 12 * (slope - contact->stiffness());
+            const Level end = level;
+            contact->recall(memory, &before);
+            level = contact->at_separation(before.separation - 0.5 * width);
+            const double better = width * (before.force + 4 * level.force + end.force) / 6;
+            const bool jumps = end.energy_lost != before.energy_lost;
+            if ((jumps && std::abs(width) > least) || (!jumps && std::abs(whole - better) > 1e-12 && depth < 40)) {
+                go(Z, depth + 1);
+                return;
+            }
+            level = contact->at_separation(Z);
+            work += jumps ? width * mean : better;
+        };
+        const auto lead = [&](double to) {
+            while (level.separation != to) {
+                const double rest = to - level.separation;
+                go(std::abs(rest) < 2e-4 ? to : level.separation + std::copysign(2e-4, rest), 0);
+            }
+        };
+        (void)lost;
+        lead(-0.01);
+        lead(0.05);
+        CHECK(level.contacts == 0);
+        CHECK_RELATIVE(-work, level.energy_lost, 1e-6);
+    }
+}
+
+// Two flats that repeat: one asperity a period feels its images, c f with c = 2.28472/(pi E* L) from the mean plane up.
+void test_periodic() {
+    const Jkr jkr{0.5, 0.01};
+    const Asperities a = of({0.5}, {0.5}, {0.0}, {jkr.r});
+    const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(jkr.w));
+    const double c = -3.90026492 / (pi * kE);  // of what a force does to its own place
+    for (double g0 : {0.004, 0.01, 0.0, -0.004}) {
+        const Level level = contact->at_separation(-g0);
+        CHECK(level.contacts == 1);
+        const double radius = root([&](double r) { return jkr.u(r) + c * jkr.f(r) - g0; }, 1.5 * jkr.least());
+        CHECK_CLOSE(level.force, jkr.f(radius), 1e-8 * std::max(std::abs(level.force), jkr.w));
+        CHECK_RELATIVE(level.pressure, level.force, 1e-12);
+    }
+}
+
+// Under a given force, in either direction; beyond the smallest one it holds there and says so, and goes on from there.
+void test_force() {
+    const Jkr jkr{0.7, 0.01};
+    const Asperities a = of({0.5}, {0.5}, {0.1}, {jkr.r});
+    const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(jkr.w));
+    const double unit = pi * jkr.w * jkr.r;
+    for (double N : {2.0, 20.0, 0.0, -1.0, -1.499, 0.5}) {
+        const Level level = contact->at_force(N * unit);
+        CHECK(level.status != LevelStatus::not_converged);
+        CHECK_CLOSE(level.force, N * unit, 1e-9 * std::max(std::abs(N), 1.0) * unit);
+        // Johnson, Kendall, Roberts: a^3 = (3 r/(4 E*)) (N + 3 pi w r + sqrt(6 pi w r N + (3 pi w r)^2)).
+        const double cube = 0.75 * jkr.r / kE * unit * (N + 3 + std::sqrt(6 * N + 9));
+        CHECK_RELATIVE(level.a.at(0), std::cbrt(cube), 1e-6);
+    }
+    const Level held = contact->at_force(-2 * unit);
+    CHECK(held.status == LevelStatus::not_converged && held.fallback == Fallback::held);
+    CHECK_RELATIVE(held.force, -1.5 * unit, 1e-6);
+    CHECK_CLOSE(contact->at_force(0).force, 0.0, 1e-9 * unit);
+}
+
+// A contact goes on from its memory as if nothing had been in between; trials leave no trace.
+void test_memory() {
+    const Random system = random_system(8, 41);
+    const Indenter tip{kE, kFlat, 0.5, 0.5};
+    const auto one = make_asperity_contact(system.a, tip, sticky(system.w)), other = make_asperity_contact(system.a, tip, sticky(system.w));
+    (void)one->at_separation(0.0);
+    const Level kept = one->at_separation(0.012);
+    other->recall(one->memory(), &kept);
+    CHECK_RELATIVE(other->energy(), one->energy(), 1e-9);
+    for (double Z : {0.016, 0.009, 0.03}) {
+        const Level p = one->at_separation(Z), q = other->at_separation(Z);
+        CHECK(p.asperity == q.asperity);
+        CHECK_CLOSE(p.force, q.force, 1e-9 * system.w);
+        CHECK_CLOSE(p.energy_lost, q.energy_lost, 1e-6 * p.energy_lost);
+    }
+    CHECK_THROWS(one->recall({1.0, 2.0}, nullptr), Error);
+}
+
+// With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
+void test_elastic_limit() {
+    Random system = random_system(20, 51);
+    system.a.kappa1.clear(), system.a.kappa2.clear(), system.a.angle.clear(), system.a.biharmonic.clear();
+    for (double r : system.a.radius) {
+        system.a.kappa1.push_back(1.4 / r), system.a.kappa2.push_back(1 / (1.4 * r)), system.a.angle.push_back(0.3);
+        system.a.biharmonic.push_back(40 / (r * r));
+    }
+    for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
+        double before = 1;
+        for (double w : {1e-6, 1e-8, 1e-10, 1e-12}) {
+            const Indenter tip{kE, kFlat, 0.5, 0.5};
+            const Level e = make_asperity_contact(system.a, tip, sticky(0, law))->at_separation(0.004);
+            const auto contact = make_asperity_contact(system.a, tip, sticky(w, law));
+            const Level s = contact->at_separation(0.004);
+            CHECK(s.contacts >= e.contacts);
+            const double apart = std::abs(s.force / e.force - 1);
+            CHECK(apart < 0.15 * before);  // the root of w: a tenth
+            before = apart;
+        }
+        CHECK(before < 1e-4);
+    }
+}
+
+// What cannot be had together is refused by name.
+void test_refused() {
+    const Asperities a = of({0.5}, {0.5}, {0.1}, {0.7});
+    const Indenter tip{kE, kFlat, 0.5, 0.5};
+    const auto refused = [&](const std::function<void(SolverOptions&)>& change) {
+        SolverOptions options = sticky(0.01);
+        change(options);
+        CHECK_THROWS(make_asperity_contact(a, tip, options), Error);
+    };
+    refused([](SolverOptions& o) { o.hardness.H0 = 3; });
+    refused([](SolverOptions& o) { o.method = Method::dgesv; });
+    refused([](SolverOptions& o) { o.adhesion.range = 1e-3; });
+    refused([](SolverOptions& o) { o.selection = Selection::paper; });
+    const auto contact = make_asperity_contact(a, tip, sticky(0.01));
+    CHECK_THROWS(contact->at_separation(std::nan("")), Error);
+    CHECK_THROWS(contact->at_force(kFlat), Error);
+    (void)contact->at_separation(0.0);
+    CHECK_THROWS(contact->move_tip(0.2, 0.2), Error);
+}
+
+}  // namespace
+
+TESTS {
+    test_work();
+    test_periodic();
+    test_force();
+    test_memory();
+    test_elastic_limit();
+    test_refused();
+    test_one();
+    test_groups();
+    test_minimiser();
+    test_cutting();
+}
