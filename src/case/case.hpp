@@ -64,6 +64,10 @@ struct Case {
         Missing missing = Missing::refuse;
         double filter_cutoff = 0;  // 0: no filter
         std::string channel;
+        std::string height_unit;          // of a text map; empty: run%length_unit
+        std::optional<double> pixel;      // of a text matrix: step between its points [length]
+        std::optional<double> window[4];  // x0, x1, y0, y1: what is taken of a map read; default: all
+        double outliers = 0;              // 0: none are looked for
     } surface;
     struct AsperityKeys {
         Curvature curvature = Curvature::geometric;
@@ -117,6 +121,9 @@ struct Case {
         std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
         int pdf_bins = 60;
         int compression = 4;
+        std::vector<double> fields;             // numbers of kFieldNames; empty: none
+        std::vector<double> field_levels;       // in `unit` of the indentation; empty: the last level
+        std::optional<double> field_window[4];  // x0, x1, y0, y1; default: about the contact
     } output;
 
     static constexpr double kInfinity = __builtin_huge_val();

@@ -57,14 +57,23 @@ std::string limited_text(std::istream& in, const std::string& name) {
     return text;
 }
 
-// Keys that only a synthetic surface has, in a case that reads its surface from a file: they have no effect, and are refused. At their
-// defaults they are accepted, because the effective namelist holds every key.
+// Keys that only a synthetic surface has, in a case that reads its surface from a file, and those that a list of levels replaces: they have
+// no effect, and are refused. At their defaults they are accepted, because the effective namelist holds every key.
 void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     static const Case defaults;
-    const auto given = [&](const char* name) -> const Ledger::Entry* {
-        const Ledger::Entry* entry = reading.ledger.find(*find_key("surface", name));
+    const auto given = [&](const char* name, const char* group = "surface") -> const Ledger::Entry* {
+        const Ledger::Entry* entry = reading.ledger.find(*find_key(group, name));
         return entry && !entry->given.empty() && !entry->faulty ? entry : nullptr;
     };
+    // A namelist that gives all of these is one that rsc printed.
+    const std::array replaced = {"start", "stop", "steps", "spacing"};
+    const bool printed = std::all_of(replaced.begin(), replaced.end(), [&](const char* name) { return given(name, "indentation"); });
+    for (const std::string name : replaced) {
+        const Ledger::Entry* const entry = given(name.c_str(), "indentation");
+        const std::string value = get_key(reading.settings, "indentation%" + name);
+        if (entry && !printed && given("levels", "indentation") && value != get_key(defaults, "indentation%" + name))
+            faults.push_back({entry->given.front().second, "&indentation: " + name + " = " + value + ": has no effect beside levels"});
+    }
     const Source source = reading.settings.surface.source;
     if (!given("source") || (source != Source::heights && source != Source::asperities)) return;
     for (const std::string name : {"n", "hurst", "L_lambda_l", "L_lambda_s", "plateau", "normalise"}) {
@@ -147,6 +156,16 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
         if (!concerns_faulty(reading.ledger, problem) && !(reading.study && varied(*reading.study, problem)))
             faults.push_back({place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
     if (reading.study && faults.empty() && set_faults.empty()) faults = check_study(settings, *reading.study);
+
+    if (!faults.empty() || !set_faults.empty())  // otherwise whoever reads the file tells
+        for (const char* const group : {"surface", "indenter"}) {
+            const Ledger::Entry* const entry = reading.ledger.find(*find_key(group, "file"));
+            const std::string& file = group == std::string_view("surface") ? settings.surface.file : settings.indenter.file;
+            if (!entry || entry->given.empty() || entry->faulty || file.empty() || file.find_first_of("*?[") != std::string::npos ||
+                std::ifstream(file))
+                continue;
+            faults.push_back({entry->given.front().second, "&" + std::string(group) + ": file = '" + file + "': cannot be opened"});
+        }
 
     std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
         return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;

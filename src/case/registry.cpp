@@ -2,6 +2,7 @@
 
 #include "case/namelist_value.hpp"
 #include "contact/indenter/shapes.hpp"
+#include "observe/fields.hpp"
 
 namespace rsc {
 namespace {
@@ -56,6 +57,11 @@ Key timed(Key key) {
 // The order of the names is the order of the enumeration.
 Key one_of(const char* group, const char* name, std::vector<const char*> choices, const char* meaning, Slot (*slot)(Case&)) {
     return {group, name, choice, 1, false, 32, "", kAny, std::move(choices), "", meaning, slot};
+}
+
+Key words(const char* group, const char* name, std::vector<const char*> choices, const char* meaning, Slot (*slot)(Case&)) {
+    const int most = static_cast<int>(choices.size());
+    return {group, name, choice, most, true, 32, "", kAny, std::move(choices), "none", meaning, slot};
 }
 
 Key within(Bounds bounds, Key key) {
@@ -189,6 +195,17 @@ std::vector<Key> make_registry() {
         text("surface", "channel", 1024,
              "channel of a .gwy file, or variable of a NetCDF file, with the heights; if empty, the first one with heights",
              RSC_SLOT(surface.channel)),
+        text("surface", "height_unit", 64, "unit of the heights in a text file, as UDUNITS spells it; run%length_unit if empty",
+             RSC_SLOT(surface.height_unit)),
+        optional("surface", "pixel", 1, kPositive, "L gives it", "distance between neighbouring points of a text matrix, instead of L",
+                 RSC_SLOT(surface.pixel)),
+        optional("surface", "window", 4, kAny, "the whole map",
+                 "x0, x1, y0, y1: use only this part of a height map, in the coordinates of the map", RSC_FIRST(surface.window)),
+        scalar(
+            "surface", "outliers", real, "1", between(0, kNoLimit),
+            "fill points of a height map like missing ones that differ from the median of the 5 x 5 points around them by more than this "
+            "number of standard deviations of these differences (estimated from their median); 0: none; 6 removes spikes and keeps roughness",
+            RSC_SLOT(surface.outliers)),
 
         one_of("asperities", "curvature", names(kCurvatureNames), "mean of the principal curvatures that defines the radius of an asperity",
                RSC_CHOICE(asperities.curvature)),
@@ -217,7 +234,7 @@ std::vector<Key> make_registry() {
         text(
             "indenter", "file", 4096,
             "shape = 'map': file with the heights of body 2, upwards positive, as for surface%file; its centre lies at indentation%centre, and "
-            "surface%detrend, missing and filter_cutoff apply to it, too",
+            "surface%detrend, missing, outliers, filter_cutoff, height_unit and pixel apply to it, too",
             RSC_SLOT(indenter.file)),
         text("indenter", "channel", 1024, "shape = 'map': channel or variable of that file, as surface%channel",
              RSC_SLOT(indenter.channel)),
@@ -285,6 +302,15 @@ std::vector<Key> make_registry() {
                "levels whose contacts are written; auto: all levels of a single realization, none of a campaign",
                RSC_CHOICE(output.contacts)),
         scalar("output", "heights", logical, "", kAny, "write the height map to the result", RSC_SLOT(output.heights)),
+        words(
+            "output", "fields", names(kFieldNames),
+            "quantities to write at the points of the surface, for a single realization. Elements: the pressure and gap of the solution. Asperities: "
+            "the pressure in their contact spots, and the gap that follows from it",
+            RSC_SLOT(output.fields)),
+        list("output", "field_levels", 1000, "`unit` of the indentation", "the last level",
+             "levels whose fields are written, the nearest level to each", RSC_SLOT(output.field_levels)),
+        optional("output", "field_window", 4, kAny, "about the contact of these levels; two flats: the whole surface",
+                 "x0, x1, y0, y1 of the region in which fields are written", RSC_FIRST(output.field_window)),
         scalar("output", "map_cells", integer, "1", between(1, 4096), "cells along a side of the coarse maps", RSC_SLOT(output.map_cells)),
         scalar("output", "radial_bins", integer, "1", between(1, 100000), "number of radii of the radial means",
                RSC_SLOT(output.radial_bins)),

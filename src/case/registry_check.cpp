@@ -98,6 +98,9 @@ private:
     void check_units() {
         if (const std::string wrong = unit_problem(c_.run.length_unit, Quantity::length); !wrong.empty())
             complain({"run%length_unit"}, "length_unit: " + wrong);
+        if (const std::string& unit = c_.surface.height_unit; !unit.empty())
+            if (const std::string wrong = unit_problem(unit, Quantity::length); !wrong.empty())
+                complain({"surface%height_unit"}, "height_unit: " + wrong);
         if (const std::string wrong = unit_problem(c_.run.force_unit, Quantity::force); !wrong.empty())
             complain({"run%force_unit"}, "force_unit: " + wrong);
         if (const std::string wrong = unit_problem(c_.run.time_unit, Quantity::time); !wrong.empty())
@@ -208,6 +211,17 @@ private:
         const Case::Surface& s = c_.surface;
         if (s.source != Source::synthetic && s.file.empty())
             complain({"surface%source", "surface%file"}, "source = " + get_key(c_, "surface%source") + " needs a file");
+        check_window("surface%window", "surface%source", s.window);
+        const auto of_maps = [&](bool given, const char* key) {
+            if (given && s.source != Source::heights &&
+                kShapes.at(static_cast<std::size_t>(c_.indenter.shape)).name != std::string_view("map"))
+                complain({key, "surface%source"}, std::string(std::strchr(key, '%') + 1) +
+                                                      ": is for heights read from files, and source = " + get_key(c_, "surface%source"));
+        };
+        of_maps(!s.height_unit.empty(), "surface%height_unit");
+        of_maps(s.pixel.has_value(), "surface%pixel");
+        of_maps(s.window[0].has_value(), "surface%window");
+        of_maps(s.outliers > 0, "surface%outliers");
         if (s.source == Source::heights || s.source == Source::asperities) {
             const bool several = s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
             if (c_.run.realizations > 1 && !several)
@@ -247,6 +261,12 @@ private:
                          "centre = " + get_key(c_, "indentation%centre") + ": must lie on the surface, 0 to L = " + namelist::from_real(L));
                 break;
             }
+    }
+
+    void check_window(const char* key, const char* beside, const std::optional<double> (&w)[4]) {
+        if (!w[0] && !w[1] && !w[2] && !w[3]) return;
+        if (!(w[0] && w[1] && w[2] && w[3] && *w[0] < *w[1] && *w[2] < *w[3]))
+            complain({key, beside}, std::string(std::strchr(key, '%') + 1) + ": x0, x1, y0, y1 with x0 < x1 and y0 < y1 are expected");
     }
 
     void check_elements() {
@@ -377,6 +397,14 @@ private:
             complain({"run%realizations"}, "realizations: only one with solids%friction > 0");
         if (double(c_.run.first_realization) + c_.run.realizations - 1 > 2147483647.0)
             complain({"run%first_realization", "run%realizations"}, "first_realization: the last realization would be beyond 2147483647");
+        check_window("output%field_window", "output%fields", c_.output.field_window);
+        if (c_.output.fields.empty() && c_.output.field_window[0])
+            complain({"output%field_window", "output%fields"}, "field_window: no fields are asked for");
+        if (c_.output.fields.empty() && !c_.output.field_levels.empty())
+            complain({"output%field_levels", "output%fields"}, "field_levels: no fields are asked for");
+        if (!c_.output.fields.empty() && c_.surface.source == Source::asperities)
+            complain({"output%fields", "surface%source"},
+                     "fields: are those on the points of a surface, and source = 'asperities' has none");
         if (c_.output.file.empty()) complain({"output%file"}, "file: must not be empty");
     }
 

@@ -151,6 +151,12 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         const std::string_view near = namelist::nearest(word, {key.choices.begin(), key.choices.end()});
         return quote(item) + " is none of " + list_choices(key) + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
     }
+    if (key.list) {
+        const auto i = static_cast<std::size_t>(element);
+        if (entry.values.size() < i) entry.values.resize(i);
+        entry.values[i - 1] = static_cast<double>(found - key.choices.begin());
+        return {};
+    }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
     choice.set(choice.object, static_cast<int>(found - key.choices.begin()));
     return {};
@@ -199,7 +205,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         faults.push_back({at, context + text});
         entry.faulty = true;
     };
-    const bool is_text = key.type == Type::string || key.type == Type::choice;
+    const bool is_text = key.type == Type::string || (key.type == Type::choice && !key.list);
     Walk walk{1, 1, key.size};
     if (a.subscript) {
         std::string problem;
@@ -335,7 +341,11 @@ std::string element_text(const Key& key, const Slot& slot, long element) {
     if (auto* x = std::get_if<double*>(&slot)) return namelist::from_real((*x)[i]);
     if (auto* o = std::get_if<std::optional<double>*>(&slot)) return (*o)[i] ? namelist::from_real(*(*o)[i]) : "";
     if (auto* s = std::get_if<std::string*>(&slot)) return namelist::from_string(**s);
-    if (auto* v = std::get_if<std::vector<double>*>(&slot)) return i < (*v)->size() ? namelist::from_real((**v)[i]) : "";
+    if (auto* v = std::get_if<std::vector<double>*>(&slot)) {
+        if (i >= (*v)->size()) return "";
+        return key.type == Type::choice ? namelist::from_string(key.choices.at(static_cast<std::size_t>((**v)[i])))
+                                        : namelist::from_real((**v)[i]);
+    }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
     return namelist::from_string(key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
 }

@@ -312,4 +312,22 @@ void ResultTable::heights() {
                     false});
 }
 
+void ResultTable::fields() {
+    const Fields& f = r_.fields;
+    if (f.step.empty()) return;
+    file_.dimension("field_step", f.step.size());
+    file_.dimension("field_y", f.y.size());
+    file_.dimension("field_x", f.x.size());
+    std::vector<std::int32_t> step = f.step;
+    for (std::int32_t& s : step) ++s;
+    add("field_step", {"field_step"}, "1", "number of the level of the fields", step, {{"start_index", std::vector<std::int32_t>{1}}});
+    add("field_y", {"field_y"}, unit(1), "y of the points of the fields", f.y);
+    add("field_x", {"field_x"}, unit(1), "x of the points of the fields", f.x);
+    const Names dims{"field_step", "field_y", "field_x"};
+    if (!f.pressure.empty()) add_disorder("field_pressure", dims, unit(-2, 1), "pressure", f.pressure);
+    if (!f.gap.empty()) add_absent("field_gap", dims, unit(1), "gap between the bodies", f.gap, "0 where they touch");
+    if (!f.contact.empty()) add("field_contact", dims, "1", "1 where the bodies touch, 0 elsewhere", f.contact);
+    if (!f.heights.empty()) add_disorder("field_height", {"field_y", "field_x"}, unit(1), "height of the surface without load", f.heights);
+}
+
 }  // namespace rsc

@@ -41,6 +41,7 @@ public:
         residual_profile();
         compared();
         heights();
+        fields();
         return std::move(file_);
     }
 
@@ -83,6 +84,7 @@ private:
     void residual_profile();
     void compared();
     void heights();
+    void fields();
 
     std::string unit(int length_power, int force_power = 0) const { return unit_of(length_, length_power, force_, force_power); }
 

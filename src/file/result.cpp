@@ -14,6 +14,9 @@ Contacts contacts_kept(const Case& c) {
     if (!one && c.output.heights)
         throw Error(Failure::bad_input, "&output heights: heights are kept for one realization only, and this case has " +
                                             std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");
+    if (!one && !c.output.fields.empty())
+        throw Error(Failure::bad_input,
+                    "&output fields: fields are kept for one realization only, and this case has " + std::to_string(c.run.realizations));
     if (c.output.contacts != Contacts::automatic) return c.output.contacts;
     return one ? Contacts::all : Contacts::none;
 }

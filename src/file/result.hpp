@@ -17,6 +17,7 @@
 #pragma once
 
 #include "case/case.hpp"
+#include "observe/fields.hpp"
 #include "observe/record.hpp"
 #include "rough/measured.hpp"
 #include "rough/surface.hpp"
@@ -75,6 +76,7 @@ struct Result {
     PackedContacts contacts;             // empty: not written
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written
+    Fields fields;                             // empty: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
     ComparedLevels compared;                   // empty: not written
 };

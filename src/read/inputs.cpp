@@ -87,7 +87,8 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     return axis;
 }
 
-HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L, bool missing) {
+HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L, bool missing, const TextMap& text) {
+    if (text.pixel) refuse(path + ": three columns are read as x y z of a map, which say the step: surface%pixel is for a matrix");
     const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
     check_grid(path, x.count, y.count);
     HeightMap map = allocate_map(x.count, y.count);
@@ -117,16 +118,25 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table, std
     return map;
 }
 
-HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing) {
+HeightMap read_text_points(const std::string& path, std::optional<double> L, bool missing, const TextMap& text) {
     const TextTable table = read_table(path, 0, missing);
-    if (table.columns == 3) return read_text_triples(path, table, L, missing);
+    if (table.columns == 3) return read_text_triples(path, table, L, missing, text);
     if (table.columns == 4) refuse(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
-    if (!L) refuse(path + ": a text matrix has no spacing; L, its extent in x, must be given");
-    check_L(path, *L);
+    if (!L && !text.pixel) refuse(path + ": a text matrix has no spacing; L, its extent in x, must be given, or surface%pixel");
+    if (L) check_L(path, *L);
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
     std::copy(table.values.begin(), table.values.end(), map.data.get());
-    map.dx = map.dy = *L / map.nx;
+    map.dx = map.dy = text.pixel ? *text.pixel : *L / map.nx;
+    if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
+    return map;
+}
+
+HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing, const TextMap& text,
+                            const std::string& length_unit) {
+    HeightMap map = read_text_points(path, L, missing, text);
+    const double factor = text.height_unit.empty() ? 1 : length_factor(text.height_unit, length_unit, 1);
+    std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [&](double& z) { z *= factor; });
     return map;
 }
 
@@ -333,7 +343,7 @@ Asperities read_text_asperities(const std::string& path) {
 }  // namespace
 
 HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit, const std::string& channel,
-                       Missing missing) {
+                       Missing missing, const TextMap& text) {
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
@@ -344,9 +354,11 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
     if (!channel.empty() && !netcdf && !channels)
         refuse(path + ": has no channels to choose '" + channel + "' from; only .gwy and NetCDF files have");
     if (!netcdf && !instrument) refuse_unknown(path, start);
+    if ((netcdf || instrument) && text.any())
+        refuse(path + ": is no text: it says itself what surface%height_unit and surface%pixel are for");
     HeightMap map = netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill)
                     : instrument ? instrument->read(path, channel, length_unit)
-                                 : read_text_heights(path, L, fill);
+                                 : read_text_heights(path, L, fill, text, length_unit);
     if (instrument) check_given_L(path, "x", map.nx, map.dx, L);
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));

@@ -31,8 +31,14 @@ std::vector<std::string> matching_files(const std::string& name);
 // `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first that holds heights. With Missing::fill missing
 // points are NaN in the map; otherwise they are refused. In a text `nan` and `bad` are missing points, and so are points that triples
 // do not list.
+// `text`: what a text file does not say.
+struct TextMap {
+    std::string height_unit;      // of its heights; empty: length_unit
+    std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
+    bool any() const { return !height_unit.empty() || pixel; }
+};
 HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit = "mm",
-                       const std::string& channel = "", Missing missing = Missing::refuse);
+                       const std::string& channel = "", Missing missing = Missing::refuse, const TextMap& text = {});
 
 // Asperities from `path`.
 // NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1, _kappa2 and _angle when all

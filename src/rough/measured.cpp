@@ -81,9 +81,12 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         throw Error(Failure::bad_input, format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx, map.dy, most_unlike));
     m.missing = count_missing(map);
     const double points = static_cast<double>(map.nx) * map.ny;
-    m.missing_share = static_cast<double>(m.missing) / points;
     if (m.missing > 0 && static_cast<double>(m.missing) == points) throw Error(Failure::bad_input, "all points of the map are missing");
     if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
+    m.outlier_times = options.outliers;
+    if (options.outliers > 0) m.outliers = remove_outliers(map, options.outliers);
+    m.missing += m.outliers.count;
+    m.missing_share = static_cast<double>(m.missing) / points;
     if (!(options.filter_cutoff > 0)) m.height_step = height_step(map);
     m.as_read = roughness(map);
     m.form = detrend(map, options.detrend);
@@ -124,9 +127,13 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     std::vector<std::string> lines;
     lines.push_back(
         format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny, m.dx, m.dy, l, m.nx * m.dx, m.ny * m.dy, l));
+    if (m.outlier_times > 0)
+        lines.push_back(
+            format("outliers: %ld points farther than %.4g %s (%.3g standard deviations) from the median of the 5 x 5 around them",
+                   m.outliers.count, m.outliers.threshold, l, m.outlier_times));
     if (m.missing > 0)
-        lines.push_back(format("missing points: %ld (%.3g %%) filled; summits nearer to them than the shortest wave are left out",
-                               m.missing, 100 * m.missing_share));
+        lines.push_back(format("missing points%s: %ld (%.3g %%) filled; summits nearer to them than the shortest wave are left out",
+                               m.outliers.count > 0 ? " and outliers" : "", m.missing, 100 * m.missing_share));
     std::string form = std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
         form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);

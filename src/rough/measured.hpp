@@ -4,6 +4,7 @@
 #include "rough/breaks.hpp"
 #include "rough/form.hpp"
 #include "rough/measured_spectrum.hpp"
+#include "rough/outliers.hpp"
 #include "rough/surface.hpp"
 #include "rough/texture.hpp"
 
@@ -16,6 +17,7 @@ struct MeasureOptions {
     Missing missing = Missing::refuse;
     Detrend detrend = Detrend::plane;
     double filter_cutoff = 0;  // 0: no filter [length]
+    double outliers = 0;       // rough/outliers.hpp; 0: none are looked for
 };
 
 // Roughness before and after each step.
@@ -31,6 +33,8 @@ struct Measured {
     int nx = 0, ny = 0;
     double dx = 0, dy = 0, x0 = 0, y0 = 0;
     long missing = 0;                  // points filled
+    double outlier_times = 0;          // MeasureOptions::outliers
+    Outliers outliers;                 // of the points filled
     double missing_share = 0;          // of all points
     std::vector<std::uint8_t> filled;  // 1 at j*nx + i where a point was filled; empty if none was
     Form form;
@@ -56,7 +60,7 @@ inline constexpr double kIsotropic = 0.8;
 // Fewer points in the shortest wave than this, and the grid, or noise at the pixel, makes the curvatures.
 inline constexpr double kFewPointsPerWave = 4;
 
-// Subtracts the form fitted to the points present, fills the missing ones with the harmonic function of what is left around them, and filters, in place.
+// Takes out outliers if asked to, subtracts the form fitted to the points present, fills the missing ones with the harmonic function of what is left around them, and filters, in place.
 // Throws Error(bad_input) when points are missing and Missing::refuse says so (the message names the first), or all are missing.
 Measured measure(HeightMap& map, const MeasureOptions& options);
 

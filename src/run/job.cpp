@@ -91,6 +91,31 @@ double seam(const HeightMap& map) {
     return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
 }
 
+// The levels whose fields are wanted, in their order: the nearest to each of output%field_levels.
+std::vector<std::int32_t> steps_of_fields(const Job& job) {
+    const auto& keys = job.settings.output;
+    if (keys.fields.empty()) return {};
+    std::vector<std::int32_t> steps;
+    for (const double wanted : keys.field_levels) {
+        const auto miss = [&](double level) { return std::abs(level - wanted * job.level_unit); };
+        const auto nearest = std::min_element(job.levels.begin(), job.levels.end(), [&](double a, double b) { return miss(a) < miss(b); });
+        steps.push_back(static_cast<std::int32_t>(nearest - job.levels.begin()));
+    }
+    if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
+    return steps;
+}
+
+FieldsAsked fields_asked(const Case& settings) {
+    const auto& w = settings.output.field_window;
+    const auto has = [&](Field f) {
+        const auto& all = settings.output.fields;
+        return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
+    };
+    FieldsAsked asked{has(Field::pressure), has(Field::gap), has(Field::contact), has(Field::heights), {}};
+    if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
+    return asked;
+}
+
 }  // namespace
 
 Job prepare(const Case& settings) {
@@ -189,7 +214,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         contact = make_element_contact(map, job.indenter, job.solver);
         if (settings.run.realizations == 1 && !relaxes(settings)) resolution.emplace(job, number, threads, map);
     } else {
-        if (settings.output.heights && job.spectrum) r.heights = make_surface(settings, *job.spectrum, number, threads).map;
+        if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
+            r.heights = make_surface(settings, *job.spectrum, number, threads).map;
         SurfaceModel model = job.spectrum ? make_surface_model(settings, *job.spectrum, number, threads)
                              : job.given  ? *job.given
                                           : make_surface_model(settings, number, threads);
@@ -206,6 +232,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         friction.emplace(Friction{settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, another(), another());
     }
     r.levels.reserve(job.levels.size());
+    const std::vector<std::int32_t> field_steps = steps_of_fields(job);
+    std::vector<FieldLevel> fields;
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (!job.times.empty()) contact->set_time(job.times[k]);
         if (settings.indentation.control != Control::separation) {
@@ -221,10 +249,15 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (level.force == 0 && level.separation < job.points_touch)  // points touch where no summit is
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
+        if (std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end())
+            fields.push_back({static_cast<std::int32_t>(k), &level, contact->residual_profile()});
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
+    if (!fields.empty())
+        r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter, job.solver.interaction, fields,
+                             fields_asked(settings));
     if (const Asperities* touched = contact->asperities(); touched && touched != &r.asperities) {
         Asperities used = *touched;
         contact.reset(), friction.reset();

@@ -43,6 +43,7 @@ struct Realization {
     std::vector<double> residual_depth;  // residual depth of the asperities after the last level; empty without hardness
     ResidualProfile residual_profile;    // of elements that yielded, likewise
     std::optional<HeightMap> heights;    // if the case wants them
+    Fields fields;                       // likewise
 };
 
 // Realization `number` of the case. `on_level` is called after each level with its number; returning false stops the run there.

@@ -8,6 +8,7 @@
 #include "contact/indenter/shapes.hpp"
 #include "contact/law/law.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "read/inputs.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
@@ -56,13 +57,37 @@ std::string map_file(const std::string& name, std::int64_t number) {
     return files[static_cast<std::size_t>(number - 1)];
 }
 
-Surface read_map(const Case& settings, const std::string& path, std::optional<double> L, const std::string& channel) {
+// The points of a map within x0, x1, y0, y1.
+HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4], const std::string& path) {
+    const auto number = [](double x, double origin, double step, int n) { return std::clamp((x - origin) / step, -1.0, n + 0.0); };
+    const int i0 = std::max(0, static_cast<int>(std::ceil(number(*window[0], map.x0, map.dx, map.nx)))),
+              i1 = std::min(map.nx - 1, static_cast<int>(std::floor(number(*window[1], map.x0, map.dx, map.nx)))),
+              j0 = std::max(0, static_cast<int>(std::ceil(number(*window[2], map.y0, map.dy, map.ny)))),
+              j1 = std::min(map.ny - 1, static_cast<int>(std::floor(number(*window[3], map.y0, map.dy, map.ny))));
+    if (i1 - i0 < 2 || j1 - j0 < 2)
+        throw Error(Failure::bad_input,
+                    format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g to %.6g in x and from "
+                           "%.6g to %.6g in y",
+                           path.c_str(), map.x0, map.x0 + (map.nx - 1) * map.dx, map.y0, map.y0 + (map.ny - 1) * map.dy));
+    HeightMap part;
+    part.allocate(i1 - i0 + 1, j1 - j0 + 1, i1 - i0 + 1);
+    part.dx = map.dx, part.dy = map.dy, part.x0 = map.x0 + i0 * map.dx, part.y0 = map.y0 + j0 * map.dy;
+    for (int j = j0; j <= j1; ++j) std::copy_n(map.row(j) + i0, part.nx, part.row(j - j0));
+    return part;
+}
+
+Surface read_map(const Case& settings, const std::string& path, std::optional<double> L, const std::string& channel,
+                 bool windowed = false) {
     const auto& keys = settings.surface;
+    const bool part = windowed && keys.window[0];
     Surface surface;
-    surface.map = read_heights(path, L, settings.run.length_unit, channel, keys.missing);
+    surface.map =
+        read_heights(path, L, settings.run.length_unit, channel, part ? Missing::fill : keys.missing, {keys.height_unit, keys.pixel});
+    if (part) surface.map = part_of(surface.map, keys.window, path);
     surface.origin.name = path;
     try {
-        surface.origin.measured = std::make_shared<const Measured>(measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff}));
+        surface.origin.measured =
+            std::make_shared<const Measured>(measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
     } catch (const Error& error) {
         throw Error(error.kind(), path + ": " + error.what());
     }
@@ -124,7 +149,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
 Surface make_surface(const Case& settings, std::int64_t number, int threads) {
     if (has_spectrum(settings)) return make_surface(settings, spectrum_of(settings), number, threads);
     if (settings.surface.source == Source::heights) {
-        Surface surface = read_map(settings, map_file(settings.surface.file, number), settings.surface.L, settings.surface.channel);
+        Surface surface = read_map(settings, map_file(settings.surface.file, number), settings.surface.L, settings.surface.channel, true);
         surface.map.periodic = settings.indentation.boundary == Boundary::periodic;
         return surface;
     }

@@ -178,6 +178,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     result.residual_profile = std::move(r.residual_profile);
     result.measured = job.measured;
     result.compared = std::move(compared);
+    result.fields = std::move(r.fields);
     if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
     write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
 

@@ -152,7 +152,7 @@ void warnings() {
         return all;
     };
     CHECK(warned("&indentation start = 1 stop = 1.5 /").find("separations increase") != std::string::npos);
-    for (const char* quiet : {"&indentation start = 1 stop = 1 /", "&indentation start = 1 stop = 1.5 levels = 1 /",
+    for (const char* quiet : {"&indentation start = 1 stop = 1 /", "&indentation levels = 1, 1.5 /",
                               "&indentation start = 1 stop = 1.5 control = 'force' /", "&output pdf_levels(1:3) = 1.0 ! first\n 2.0 /"})
         CHECK(warned(quiet).empty());
     CHECK(warned("&output pdf_levels(1:3) = 1.0, ! first\n 2.0 /")

@@ -1,0 +1,163 @@
+"""Fields of the program: they add up to the force, no body enters the other, and the gap about a smooth sphere is Hertz's; what fields.py makes
+of them. What the keys for measured maps do to a map.
+
+usage: test_fields.py FOLDER_OF_EXPORT    (RSC_PROGRAM in the environment)
+"""
+import base64
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import netCDF4
+import numpy as np
+
+sys.path.insert(0, sys.argv.pop(1))
+import fields  # noqa: E402
+
+ROUGH = """&solids E = 1.0e3, Infinity nu = 0.0, 0.0 R = Infinity, {R} /
+&surface L = 1.0 sigma = 1.0e-3 L_lambda_l = 2 L_lambda_s = 6 n = 64 /
+&indentation boundary = '{boundary}' levels = 1.5, 0.5 /
+&solver model = '{model}' /
+&elements points_per_wave = 10 /
+&output fields = 'pressure', 'gap', 'contact', 'heights' field_levels = 1.6, 0.6 contacts = 'none' /
+"""
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_case(self, text, *words, status=0):
+        done = subprocess.run([os.environ["RSC_PROGRAM"], "-o", self.path("r.nc"), *words], input=text, text=True, capture_output=True, cwd=self.folder, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stderr if status else done.stdout
+
+    def result(self):
+        with netCDF4.Dataset(self.path("r.nc")) as file:
+            return {name: np.ma.filled(v[...].astype(float), np.nan) for name, v in file.variables.items() if v.dtype.kind in "fi"}
+
+
+class Fields(Program):
+    def test_add_up_and_stay_apart(self):
+        for boundary, R in (("free", "10.0"), ("periodic", "Infinity")):
+            for model in ("elements", "asperities"):
+                self.run_case(ROUGH.format(boundary=boundary, R=R, model=model))
+                r = self.result()
+                pixel = np.diff(r["field_x"])[0] * np.diff(r["field_y"])[0]
+                np.testing.assert_array_equal(r["field_step"], [1, 2])
+                np.testing.assert_allclose(r["field_pressure"].sum(axis=(1, 2)) * pixel, r["force"][0], rtol=1e-6)
+                touch = r["field_pressure"] > 0
+                np.testing.assert_array_equal(touch, r["field_contact"] == 1)
+                self.assertTrue(touch.any() and (r["field_gap"][~touch] >= 0).all() and (r["field_gap"][touch] == 0).all())
+                if model == "elements":  # every point is solved: none that carries nothing is entered
+                    self.assertGreater(r["field_gap"][~touch].min(), 0)
+                if boundary == "periodic" and model == "elements":  # what goes down here comes up there
+                    np.testing.assert_allclose(r["field_gap"].mean(axis=(1, 2)), r["separation"].ravel(), rtol=1e-5, atol=1e-9)
+
+    def test_gap_about_a_smooth_sphere(self):
+        with open(self.path("flat.txt"), "w") as out:
+            out.write(("0 " * 81 + "\n") * 81)
+        R, E, depth = 10.0, 1e3, 2e-3
+        self.run_case(f"""&solids E = {E}, Infinity nu = 0.0, 0.0 R = Infinity, {R} /
+&surface source = 'heights' file = 'flat.txt' pixel = 0.01 sigma = 1.0 detrend = 'none' /
+&indentation unit = 'length' levels = {-depth} /
+&output fields = 'gap' field_window = 0.0, 0.8, 0.4, 0.41 /""")
+        r = self.result()
+        self.assertEqual(r["field_gap"].shape, (1, 2, 81))
+        d, a = abs(r["field_x"] - 0.4), np.sqrt(R * depth)
+        out = d > 1.3 * a  # the edge of the contact is within a pixel
+        s = a / d[out]
+        lowered = ((2 * a**2 - d[out] ** 2) * np.arcsin(s) + a * d[out] * np.sqrt(1 - s**2)) / (np.pi * R)  # Johnson 1985, eq. 3.42
+        np.testing.assert_allclose(r["field_gap"][0, 0][out], d[out] ** 2 / (2 * R) - depth + lowered, rtol=0.02)
+
+    def test_refusals(self):
+        for words, said in ((["-s", "output%field_window=2,3,2,3"], "field_window"), (["-s", "output%field_window=1,0,0,1"], "field_window"), (["-s", "run%realizations=2"], "fields"),
+                            (["-s", "output%fields='force'"], "pressure")):
+            self.assertIn(said, self.run_case(ROUGH.format(boundary="free", R="10.0", model="elements"), *words, status=2))
+
+    def test_files_for_others(self):
+        self.run_case(ROUGH.format(boundary="free", R="10.0", model="elements"))
+        r = self.result()
+        fields.main([self.path("r.nc")])
+        piece = xml.etree.ElementTree.parse(self.path("r_fields_2.vti")).getroot().find("ImageData")
+        self.assertEqual(piece.get("WholeExtent").split()[1::2], [str(r["field_x"].size - 1), str(r["field_y"].size - 1), "0"])
+        arrays = {a.get("Name").split()[0]: np.frombuffer(base64.b64decode(a.text)[8:]) for a in piece.iter("DataArray")}
+        np.testing.assert_array_equal(arrays["pressure"], r["field_pressure"][1].ravel())
+        np.testing.assert_array_equal(arrays["height"], r["field_height"].ravel())
+        fields.main([self.path("r.nc"), "--format", "csv"])
+        columns = np.loadtxt(self.path("r_fields_1.csv"), delimiter=",", skiprows=1)
+        np.testing.assert_allclose(columns[:, :4], np.column_stack([*(v.ravel() for v in np.meshgrid(r["field_x"], r["field_y"])), r["field_pressure"][0].ravel(), r["field_gap"][0].ravel()]), rtol=1e-8)
+        fields.main([self.path("r.nc"), "--format", "png"])
+        self.assertGreater(os.path.getsize(self.path("r_fields_1.png")), 10000)
+
+
+class Maps(Program):
+    CASE = """&solids E = 1.0e3, Infinity nu = 0.0, 0.0 R = Infinity, 10.0 /
+&surface source = 'heights' file = 'map.txt' {keys} /
+&indentation unit = 'length' levels = {level} /
+&output heights = .true. /"""
+
+    def setUp(self):
+        super().setUp()
+        k = np.arange(40) * 2 * np.pi / 40
+        self.z = 1e-3 * (np.sin(3 * k)[:, None] + np.cos(2 * k)[None, :])  # [mm]
+        np.savetxt(self.path("map.txt"), self.z * 1e6)
+
+    def heights(self, keys, level=1e-3):
+        self.said = self.run_case(self.CASE.format(keys="detrend = 'none' " + keys, level=level))
+        return self.result()
+
+    def test_unit_and_pixel(self):
+        r = self.heights("height_unit = 'nm' pixel = 0.02")
+        np.testing.assert_allclose(r["height"], self.z, rtol=1e-12)
+        np.testing.assert_allclose(np.diff(r["height_x"]), 0.02, rtol=1e-12)
+        for keys, said in (("height_unit = 'nm'", "pixel"), ("height_unit = 'N' pixel = 0.02", "height_unit"), ("height_unit = 'nm' pixel = 0.02 L = 0.9", "L")):
+            self.assertIn(said, self.run_case(self.CASE.format(keys=keys, level=1e-3), status=2))
+
+    def test_window(self):
+        r = self.heights("height_unit = 'nm' pixel = 0.02 window = 0.1, 0.5, 0.19, 0.7")
+        np.testing.assert_allclose(r["height"], self.z[10:36, 5:26], rtol=1e-12)
+        np.testing.assert_allclose([r["height_x"][0], r["height_y"][0]], [0.1, 0.2], rtol=1e-12)
+        self.assertIn("window", self.run_case(self.CASE.format(keys="height_unit = 'nm' pixel = 0.02 window = 5, 6, 5, 6", level=1e-3), status=2))
+
+    def test_outliers(self):
+        spiked = self.z.copy()
+        spiked[7, 9] += 0.02
+        spiked[20, 30] -= 0.02
+        spiked[0, 0] += 0.05
+        np.savetxt(self.path("map.txt"), spiked * 1e6)
+        r = self.heights("height_unit = 'nm' pixel = 0.02 outliers = 6")
+        self.assertEqual((r["outlier_points"], r["filled_points"]), (3, 3))
+        self.assertIn("outliers: 3 points", self.said)
+        self.assertLess(abs(r["height"] - self.z).max(), 3e-4)  # the curvature of the waves between the points
+        same = np.ones(self.z.shape, bool)
+        same[[7, 20, 0], [9, 30, 0]] = False
+        np.testing.assert_allclose(r["height"][same], self.z[same], rtol=1e-12)
+
+
+class Cases(Program):
+    def test_what_is_wrong_is_said_at_once(self):
+        said = self.run_case("&surface source = 'heights' file = 'absent.txt' missing = 'fil' /\n&indentation levels = 1.0 start = 3.0 /", status=2)
+        for word in ("absent.txt", "fil", "start"):
+            self.assertIn(word, said)
+
+    def test_a_list_of_levels_replaces_the_others(self):
+        text = "&surface n = 64 L_lambda_l = 4 L_lambda_s = 16 /\n&indentation start = 3.5 stop = 2.5 steps = 2 /"
+        self.run_case(text, "-s", "indentation%levels=3.0,2.0")
+        first = self.result()["force"]
+        done = subprocess.run([os.environ["RSC_PROGRAM"], self.path("r.nc"), "-o", self.path("again.nc")], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with netCDF4.Dataset(self.path("again.nc")) as again:
+            np.testing.assert_array_equal(again["force"][:], first)
+
+
+if __name__ == "__main__":
+    unittest.main()
