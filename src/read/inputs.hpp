@@ -16,6 +16,13 @@ bool is_pattern(const std::string& name);
 // The files that a pattern matches, in byte order; a name without wildcards gives itself. Throws Error(bad_input) when nothing matches.
 std::vector<std::string> matching_files(const std::string& name);
 
+// What a text file does not say of its map.
+struct TextMap {
+    std::string height_unit;      // of its heights; empty: length_unit
+    std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
+    bool any() const { return !height_unit.empty() || pixel; }
+};
+
 // Heights from `path`.
 // NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable there is. scale_factor and
 //   add_offset are applied; missing values (_FillValue, missing_value, NaN, Inf) are refused. Heights and coordinates are
@@ -31,12 +38,7 @@ std::vector<std::string> matching_files(const std::string& name);
 // `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first that holds heights. With Missing::fill missing
 // points are NaN in the map; otherwise they are refused. In a text `nan` and `bad` are missing points, and so are points that triples
 // do not list.
-// `text`: what a text file does not say.
-struct TextMap {
-    std::string height_unit;      // of its heights; empty: length_unit
-    std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
-    bool any() const { return !height_unit.empty() || pixel; }
-};
+// `text` is for text files alone; others are refused with it.
 HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit = "mm",
                        const std::string& channel = "", Missing missing = Missing::refuse, const TextMap& text = {});
 
