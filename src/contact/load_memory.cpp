@@ -1,10 +1,5 @@
 #include "contact/load_memory.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <numeric>
-
 #include "error.hpp"
 
 namespace rsc {

@@ -4,11 +4,6 @@
 // within each step, up or down.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include "contact/law/relaxation.hpp"
 #include "rough/surface.hpp"
 

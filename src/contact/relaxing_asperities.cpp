@@ -1,10 +1,5 @@
 #include "contact/relaxing_asperities.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-
 #include "error.hpp"
 
 namespace rsc {

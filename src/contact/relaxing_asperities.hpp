@@ -2,9 +2,6 @@
 // asperity_contact.hpp asks beside the law.
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "contact/candidates.hpp"
 #include "contact/interaction/products.hpp"
 #include "contact/law/relaxing.hpp"

@@ -1,8 +1,5 @@
 #include "contact/law/relaxation.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "error.hpp"
 
 namespace rsc {

@@ -2,7 +2,7 @@
 // Maxwell body; Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior, 1989).
 #pragma once
 
-#include <vector>
+#include "std.hpp"
 
 namespace rsc {
 

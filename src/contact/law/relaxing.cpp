@@ -1,9 +1,5 @@
 #include "contact/law/relaxing.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "error.hpp"
 
 namespace rsc {

@@ -19,10 +19,6 @@
 // have the instantaneous interaction B. While all contacts grow they are those of the elastic contact.
 #pragma once
 
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "contact/law/law.hpp"
 #include "contact/law/relaxation.hpp"
 
