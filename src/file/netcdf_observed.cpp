@@ -272,9 +272,9 @@ void ResultTable::compared() {
     else
         add_absent("force_error", dims, "1", "force " + over, c.force_error);
     add_absent("compare_force_error_expected", dims, "1", "expected relative error of the force of elements", c.force_error_expected,
-               "by its change with the grid");
+               "from its change with the grid");
     add_absent("compare_area_error_expected", dims, "1", "expected relative error of the contact area of elements", c.area_error_expected,
-               "by its change with the grid");
+               "from its change with the grid");
     add("compare_columns", dims, "1", "points of the elements' grid along x", c.columns);
     add("compare_rows", dims, "1", "points of the elements' grid along y", c.rows);
     add_absent("area_error", dims, "1", "contact area " + over, c.area_error);

@@ -117,7 +117,7 @@ public:
     // Absent values are NaN.
     std::vector<double> values(const std::string& name, const std::vector<std::size_t>& lengths) const {
         const NetcdfInput::Variable* variable = find(name);
-        if (!variable) refuse("it has no variable " + name + ", by which campaigns are put together");
+        if (!variable) refuse("it has no variable " + name + ", which is needed to merge campaigns");
         if (variable->lengths != lengths) refuse("variable " + variable->shape() + " does not have the shape given by its case");
         std::size_t count = 1;
         for (const std::size_t n : lengths) count *= n;

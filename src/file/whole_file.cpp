@@ -31,11 +31,11 @@ std::string reason_to_leave(const std::string& path, const FileKind& kind) {
     if (::lstat(path.c_str(), &status) != 0) return {};  // what else is wrong with the name, opening it will tell
     if (S_ISDIR(status.st_mode)) return "this is a folder; name a file in it";
     if (S_ISLNK(status.st_mode)) return "this is a link to another file; name that file, or remove the link first";
-    if (!S_ISREG(status.st_mode)) return "something that is not a plain file has this name (a device, a FIFO, ...)";
+    if (!S_ISREG(status.st_mode)) return "this is not a plain file (but a device, a FIFO, ...)";
     if ((status.st_mode & 0222) == 0 || ::access(path.c_str(), W_OK) != 0)
         return "this file is read-only; name another, or allow it to be written";
     if (!kind.is_one(path))
-        return std::string("this file exists and is no ") + kind.name + " of rsc; it is left alone: name another, or remove it first";
+        return std::string("this file exists and is no ") + kind.name + " of rsc; it is not replaced: name another, or remove it first";
     return {};
 }
 

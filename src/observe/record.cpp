@@ -118,7 +118,7 @@ void Accumulators::add(const RealizationRecord& record) {
 void Accumulators::append(const Accumulators& later) {
     if (later.steps != steps || later.map_area.size() != map_area.size() || later.distributions.size() != distributions.size() ||
         (!realization.empty() && !later.realization.empty() && later.realization.front() <= realization.back()))
-        throw Error(Failure::internal, "sums over realizations that do not follow those before them are appended");
+        throw Error(Failure::internal, "sums of realizations that do not follow each other cannot be added");
     realization.insert(realization.end(), later.realization.begin(), later.realization.end());
     surface.insert(surface.end(), later.surface.begin(), later.surface.end());
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());

@@ -146,7 +146,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                            m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
     if (m.height_step > 0)
         lines.push_back(
-            format("heights are rounded to multiples of %.4g %s: asperities are the summits of a smooth surface within half of it",
+            format("heights are rounded to multiples of %.4g %s: asperities are summits of a smooth surface within half a step of them",
                    m.height_step, l));
     tell_breaks(m, l, lines);
     if (m.fit) {
@@ -155,7 +155,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
         lines.push_back(format("spectrum%s: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
                                fit.aspect > 1 ? format(" (waves between along and across the lay, aspect %.2f)", fit.aspect).c_str() : "",
                                fit.hurst.value, fit.hurst.error, two_pi / fit.kl.value, l, fit.plateau ? " (plateau above)" : "",
-                               two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (the grid's: no end seen)", m.points_per_wave()));
+                               two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (limit of the grid)", m.points_per_wave()));
     } else {
         lines.push_back("spectrum: not fitted, the map is too small or too flat");
     }

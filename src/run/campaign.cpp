@@ -278,7 +278,7 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
     for (std::size_t k = 1; k < parts.size(); ++k) {
         const Accumulators more = read_sums(parts[k].file, job.observe, job.levels.size());
         if (whole.indentation.control == Control::separation && more.rows.front().separation != sums.rows.front().separation)
-            refuse("the levels of '" + parts[k].file + "' are others than those of '" + parts.front().file + "'");
+            refuse("the levels of '" + parts[k].file + "' differ from those of '" + parts.front().file + "'");
         sums.append(more);
     }
     std::ostream* const table = options.quiet ? nullptr : options.table;
