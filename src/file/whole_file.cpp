@@ -35,7 +35,7 @@ std::string reason_to_leave(const std::string& path, const FileKind& kind) {
     if ((status.st_mode & 0222) == 0 || ::access(path.c_str(), W_OK) != 0)
         return "this file is read-only; name another, or allow it to be written";
     if (!kind.is_one(path))
-        return std::string("this file exists and is no ") + kind.name + " of rsc; it is not replaced: name another, or remove it first";
+        return std::string("this file exists and is no ") + kind.name + " of rsc; it is left alone: name another, or remove it first";
     return {};
 }
 
