@@ -25,14 +25,14 @@ void check(int status, const std::string& path) {
                     "cannot write '" + path + "': a variable is too large for &output format='classic'; use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
         throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
-    // The file is put together in memory: when NetCDF or HDF5 fail there, memory is the likely reason, whatever error they report.
+    // The file is written in memory: if NetCDF or HDF5 fail there, lack of memory is the likely reason, whatever error they report.
     throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
                 "'" + path + "' cannot be written (" + nc_strerror(status) +
                     "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
 }
 
-// The bytes of a netCDF-4 file without contents. One born in memory forgets the order in which its variables are defined; one born on the
-// disk and taken into memory keeps it. HDF5 crashes on a disk that is full: the file is shown to have room before HDF5 gets it.
+// The bytes of an empty netCDF-4 file. A file created in memory loses the order of its variables; one created on disk and opened in memory
+// keeps it. HDF5 crashes if the disk is full, so that the space is checked first.
 std::vector<char> make_empty(const std::string& path, int mode) {
     std::error_code none;
     int error = 0;
@@ -65,9 +65,8 @@ std::vector<char> make_empty(const std::string& path, int mode) {
     fail_to_write(path, error);
 }
 
-// A file put together in memory. HDF5 cannot be trusted with a disk that fills up: closing a file that could not be written
-// crashes it (1.10), and the reason of the failure is lost. The bytes go to the disk by plain system calls instead, whose
-// errors are reported.
+// A file written in memory, whose bytes go to the disk by plain system calls with proper errors. HDF5 (1.10) crashes when it closes a file
+// on a full disk.
 class MemoryFile {
 public:
     MemoryFile(const std::string& path, int mode) : path_(path) {
@@ -135,7 +134,7 @@ void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAtt
         check(nc_put_att_int(ncid, varid, name.c_str(), NC_INT, integers->size(), integers->data()), path);
 }
 
-// HDF5 takes longer to keep books of a chunk than to write a variable as small as this, and deflate saves nothing worth it.
+// Smaller variables are not chunked: managing a chunk takes HDF5 longer than writing them, and deflate saves nothing.
 constexpr std::size_t kChunked = 2048;  // values
 
 std::size_t values_of(const std::vector<std::size_t>& shape) {
@@ -144,7 +143,7 @@ std::size_t values_of(const std::vector<std::size_t>& shape) {
     return n;
 }
 
-// HDF5 keeps this much of a variable together; maps are read a few levels at a time, heights a band of rows.
+// Chunk size: maps are read a few levels at a time, heights a band of rows.
 std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
     constexpr std::size_t target = 1u << 17;  // values, 1 MiB
     std::vector<std::size_t> chunk(shape.size(), 1);

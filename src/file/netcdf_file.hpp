@@ -1,4 +1,4 @@
-// A NetCDF file in the making: described first, written in one go, and under its final name only when it is whole.
+// A NetCDF file to be written: described first, then written at once, and given its final name when it is complete.
 #pragma once
 
 #include "case/case.hpp"
@@ -32,9 +32,9 @@ public:
     void attribute(const std::string& name, NetcdfAttribute value);
     void variable(NetcdfVariable variable);
 
-    // Writes everything to `path`, whole or not at all (whole_file.hpp); missing folders are made. A file that is there is replaced only if
-    // it is a result or a manifest of rsc. Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system), saying what to do, and leaves nothing
-    // behind; Error(internal) for an infinite value or an unexpected NaN.
+    // Writes everything to `path`, completely or not at all (whole_file.hpp); missing folders are created. An existing file is replaced only
+    // if it is a result or a manifest of rsc. Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system) with a
+    // remedy, and Error(internal) for an infinite value or an unexpected NaN; there is then no file.
     void write(const std::string& path, Format format, int compression) const;
 
 private:

@@ -1,4 +1,4 @@
-// The first half of the table: what the file is, its axes, the levels, the surfaces, closed forms.
+// The first half of the table: global attributes, axes, levels, surfaces, closed forms.
 
 #include "file/netcdf_table.hpp"
 #include "observe/quantities.hpp"

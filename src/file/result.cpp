@@ -137,7 +137,7 @@ private:
     std::vector<NetcdfInput::Variable> variables_;
 };
 
-// Both are worked out from the surface: where that is read from files, it may have been another one.
+// Both follow from the surface: if that was read from a file, it may have been another one.
 void require_same_axes(const Columns& file, const ObserveOptions& options) {
     const auto require = [&](const std::string& name, std::size_t count, double first) {
         if (file.values(name, {count}).front() != first)

@@ -86,7 +86,7 @@ WholeFile::WholeFile(const std::string& path, const FileKind& kind) : path_(path
     if (::stat(path.c_str(), &before) == 0) (void)::fchmod(fd_, before.st_mode & 0777);  // who may read it stays as it was
 }
 
-// Makes a new file of that name and locks it, so that no other writer takes it for one that was left. False where there is one already.
+// Creates and locks a new file of that name, so that no other writer removes it. False if there is one already.
 bool WholeFile::open_part(const std::string& name) {
     fd_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno == EEXIST) return false;

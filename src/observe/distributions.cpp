@@ -46,7 +46,7 @@ void add_uniform(AreaHistogram& h, double p, double area, double width) {
     for (double& sum : h.power) sum += power *= p;
 }
 
-// The pressures of pixels, each with its area; contacts are what is independent of each other.
+// The pressures of pixels, each with its area; the number of contacts is that of independent observations.
 void add_pixels(AreaHistogram& h, const Level& level, double width) {
     const LevelPixels& pixels = level.pixels;
     const double area = pixels.dx * pixels.dy;

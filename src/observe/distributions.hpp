@@ -6,8 +6,8 @@
 
 namespace rsc {
 
-// Sums over realizations that come out the same, bit for bit, in whatever order and groups their terms are added, so that the
-// results of two campaigns can be put together into that of a larger one.
+// Sums over realizations that do not depend, bit for bit, on the order and grouping of their terms, so that the results of two campaigns
+// can be merged.
 
 // A sum without rounding errors, held as two doubles (T. J. Dekker, Numer. Math. 18, 1971; the sum of two by D. E. Knuth): high is
 // the sum rounded to a double, low what that leaves out. Every term is a multiple of a power of two, the quantum; the sum is then
@@ -36,7 +36,7 @@ inline double quantum_of(double scale, int bits) {
 inline ExactSum exact_term(double value, double quantum) { return {quantum > 0 ? std::nearbyint(value / quantum) * quantum : value, 0.0}; }
 
 // Distributions over contacts (paper, section 5), as histograms that add up over realizations and never store a contact. The bins
-// are fixed before anything is known, from theory, so that all realizations share them.
+// follow from theory, so that all realizations share them.
 
 // Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a point to 1.5 pressure_max (the
 // peak of a Hertz contact is 1.5 times its mean), the area of a spot to `area_max`. Larger values count as overflow.

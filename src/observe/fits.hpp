@@ -1,5 +1,5 @@
 // Distributions the paper fits to its contacts (section 5): Rayleigh, exponential, and the generalised gamma of the full
-// pressure. A value that cannot be had (no contacts, too few bins) is NaN: absent.
+// pressure. A value that cannot be fitted (no contacts, too few bins) is NaN: absent.
 #pragma once
 
 #include "std.hpp"
@@ -22,7 +22,7 @@ struct GammaFit {
     double ks_distance = kAbsent;
 };
 
-// Binned data: bins of equal width from 0 on, and what lies beyond the last.
+// Binned data: bins of equal width from 0, and the overflow beyond the last.
 struct Binned {
     double width = 0;
     std::vector<double> weight;  // of each bin: counts, or areas

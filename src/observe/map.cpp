@@ -60,7 +60,7 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
             if (const int cell = grid.cell(level.x[k], level.y[k]); cell >= 0) entries.push_back({cell, area, level.f[k]});
         }
     } else {
-        // Of elements each pixel has its share of its contact's area. It is put where its cell of the surface lies, which begins at its point.
+        // Each pixel of elements has its share of its contact's area, at the place of its cell of the surface, which begins at its point.
         std::vector<double> share(level.a.size(), 0.0);
         for (const std::int32_t contact : pixels.contact) share[static_cast<std::size_t>(contact)] += 1;
         for (std::size_t c = 0; c < share.size(); ++c) share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];

@@ -1,5 +1,5 @@
-// The scalars of a level as the world sees them. One row here, and one member of LevelValues (contact/level.hpp), is all a quantity
-// needs: result files, checkpoints, the screen, campaigns' means and the libraries' calls by name follow from it.
+// The quantities of a level. A quantity is one row in quantities.cpp and one member of LevelValues (contact/level.hpp); result files,
+// checkpoints, the screen, means of campaigns and rsc_contact_value follow from it.
 #pragma once
 
 #include "contact/level.hpp"
@@ -25,7 +25,7 @@ struct LevelQuantity {
 
     // Its value as a number, NaN if it was not computed.
     double of(const LevelValues& level) const;
-    // The other way: puts a value that of() gave back.
+    // Stores a value returned by of().
     void put(LevelValues& level, double value) const;
     bool integer() const { return !std::holds_alternative<double LevelValues::*>(member); }
 };

@@ -2,7 +2,7 @@
 //
 // observe() reduces one realization to a RealizationRecord: plain numbers and vectors without references, which a checkpoint holds as they
 // are. Accumulators::add() takes records in the order of their realizations, whatever thread, rank or interrupted run made them; sums over
-// realizations are exact (exact_sum.hpp), so that those of two campaigns can be added, too. finish() turns the sums into means, radial
+// realizations are exact (ExactSum), so that those of two campaigns can be added, too. finish() turns the sums into means, radial
 // means and fits.
 #pragma once
 

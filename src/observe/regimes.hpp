@@ -1,4 +1,4 @@
-// Closed forms beside which a rough sphere is read: the smooth sphere (Hertz) and the two regimes of the paper's section 5.
+// Closed forms for comparison with a rough sphere: the smooth sphere (Hertz) and the two regimes of the paper's section 5.
 #pragma once
 
 #include "rough/spectrum.hpp"
@@ -34,7 +34,7 @@ double transition_force(const Moments& moments, double E_star, double beta = kRe
 double area_persson(double p_star);  // Persson 2001: erf(sqrt(2) p*)
 double area_bgt(double p_star);      // the asymptote of Bush, Gibson, Thomas 1975: sqrt(2 pi) p*
 
-// Summits as Greenwood and Williamson (1966) see them: all of one radius, heights Gaussian.
+// Summits in the model of Greenwood and Williamson (1966): equal radii, Gaussian heights.
 struct FlatSummits {
     double density;    // [1/length^2]
     double radius;     // [length]

@@ -21,7 +21,7 @@ const char* const kGoesOn = "to continue, run the same command with --resume";
 
 using Clock = std::chrono::steady_clock;
 
-// The realizations of a campaign that are finished: those added up, and those that wait for one before them.
+// The finished realizations of a campaign: those added up, and those that wait for an earlier one.
 class Progressing {
 public:
     // `earlier`: the sums of a finished campaign that this one continues, where the checkpoint has none.
@@ -45,7 +45,7 @@ public:
         next_ = next_to_add();
     }
 
-    // The next realization to begin. None is begun far ahead of one that takes long, since finished ones that wait for it are held in memory.
+    // The next realization to begin. None is begun far ahead of a slow one, because finished ones that wait for it are held in memory.
     std::optional<std::int64_t> next() {
         while (waiting_.contains(next_)) ++next_;
         if (next_ >= first_ + count_ || next_ >= next_to_add() + window_) return {};
@@ -120,7 +120,7 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
 }
 
 // The contents of a campaign's result file. Levels of &compare are solved by elements here and reported on `table`. After a signal that is
-// caught meanwhile the result is not whole.
+// caught meanwhile the result is incomplete.
 Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* table) {
     const Case& settings = job.settings;
     Observations observations = sums.finish();

@@ -26,7 +26,7 @@ constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // smaller files a
 constexpr double kSyncShare = 0.01;                           // at most this share of the time is spent on waiting for the disk
 constexpr double kSyncSeconds = 5;
 
-// Its owner is who holds its lock; load() refuses what is no checkpoint.
+// Any file may be replaced here: the process that holds its lock owns it, and load() refuses files that are no checkpoints.
 const FileKind kCheckpoint{"checkpoint", [](const std::string&) { return true; }};
 
 // CRC-32 of kind, length and bytes.
@@ -65,7 +65,7 @@ bool get(int fd, char* data, std::size_t n, std::uint64_t offset) {
     return true;
 }
 
-// The whole frame at `offset`, which moves behind it; false for one that is torn, spoilt or not there.
+// Reads the frame at `offset` and moves it behind; false for a frame that is incomplete, damaged or missing.
 bool get_frame(int fd, std::uint64_t end, std::uint64_t& offset, std::uint32_t& kind, std::string& bytes) {
     FrameHead head;
     if (end - offset < sizeof head || !get(fd, reinterpret_cast<char*>(&head), sizeof head, offset)) return false;
@@ -82,7 +82,7 @@ std::uint64_t file_size(int fd) {
     return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
-// The descriptor is of the file that has the name now.
+// True if the descriptor belongs to the file that has the name now.
 bool still_named(int fd, const std::string& name) {
     struct stat open {
     }, named{};
@@ -146,7 +146,7 @@ void Checkpoint::write_frame(std::uint32_t kind, const std::string& bytes, std::
     size += sizeof head + bytes.size();
 }
 
-// Leaves base_size_ = 0 when there is nothing: a new file, or one killed before its first frame was whole.
+// Leaves base_size_ = 0 for a new file, or for one whose first frame is incomplete.
 void Checkpoint::load(const Case& settings) {
     const std::uint64_t end = file_size(fd_);
     std::uint64_t offset = 0;
@@ -154,7 +154,7 @@ void Checkpoint::load(const Case& settings) {
     std::string bytes;
     const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
     if (!get_frame(fd_, end, offset, kind, bytes)) {
-        // If a process was killed before its first frame was whole, this is the beginning of one; anything else is not ours.
+        // The incomplete first frame of a killed process is accepted; anything else is no checkpoint.
         std::uint32_t start = kHeader;
         const bool read = get(fd_, reinterpret_cast<char*>(&start), std::min<std::size_t>(end, sizeof start), 0);
         if (!read || start != kHeader || end > sizeof(FrameHead) + header_.size())
@@ -185,7 +185,7 @@ void Checkpoint::load(const Case& settings) {
         }
         size_ = offset;
     }
-    // Sums are written before the file gets its name: torn ones are an error of the disk.
+    // Sums are written before the file gets its name: incomplete ones are an error of the disk.
     FrameHead head;
     if (size_ == base_size_ && !contents_.sums && end - size_ >= sizeof head &&
         get(fd_, reinterpret_cast<char*>(&head), sizeof head, size_) && head.kind == kSums)
@@ -224,8 +224,7 @@ void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::s
     }
 }
 
-// After kill -9 the file is complete, because the system holds what was written. Only a crash of the machine loses what is not yet on
-// the disk.
+// After kill -9 the file is complete, because the system keeps what was written. A crash of the machine loses what is not yet on the disk.
 void Checkpoint::sync_now_and_then() {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -260,7 +259,7 @@ namespace {
 
 ArchiveReader reader_of(std::string_view bytes) { return {bytes, Failure::internal, "a record of a realization has the wrong length"}; }
 
-// One function a type for both directions: what is written is what is read.
+// One function for each type writes and reads it.
 template <class Archive, class T>
 using In = std::conditional_t<Archive::writing, const T, T>;
 
@@ -298,7 +297,7 @@ void transfer_each(Archive& a, T& vector) {
         std::uint64_t size = 0;
         a(size);
         vector.clear();
-        // One by one: with a wrong size this fails at the end of the bytes, and does not ask for much memory before.
+        // One by one: a wrong size fails at the end of the bytes, before much memory is allocated.
         for (std::uint64_t k = 0; k < size; ++k) transfer<Archive>(a, vector.emplace_back());
         return;
     }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRefineSeconds = 60;
 // compare%levels = 'auto' is for what takes no longer.
 constexpr double kAutoSeconds = 2;
-// Of a map whose finer grid tells the error: that one has four times the points, a coarser one a quarter.
+// Relative cost with the grid that gives the error: a finer one (maps) has four times the points, a coarser one a quarter.
 constexpr double kWithFiner = 5, kWithCoarser = 1.25;
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
@@ -41,8 +41,8 @@ void print(std::ostream& out, const Job& job, const ComparedLevels& c, const Lev
                       100 * c.force_error_expected[k]);
 }
 
-// The levels to compare: the nearest one to each of &compare levels. Where a level depends on those before it, in the order of the path,
-// and of levels as near as each other one that is not yet taken, so that loading and unloading can be compared both.
+// The levels to compare: the nearest one to each of compare%levels. If levels depend on those before, in the order of the path, and of
+// equally near levels one that is not in the list yet, so that loading and unloading can both be compared.
 std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels, bool path_dependent) {
     if (!job.settings.compare.listed()) return {levels.size() - 1};
     const bool by_force = job.settings.indentation.control != Control::separation;
@@ -69,8 +69,8 @@ bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
     return k == 0 ? on > 0 : (levels[k].separation - levels[k - 1].separation) * on < 0;
 }
 
-// Elements on the surface of a realization, with a second grid that tells their error. Made surfaces are refined where that error is
-// too large; what yields, and would have to be led along its path again, is not.
+// Elements on the surface of a realization, with a second grid for their error. Synthetic surfaces are refined if the error is too large,
+// unless they yield, because the path would have to be repeated.
 class Reference {
 public:
     Reference(const Job& job, std::int64_t number, int threads) : job_(job), number_(number), threads_(threads) {
@@ -103,7 +103,7 @@ private:
         return map;
     }
 
-    // Goes on with twice the points a side. False: that would take too long, or cannot be.
+    // Doubles the points a side; false if that would take too long, or is impossible.
     bool refine(const Level& level) {
         if (!job_.spectrum || contact_->path_dependent() || level.status == LevelStatus::not_converged) return false;
         const double finer = 2 * points_per_wave_;

@@ -38,14 +38,14 @@ double under_indenter(const Job& job, double Z0, double power) {
     return sum;
 }
 
-// Greenwood and Tripp's sum without interaction: force of an indenter at Z0 on Gaussian summits. More than it carries.
+// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction: an upper bound.
 double greenwood_force(const Job& job, double Z0) {
     const double r = job.theory ? job.theory->mean_radius() : 1.0;
     const double density = 1 / (job.domain.mean_spacing * job.domain.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
     return density * k * under_indenter(job, Z0, 1.5);
 }
 
-// A separation that carries some such force.
+// A separation with about that force.
 double separation_at(const Job& job, double force) {
     double high = 6 * job.sigma, low = high;
     do low -= 2 * job.sigma;
@@ -77,7 +77,7 @@ double points_of_elements(const Job& job, double points_per_wave) {
     return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
 }
 
-// A level by elements: so much for each point under the sphere, or, between flats that repeat, for each of the period.
+// A level by elements: proportional to the number of points under the sphere, or of the period of two flats.
 double element_level_seconds(const Job& job, double Z0, double points) {
     if (job.indenter.period.finite()) return 1e-6 * points;
     return 5e-6 * points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);

@@ -45,7 +45,7 @@ void require_maps(const Case& settings) {
                                             std::to_string(files) + " files match");
 }
 
-// The sphere comes down on the same place of every map: they must be of one size; where one lies says nothing.
+// The sphere touches the same place of every map, so that all must have the same size; their origins do not matter.
 void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     constexpr double kSame = 1e-6;
     const Domain& d = model.domain;
@@ -66,8 +66,8 @@ void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     static_cast<Domain&>(model.domain) = place;
 }
 
-// The m2 that relative pressures are measured by, the same for all realizations: of the map read, of the one surface made, or of several
-// what the modes of the square give in expectation. Negative or NaN: not known.
+// The m2 for relative pressures, the same for all realizations: that of the map, of the single synthetic surface, or for several the
+// expectation over their modes. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
     if (!job.spectrum) return job.given ? job.given->statistics.m2 : kAbsent;
     const Case& c = job.settings;

@@ -32,7 +32,7 @@ std::optional<Message> receive() {
     return message;
 }
 
-// Messages on their way; their bytes live until they have arrived.
+// Messages being sent; their bytes are kept until they have arrived.
 class Outbox {
 public:
     void send(int rank, Tag tag, std::string bytes) {
@@ -126,7 +126,7 @@ public:
     }
 
 private:
-    // First a task for every worker, then a second one: none holds two while another has none. Returns how many are handed out.
+    // First one task for every worker, then a second one, so that none has two while another has none. Returns the number handed out.
     std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work, int ahead) {
         bool more = true;
         for (std::size_t deep = 1; more && deep <= static_cast<std::size_t>(1 + ahead); ++deep)
@@ -176,7 +176,7 @@ std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::st
 void MpiJob::dismiss(int status) {
     const auto value = static_cast<std::int32_t>(status);
     for (int rank = 1; rank < size_; ++rank) MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
-    // Answers that are no longer wanted are received all the same, until all ranks have left: their senders wait for that.
+    // Results that are no longer needed must still be received, until all ranks have left: their senders wait for that.
     MPI_Request left = MPI_REQUEST_NULL;
     MPI_Ibarrier(MPI_COMM_WORLD, &left);
     for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))

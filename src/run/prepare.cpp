@@ -18,7 +18,7 @@
 namespace rsc {
 namespace {
 
-// Hertz asperities are the paper's, on the grid; the laws that look closer want the summits themselves.
+// Hertz asperities lie on grid points, as in the paper; the other laws need the summits between them.
 Detail detail_of(const Case& settings) { return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid; }
 
 double rms(const std::vector<double>& values) {
@@ -383,7 +383,7 @@ Shape shape_of(const Case& settings) {
 
 namespace {
 
-// E* of what touches: of the top layer where body 1 has layers.
+// E* at the surface: that of the top layer if body 1 has layers.
 double surface_modulus(const Case::Solids& solids) {
     double E[2] = {solids.E[0], solids.E[1]}, nu[2] = {solids.nu[0], solids.nu[1]};
     if (!solids.layer_E.empty()) E[0] = solids.layer_E[0], nu[0] = solids.layer_nu[0];

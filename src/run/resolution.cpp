@@ -10,15 +10,15 @@ namespace {
 // A map of more points than this is not solved on a finer grid: that would take as long as the rest of a run.
 constexpr double kMostPoints = 1 << 20;
 
-// Expected error of N of contacts of a pixel, which is taken to fall as the third power of a contact's radius in pixels: a
-// floor for contacts of few pixels, chosen by judgement.
+// Expected error of N of contacts of one pixel, assumed to decrease as the third power of the contact radius in pixels: a lower bound
+// for contacts of few pixels, chosen by judgement.
 constexpr double kOnePixel = 2;
 
 // Fewer points in the shortest wave than this cannot be halved: a grid carries waves of more than two.
 constexpr double kHalvedFrom = 5;
 
-// Contacts of twice (made surfaces) or four times (maps, where a check costs four levels) as many pixels, or of three quarters as many,
-// are judged anew. In between a level has the error of the last check, when its contacts were smaller.
+// Contacts of twice (synthetic surfaces) or four times (maps, where a check costs four levels) as many pixels, or of three quarters as
+// many, are checked again. In between a level has the error of the last check, whose contacts were smaller.
 constexpr double kGrownMade = 2, kGrownRead = 4, kShrunk = 0.75;
 
 }  // namespace
@@ -54,7 +54,7 @@ std::optional<GridError> OtherGrid::error(const LevelValues& level) {
         if (here == there) return 0.0;
         return share * std::abs(here - there) / (coarser_ ? here : std::max(here, there));
     };
-    // A contact of a few pixels may miss as much on both grids.
+    // Contacts of a few pixels may have the same error on both grids.
     const double few = coarser_ ? kOnePixel * std::pow(level.pixels_per_contact, -1.5) : 0.0;
     return GridError{std::max(few, change(level.force, other.force)), std::max(few, change(level.area, other.area))};
 }

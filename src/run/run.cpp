@@ -27,7 +27,7 @@ bool check_result_path(const Case& settings, const RunOptions& options) {
 
 std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
 
-// On a terminal a line that is drawn over, unless the table scrolls there; `always` gives a line now and then elsewhere too.
+// On a terminal the line is redrawn, unless the table is printed there; with `always` a line now and then on other streams, too.
 std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
     terminal = isatty(STDERR_FILENO) != 0;
     const bool scrolls = options.table && !options.quiet && isatty(STDOUT_FILENO) != 0;
@@ -104,13 +104,13 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.sigma = m.parameters.sq;
     twins.surface.normalise = Normalise::ensemble;  // the map's rms height is one sample's; that of the twins may scatter as it does
     if (keys.sigma && twins.indentation.control == Control::separation && twins.indentation.unit == LevelUnit::sigma) {
-        // There sigma was a unit of length; here it is the rms height to make.
+        // sigma was a unit of length for the map; for twins it is their rms height.
         twins.indentation.unit = LevelUnit::length;
         twins.indentation.start *= job.sigma;
         twins.indentation.stop *= job.sigma;
         for (double& level : twins.indentation.levels) level *= job.sigma;
     }
-    // The square begins at 0 and is as long as the map's longer side; the tip lies as it did from the middle.
+    // The square begins at 0, with the map's longer side; the tip keeps its distance from the middle.
     const Domain& d = job.domain;
     if (auto& x = twins.indentation.centre[0]) x = std::clamp(*x - (d.x0 + 0.5 * d.Lx) + 0.5 * L, 0.0, L);
     if (auto& y = twins.indentation.centre[1]) y = std::clamp(*y - (d.y0 + 0.5 * d.Ly) + 0.5 * L, 0.0, L);

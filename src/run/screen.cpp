@@ -212,7 +212,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
                 "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }
 
-// "N = 1.23 N +- 5 %": the last level of a single run and how far it may be from the truth.
+// "N = 1.23 N +- 5 %": the last level of a single run with its expected errors.
 void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) { return l.force_error_expected >= 0; });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;

@@ -14,8 +14,8 @@ long seconds_now() {
     return static_cast<long>(now.tv_sec);
 }
 
-// One request to stop often comes twice: to the process and to its group (timeout, mpirun, batch systems). A second one some seconds
-// later is meant.
+// One request to stop often arrives twice: for the process and for its group (timeout, mpirun, batch systems). A second signal counts if
+// it arrives some seconds later.
 extern "C" void remember(int signal) {
     if (caught_signal() == 0) {
         caught_at = seconds_now();
@@ -33,7 +33,7 @@ void catch_signals() {
     action.sa_handler = remember;
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESTART;
-    // A shell's background jobs ignore the keyboard, and what nohup starts the end of the terminal.
+    // Signals that are ignored stay ignored: the keyboard's in background jobs, SIGHUP under nohup.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);

@@ -175,7 +175,7 @@ bool look_at(const Member& member, const RunOptions& options) {
     return there;
 }
 
-// Makes cases ready. A map that many members share is read once.
+// Prepares cases. A map that many members share is read once.
 class ReadOnce {
 public:
     void operator()(const Case& settings) {
@@ -211,7 +211,7 @@ void look_at_all(const ReadCase& read, const std::vector<const Member*>& wanted,
     }
 }
 
-// Its result file is there, from the same case, and nothing has changed since.
+// The summary of its result file if it is complete, from the same case, and no input has changed.
 std::optional<RunSummary> finished(const Member& member) {
     const Case& settings = member.settings;
     std::error_code error;
@@ -246,7 +246,7 @@ public:
             0);
     }
 
-    // One by itself: with its own table, and all workers for a campaign.
+    // A single member: with its own table, and all workers for a campaign.
     void alone(const Member& member) {
         try {
             if (table_ && members_ > 1) *table_ << member_name(member) << '\n';
