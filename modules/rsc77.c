@@ -128,16 +128,16 @@ static void put_text(const char* text, char* characters, size_t length) {
         return;                                                                      \
     }
 /* Ends a constructor: the new object gets a handle. */
-#define ENTER(kind, made, handle)                    \
-    if (*ierr == 0) {                                \
-        const int32_t entered = enter(kind, made);   \
-        if (entered) {                               \
-            *(handle) = entered;                     \
-        } else {                                     \
-            destroy(kind, made);                     \
-            refuse(0, "out of memory"); \
-            *ierr = RSC_NO_MEMORY;                   \
-        }                                            \
+#define ENTER(kind, made, handle)                  \
+    if (*ierr == 0) {                              \
+        const int32_t entered = enter(kind, made); \
+        if (entered) {                             \
+            *(handle) = entered;                   \
+        } else {                                   \
+            destroy(kind, made);                   \
+            refuse(0, "out of memory");            \
+            *ierr = RSC_NO_MEMORY;                 \
+        }                                          \
     }
 
 /* ---- texts ------------------------------------------------------------------------------------------------------------------ */

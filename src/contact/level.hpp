@@ -62,9 +62,9 @@ struct LevelValues {
     double least_force = kNotComputed;    // the smallest met since the beginning [force]
     double cohesive_area = kNotComputed;  // under the traction w/z0, out of contact [length^2]
     std::int32_t jumps = 0;               // on the way from the level before
-    std::int32_t plastic_contacts = 0;                          // contacts that yield at this level
-    double time = kNotComputed;                                 // of bodies that relax [time]
-    double energy_lost = kNotComputed;                          // work that will not come back, since the first level [force length]
+    std::int32_t plastic_contacts = 0;    // contacts that yield at this level
+    double time = kNotComputed;           // of bodies that relax [time]
+    double energy_lost = kNotComputed;    // work that will not come back, since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
     std::int32_t iterations = 0;  // Newton steps

@@ -38,8 +38,11 @@ void ResultTable::global_attributes(const std::string& history) {
                     "makes this file again, "
                     "equal but for the attribute `history`.");
     if (r_.path_dependent)
-        file_.attribute("path", r_.relaxes ? "levels depend on those before them: a body that relaxes remembers its loads"
-                                           : "levels depend on those before them: points that yielded (solids hardness) stay lowered, what is attached (solids adhesion) stays attached until it is pulled off");
+        file_.attribute(
+            "path",
+            r_.relaxes
+                ? "levels depend on those before them: a body that relaxes remembers its loads"
+                : "levels depend on those before them: points that yielded (solids hardness) stay lowered, what is attached (solids adhesion) stays attached until it is pulled off");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});

@@ -41,7 +41,8 @@ void ResultTable::measured() {
          {"comment",
           "with the harmonic function of the heights around them; summits closer to them than the shortest wave, 2 pi/ks, are left out"}});
     if (m.outlier_times > 0)
-        add("outlier_points", {}, "1", "points among filled_points that were outliers", std::vector<std::int32_t>{clamped(m.outliers.count)},
+        add("outlier_points", {}, "1", "points among filled_points that were outliers",
+            std::vector<std::int32_t>{clamped(m.outliers.count)},
             {{"threshold", std::vector<double>{m.outliers.threshold}},
              {"standard_deviations", std::vector<double>{m.outlier_times}},
              {"comment", "farther than the threshold from the median of the 5 x 5 points around them"}});

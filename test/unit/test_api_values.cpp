@@ -99,6 +99,4 @@ void rms_height() {
 
 }  // namespace
 
-TESTS {
-    rms_height();
-}
+TESTS { rms_height(); }
