@@ -3,7 +3,6 @@
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/periodic_pixels.hpp"
 #include "contact/interaction/pixel_products.hpp"
-#include "contact/interaction/smooth_part.hpp"
 #include "error.hpp"
 
 namespace rsc {
