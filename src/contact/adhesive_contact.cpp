@@ -50,6 +50,7 @@ struct AdhesiveContact::Impl {
 
     Past accepted, now;
     int jumps = 0, steps = 0;
+    long products_before = 0;
     bool lost_way = false;  // an avalanche did not end
     Level level;            // of `now`
     double slope = 0, energy = 0;
@@ -105,7 +106,7 @@ struct AdhesiveContact::Impl {
     void let_go(std::size_t weakest, double Z, double energy_before);
     bool go(double target, std::optional<double> wanted);
     bool begin(double target);
-    void least_between(const Point& a, const Point& b);
+    Point least_between(const Point& a, const Point& b);
     bool find_force(const Point& a, const Point& b, double wanted);
     double scale(int position) const { return -sticking.lets_go(set.asperity[at(position)]); }
     Past past() const;
@@ -235,21 +236,22 @@ void AdhesiveContact::Impl::let_go(std::size_t weakest, double Z, double energy_
     jump(Z, energy_before, std::move(s));
 }
 
-// The smallest force between two states, going up, where dN/dZ0 changes its sign.
-void AdhesiveContact::Impl::least_between(const Point& a, const Point& b) {
-    Point low = a, high = b, middle;
+// The state of the smallest force between two, of which the one below has dN/dZ0 < 0 and the one above dN/dZ0 > 0.
+AdhesiveContact::Impl::Point AdhesiveContact::Impl::least_between(const Point& below, const Point& above) {
+    Point low = below, high = above, least = below.force < above.force ? below : above, middle;
     for (int i = 0; i < 40; ++i) {
-        const double share = low.change.force / (low.change.force - high.change.force);
-        const double Z = low.Z + std::clamp(share, 0.05, 0.95) * (high.Z - low.Z);
+        const double share = std::clamp(low.change.force / (low.change.force - high.change.force), 0.05, 0.95);
+        const double Z = low.Z + share * (high.Z - low.Z);
         Vector s(low.s.size());
-        for (std::size_t k = 0; k < s.size(); ++k) s[k] = low.s[k] + (Z - low.Z) / (high.Z - low.Z) * (high.s[k] - low.s[k]);
+        for (std::size_t k = 0; k < s.size(); ++k) s[k] = low.s[k] + share * (high.s[k] - low.s[k]);
         if (!find(Z, s, middle)) break;
         complete(middle);
-        now.least_force = std::min(now.least_force, middle.force);
         const double gained = std::abs(middle.change.force * (high.Z - low.Z));
+        if (middle.force < least.force) least = middle;
         (middle.change.force < 0 ? low : high) = middle;
         if (gained <= 1e-10 * std::abs(middle.force)) break;
     }
+    return least;
 }
 
 // Between two states of which one carries more and one less than wanted: the one that carries it.
@@ -279,12 +281,17 @@ bool AdhesiveContact::Impl::find_force(const Point& a, const Point& b, double wa
 bool AdhesiveContact::Impl::begin(double target) {
     now = accepted;
     jumps = steps = 0;
+    products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;
     active.clear();
     here = {};
     const double highest = ranking.highest();
     if (now.asperity.empty()) {
-        if (!(target < highest)) return false;
+        if (!(target < highest)) {
+            for (int i : set.asperity) place[at(i)] = -1;
+            set = {}, clearance.clear(), covered = kInfinity;
+            return false;
+        }
         here.Z = highest;
         cover(highest);
         find(here.Z, {}, here);
@@ -392,7 +399,7 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
         const double Z = step >= std::abs(target - here.Z) ? target : here.Z + direction * step;
         if (Z == here.Z) return lost_way = true;
         if (Z - margin < covered) {
-            cover(std::min(Z, std::isfinite(target) ? target : Z - 0.1 * (ranking.highest() - Z)));
+            cover(std::min(Z, wanted ? Z - 0.1 * std::abs(ranking.highest() - Z) : target));
             if (!find(here.Z, here.s, here)) return lost_way = true;
             complete(here);
             known = false;
@@ -443,12 +450,15 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
             continue;
         }
         shorter = 1;
-        if (here.change.force < 0 && there.change.force > 0) {
+        const Point &low = direction > 0 ? here : there, &high = direction > 0 ? there : here;
+        if (low.change.force < 0 && high.change.force > 0) {
             // The smallest force lies between, at most so much below both ends.
-            const double most = std::max(std::abs(here.change.force), std::abs(there.change.force)) * length;
-            if (std::min(here.force, there.force) - most < now.least_force) {
-                const bool up = direction > 0;
-                least_between(up ? here : there, up ? there : here);
+            const double most = std::max(std::abs(low.change.force), high.change.force) * length;
+            const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
+            if (std::min(low.force, high.force) - most < bound) {
+                const Point least = least_between(low, high);
+                now.least_force = std::min(now.least_force, least.force);
+                if (wanted && here.force > *wanted && least.force <= *wanted && find_force(here, least, *wanted)) return true;
             }
         }
         const bool crossed = wanted && (here.force - *wanted) * (there.force - *wanted) <= 0;
@@ -479,7 +489,7 @@ Level AdhesiveContact::Impl::report() {
     l.candidates = std::max(set.size(), static_cast<int>(active.size()));
     l.residual = here.residual;
     l.iterations = steps;
-    l.products = direct->count() + (mesh ? mesh->count() : 0);
+    l.products = direct->count() + (mesh ? mesh->count() : 0) - products_before;
     l.method = products == mesh.get() && mesh ? Method::mesh : Method::direct;
     for (std::size_t k = 0; k < now.asperity.size(); ++k) {
         const int i = now.asperity[k];

@@ -288,7 +288,7 @@ void test_work() {
         const Random system = random_system(5, seed);
         const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
         Level level = contact->at_separation(0.05);
-        double work = 0, lost = 0;
+        double work = 0;
         const double least = 1e-9;
         const std::function<void(double, int)> go = [&](double Z, int depth) {
             const std::vector<double> memory = contact->memory();
@@ -304,6 +304,9 @@ void test_work() {
             const double better = width * (before.force + 4 * level.force + end.force) / 6;
             const bool jumps = end.energy_lost != before.energy_lost;
             if ((jumps && std::abs(width) > least) || (!jumps && std::abs(whole - better) > 1e-12 && depth < 40)) {
+                contact->recall(memory, &before);
+                level = before;
+                go(before.separation - 0.5 * width, depth + 1);
                 go(Z, depth + 1);
                 return;
             }
@@ -316,7 +319,6 @@ void test_work() {
                 go(std::abs(rest) < 2e-4 ? to : level.separation + std::copysign(2e-4, rest), 0);
             }
         };
-        (void)lost;
         lead(-0.01);
         lead(0.05);
         CHECK(level.contacts == 0);
@@ -379,7 +381,7 @@ void test_memory() {
 
 // With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
 void test_elastic_limit() {
-    Random system = random_system(20, 51);
+    Random system = random_system(12, 51);
     system.a.kappa1.clear(), system.a.kappa2.clear(), system.a.angle.clear(), system.a.biharmonic.clear();
     for (double r : system.a.radius) {
         system.a.kappa1.push_back(1.4 / r), system.a.kappa2.push_back(1 / (1.4 * r)), system.a.angle.push_back(0.3);
