@@ -118,6 +118,7 @@ private:
         };
         refuse(std::isfinite(s.hardness), "solids%hardness", "with solids%hardness it is not available yet");
         refuse(s.friction > 0, "solids%friction", "with solids%friction it is not available yet");
+        refuse(relaxes(c_), "solids%relaxation_share", "with solids%relaxation_share it is not available yet");
         refuse(s.adhesion_range > 0, "solids%adhesion_range", "with adhesion_range > 0 it is not available yet; 0 is JKR");
         refuse(by_elements(c_), "solver%model", "with model = 'elements' it is not available yet");
         refuse(c_.compare.listed(), "compare%levels", "with model = 'elements' it is not available yet; give no compare%levels");

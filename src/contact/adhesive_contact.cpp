@@ -89,6 +89,7 @@ struct AdhesiveContact::Impl {
           place(asperities.size(), -1) {
         const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion: with ") + what); };
         if (std::isfinite(options.hardness.H0)) refuse("solids%hardness it is not available yet");
+        if (!options.relaxation.none()) refuse("solids%relaxation_share it is not available yet");
         if (options.method == Method::dgesv) refuse("solver%method = 'dgesv' it is not available: the paper's method knows no tension");
         if (options.selection == Selection::paper) refuse("indentation%selection = 'paper' it is not available: others are pulled in, too");
         if (options.adhesion.range > 0) refuse("solids%adhesion_range > 0 (Maugis and Dugdale) it is not available yet");

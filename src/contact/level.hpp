@@ -58,7 +58,6 @@ struct LevelValues {
     double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
     double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
     // Adhesion:
-    double energy_lost = kNotComputed;    // in all jumps since the beginning [force length]
     double least_force = kNotComputed;    // the smallest met since the beginning [force]
     double cohesive_area = kNotComputed;  // under the traction w/z0, out of contact [length^2]
     std::int32_t jumps = 0;               // on the way from the level before

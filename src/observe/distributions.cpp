@@ -109,7 +109,7 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         const double p = level.f[k] / area;
         count_value(d.spot_area, area, bins.area_width());
         if (!(p < 0)) count_value(d.mean_pressure, p, bins.mean_pressure_width());
-        if (!std::isnan(level.energy_lost)) continue;  // adhesion: the pressures within a spot are not Hertz's
+        if (!std::isnan(level.least_force)) continue;  // adhesion: the pressures within a spot are not Hertz's
         if (!level.pixels.index.empty()) continue;
         if (k < level.yields.size() && level.yields[k]) {
             add_uniform(d.pressure, p, area, bins.pressure_width());

@@ -138,7 +138,7 @@ bool compares(const Job& job, bool automatically) {
     if (c.compare.listed()) return true;
     if (c.compare.what == CompareWhat::none || !automatically || by_elements(c) || c.run.realizations > 1) return false;
     const bool possible = c.surface.source != Source::asperities && c.solver.interaction == Interaction::point &&
-                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) && !relaxes(c);
+                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) && !relaxes(c) && !(c.solids.adhesion > 0);
     if (!possible || (job.spectrum && !element_memory_suffices(c, *job.spectrum))) return false;
     const double once = job.settings.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
     const double grids = job.spectrum ? kWithCoarser : kWithFiner;
