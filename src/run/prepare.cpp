@@ -373,7 +373,7 @@ Shape shape_of(const Case& settings) {
     made.rim_radius = keys.rim_radius;
     if (!keys.file.empty()) {
         Surface second = read_map(settings, keys.file, std::nullopt, keys.channel);
-        made.told = told(*second.origin.measured, settings.run.length_unit);
+        made.told = report(*second.origin.measured, settings.run.length_unit);
         auto map = std::make_shared<HeightMap>(std::move(second.map));
         map->periodic = settings.indentation.boundary == Boundary::periodic;
         made.map = std::move(map);
