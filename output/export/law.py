@@ -47,6 +47,8 @@ class Law:
             for name in ("separation", "force", "status"):
                 if name not in variables:
                     raise Refused(f"{path!r} is no result of indentation: it lacks the variable {name!r}")
+            if "pull_off_force" in variables:
+                raise Refused(f"{path!r} is of bodies that stick (solids%adhesion): the way up is another than the way down, and one table holds one way")
             self.flats = "pressure" in variables
             case = re.search(r"boundary\s*=\s*'(\w+)'", getattr(file, "case", ""))
             if not self.flats and not _finite(variables, "r_star"):
