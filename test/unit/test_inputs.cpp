@@ -120,7 +120,7 @@ void bad_heights_from_netcdf() {
         f.variable("first", NC_DOUBLE, {d, e});
         f.variable("second", NC_FLOAT, {d, e});
         f.close();
-        REFUSED(read_heights(f.path, 1.0), "there is no variable height(y, x), and it");
+        REFUSED(read_heights(f.path, 1.0), "there is no variable height(y, x), and");
     }
     {
         NcFile f("cube");
