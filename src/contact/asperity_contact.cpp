@@ -34,7 +34,7 @@ std::unique_ptr<Law> law_of(const Asperities& asperities, double E_star, const S
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
     auto relaxes = make_relaxing(std::move(law), asperities.size(), creep);
-    relaxing.emplace(asperities, *relaxes, creep);
+    relaxing.emplace(asperities, *relaxes, creep, options.tolerance);
     return relaxes;
 }
 

@@ -10,14 +10,17 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // B f of forces at the first of the points, at all of them.
 std::vector<double> deflections(Products& products, const std::vector<double>& x, const std::vector<double>& y,
-                                const std::vector<double>& f) {
+                                const std::vector<double>& f, double tolerance) {
     std::vector<double> phi(x.size(), 0.0);
     if (f.empty()) return phi;
     std::vector<int> first(f.size());
     std::iota(first.begin(), first.end(), 0);
     products.set_points(static_cast<int>(x.size()), x.data(), y.data());
     products.set_active(first);
-    products.full(f.data(), phi.data());
+    if (products.inner_error() <= tolerance)
+        products.inner_everywhere(f.data(), phi.data());
+    else
+        products.full(f.data(), phi.data());
     return phi;
 }
 
@@ -25,8 +28,8 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) { return 
 
 }  // namespace
 
-RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep)
-    : asperities_(asperities), law_(law), creep_(creep), lowered_(asperities.size(), kUnknown) {}
+RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep, double tolerance)
+    : asperities_(asperities), law_(law), creep_(creep), tolerance_(tolerance), lowered_(asperities.size(), kUnknown) {}
 
 void RelaxingAsperities::step(double dt) {
     law_.step(dt);
@@ -56,7 +59,7 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
         for (int i : missing)
             if (!std::binary_search(sorted.begin(), sorted.end(), i)) elsewhere.push_back(i);
         add_places(x, y, elsewhere);
-        const std::vector<double> phi = deflections(products, x, y, rests_);
+        const std::vector<double> phi = deflections(products, x, y, rests_, tolerance_);
         const auto keep = [&](int i, double value) {
             if (std::isnan(lowered_[at(i)])) known_.push_back(i);
             lowered_[at(i)] = value;
@@ -80,7 +83,7 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     std::vector<double> x, y;
     add_places(x, y, law_.touched());
     const auto deflected_by = [&](const std::vector<double>& f) {
-        std::vector<double> phi = deflections(products, x, y, f);
+        std::vector<double> phi = deflections(products, x, y, f, tolerance_);
         // What the kernel was raised by is no deflection of the body (Kernel::shift()).
         const double shift = products.kernel().shift() * std::accumulate(f.begin(), f.end(), 0.0);
         for (double& d : phi) d -= shift;

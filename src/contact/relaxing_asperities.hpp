@@ -11,8 +11,8 @@ namespace rsc {
 
 class RelaxingAsperities {
 public:
-    // The asperities and the law must outlive it.
-    RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep);
+    // The asperities and the law must outlive it. Deflections are accurate to `tolerance`, that of the levels.
+    RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep, double tolerance);
 
     void step(double dt);
     // Forces of the law are so many times the true ones.
@@ -38,6 +38,7 @@ private:
     const Asperities& asperities_;
     RelaxingLaw& law_;
     Creep creep_;
+    double tolerance_;
     // Of the last accepted level, in the order of touched(): forces f, loads that act elsewhere, f + sum y_k; energies.
     std::vector<double> force_, load_;
     double stored_ = 0, lost_ = 0, held_ = 0;  // held_: f'B load
