@@ -192,13 +192,10 @@ private:
         if (std::adjacent_find(i.times.begin(), i.times.end(), [](double a, double b) { return !(b > a); }) != i.times.end())
             complain({"indentation%times"}, "times: must rise from each level to the next");
         if (!relaxes(c_)) return;
-        if (!i.duration && i.times.empty())
-            complain({"indentation%duration", "solids%relaxation_share"},
-                     "duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give duration or times");
         const auto together = [&](bool given, const char* key) {
             if (given)
                 complain({"solids%relaxation_share", key},
-                         std::string("relaxation_share: together with ") + (std::strchr(key, '%') + 1) + " it is not available yet");
+                         std::string("relaxation_share: together with ") + key + " it is not available yet");
         };
         together(std::isfinite(s.hardness), "solids%hardness");
         together(s.friction > 0, "solids%friction");
