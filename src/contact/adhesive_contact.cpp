@@ -294,7 +294,7 @@ bool AdhesiveContact::Impl::begin(double target) {
             return false;
         }
         here.Z = highest;
-        cover(highest);
+        cover(std::nextafter(highest, -kInfinity));
         find(here.Z, {}, here);
         complete(here);
         return true;

@@ -322,7 +322,7 @@ void test_work() {
         lead(-0.01);
         lead(0.05);
         CHECK(level.contacts == 0);
-        CHECK_RELATIVE(-work, level.energy_lost, 1e-6);
+        CHECK_RELATIVE(work, level.energy_lost, 1e-6);
     }
 }
 
@@ -403,6 +403,42 @@ void test_elastic_limit() {
     }
 }
 
+// Without interaction: caps of one radius with Gaussian heights, pulled off after all have attached. The mean force of 200 surfaces is the
+// integral over the heights of those that still hold on (Fuller and Tabor, Proc. R. Soc. A 345, 1975), within its standard error.
+void test_fuller_tabor() {
+    const Jkr jkr{0.5, 1e-3};
+    const double length = -jkr.u(jkr.least()), sigma = 1.5 * length;
+    SolverOptions options = sticky(jkr.w);
+    options.interaction = Interaction::none;
+    std::mt19937 generator(7);
+    std::normal_distribution<double> height(0, sigma);
+    const auto force = [&](double u) { return u > -length ? jkr.f(root([&](double a) { return jkr.u(a) - u; }, jkr.least())) : 0.0; };
+    for (double Z : {0.5 * sigma, 1.5 * sigma}) {
+        constexpr int surfaces = 200, caps = 25;
+        double sum = 0, squares = 0;
+        for (int k = 0; k < surfaces; ++k) {
+            std::vector<double> x(caps), y(caps, 0.0), z(caps);
+            double own = 0;
+            for (int i = 0; i < caps; ++i)
+                x[std::size_t(i)] = i, z[std::size_t(i)] = height(generator), own += force(z[std::size_t(i)] - Z);
+            const Asperities a = of(x, y, z, std::vector<double>(caps, jkr.r));
+            const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, options);
+            (void)contact->at_separation(-8 * sigma);
+            const double N = contact->at_separation(Z).force;
+            CHECK_CLOSE(N, own, 1e-8 * caps * jkr.w);
+            sum += N / caps, squares += N / caps * N / caps;
+        }
+        const double mean = sum / surfaces, error = std::sqrt((squares / surfaces - mean * mean) / surfaces);
+        double integral = 0;
+        const double first = Z - length, last = 8 * sigma, step = (last - first) / 4000;
+        for (int k = 0; k < 4000; ++k) {
+            const double h = first + (k + 0.5) * step;
+            integral += step * force(h - Z) * std::exp(-0.5 * h * h / (sigma * sigma)) / (sigma * std::sqrt(2 * pi));
+        }
+        CHECK_CLOSE(mean, integral, 3 * error);
+    }
+}
+
 // What cannot be had together is refused by name.
 void test_refused() {
     const Asperities a = of({0.5}, {0.5}, {0.1}, {0.7});
@@ -431,6 +467,7 @@ TESTS {
     test_force();
     test_memory();
     test_elastic_limit();
+    test_fuller_tabor();
     test_refused();
     test_one();
     test_groups();
