@@ -120,8 +120,8 @@ void westergaard() {
         } catch (const Error& e) {
             const std::string said = e.what();
             CHECK(e.kind() == Failure::bad_input && said.find("full contact") != std::string::npos);
-            const std::size_t from = said.find(" from ");
-            CHECK_RELATIVE(std::strtod(said.c_str() + from + 6, nullptr), closed, 1e-8);
+            const std::size_t from = said.find("surface, ");
+            CHECK_RELATIVE(std::strtod(said.c_str() + from + 9, nullptr), closed, 1e-8);
         }
         CHECK(contact->at_force(0.9999 * closed * map.Ly()).area_pixels < map.Ly());
         CHECK_THROWS(contact->at_separation(0), Error);
@@ -152,7 +152,7 @@ void any_grid() {
             contact->at_force(1e3 * kE * map.Lx() * map.Ly());
         } catch (const Error& e) {
             const std::string said = e.what();
-            closing = std::strtod(said.c_str() + said.find(" from ") + 6, nullptr);
+            closing = std::strtod(said.c_str() + said.find("surface, ") + 9, nullptr);
         }
         CHECK(closing > 0);
         for (const double share : {1e-4, 0.03, 0.4, 0.9, 0.999}) {
