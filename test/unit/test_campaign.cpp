@@ -226,6 +226,10 @@ std::string other_value(const Key& key, const std::string& value) {
     }
     if (std::string(key.name) == "length_unit") return "'um'";
     if (std::string(key.name) == "force_unit") return "'kN'";
+    if (std::string(key.name) == "time_unit") return "'ms'";
+    if (std::string(key.name) == "height_unit") return "'um'";
+    if (std::string(key.name) == "times") return "1.25, 2.75";
+    if (std::string(key.name) == "relaxation_share") return "0.25, 0.375";
     if (key.type == Type::string || key.type == Type::choice) return "'another'";
     if (key.type != Type::real) return std::to_string(std::stoll(value) + (std::stod(value) < key.bounds.high ? 2 : -2));
     if (key.list) return std::string(key.name) == "layer_nu" ? "0.25, 0.375" : "1.25, 0.75";

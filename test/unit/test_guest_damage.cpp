@@ -91,7 +91,7 @@ void test_inputs(const Folder& folder) {
         try {
             check_output(name);
         } catch (const Error& error) {
-            told = std::strstr(error.what(), "address");
+            told = std::strstr(error.what(), "URL");
         }
         CHECK(told);
     }
