@@ -490,7 +490,8 @@ class Case(_Object):
             case = self.copy()
             case["output%file"] = os.fspath(file)
         # Python answers to Ctrl-C in its main thread only, and not while that is in the library: another one runs the case.
-        failed, stop, seen, raised = ctypes.c_int64(), threading.Event(), [], []
+        # Not Thread.join: where Ctrl-C interrupts that, Python 3.11 takes the thread for one that has ended.
+        failed, stop, done, seen, raised = ctypes.c_int64(), threading.Event(), threading.Event(), [], []
 
         def watch(done, total, _):
             seen[:] = [done, total]
@@ -501,17 +502,17 @@ class Case(_Object):
                 _call("rsc_case_run_watched", case, _Watch(watch), None, failed)
             except BaseException as error:
                 raised.append(error)
+            finally:
+                done.set()
 
-        thread = threading.Thread(target=work)
-        thread.start()
+        threading.Thread(target=work).start()
         try:
-            while thread.is_alive():
-                thread.join(0.05)
+            while not done.wait(0.05):
                 if progress is not None and seen:
                     progress(*seen)
         finally:
             stop.set()
-            thread.join()
+            done.wait()
         for error in raised:
             if isinstance(error, NotConverged):
                 error.failed_levels = failed.value

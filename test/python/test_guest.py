@@ -4,6 +4,7 @@ import signal
 import tempfile
 import threading
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -33,6 +34,20 @@ class Guest(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             case.run(self.path("long.nc"), progress)
         self.assertEqual(os.listdir(self.folder.name), [])
+
+        # Also while nothing else happens; the call of the library has ended then, not only the waiting for it.
+        ended, call = [], rsc._call
+
+        def noted(function, *values):
+            try:
+                return call(function, *values)
+            finally:
+                ended.append(function)
+
+        threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with unittest.mock.patch("rsc._call", noted), self.assertRaises(KeyboardInterrupt):
+            case.run(self.path("long.nc"))
+        self.assertIn("rsc_case_run_watched", ended)
 
         def refuse(done, total):
             raise RuntimeError("enough")
