@@ -1,6 +1,7 @@
 #include "rough/defects.hpp"
 
 #include "error.hpp"
+#include "rough/library_lock.hpp"
 
 namespace rsc {
 namespace {
@@ -210,61 +211,22 @@ double equal_share(const HeightMap& map, double same) {
     return pairs > 0 ? static_cast<double>(equal) / static_cast<double>(pairs) : 0.0;
 }
 
-// 2 G - G G along a line of n values with G Gaussian: paraboloids go through unchanged. Lines are reflected at their ends, or repeat.
-class Smoothing {
-public:
-    explicit Smoothing(double width) {
-        const int reach = std::max(1, static_cast<int>(std::ceil(3 * width)));
-        std::vector<double> gauss;
-        double sum = 0;
-        for (int k = -reach; k <= reach; ++k) gauss.push_back(std::exp(-0.5 * k * k / (width * width))), sum += gauss.back();
-        for (double& g : gauss) g /= sum;
-        const int n = 2 * reach;
-        weight_.assign(static_cast<std::size_t>(2 * n + 1), 0.0);
-        for (int k = -reach; k <= reach; ++k) {
-            weight_[static_cast<std::size_t>(n + k)] += 2 * gauss[static_cast<std::size_t>(reach + k)];
-            for (int l = -reach; l <= reach; ++l)
-                weight_[static_cast<std::size_t>(n + k + l)] -=
-                    gauss[static_cast<std::size_t>(reach + k)] * gauss[static_cast<std::size_t>(reach + l)];
-        }
-        reach_ = n;
-    }
-    // Across the rows, and along them.
-    void rows(HeightMap& map) const {
-        HeightMap out;
-        out.allocate(map.nx, map.ny, map.nx);
-        for (int j = 0; j < map.ny; ++j) {
-            double* const to = out.row(j);
-            std::fill(to, to + map.nx, 0.0);
-            for (int k = -reach_; k <= reach_; ++k) {
-                const double w = weight_[static_cast<std::size_t>(reach_ + k)];
-                const double* const from = map.row(inside(j + k, map.ny, map.periodic));
-                for (int i = 0; i < map.nx; ++i) to[i] += w * from[i];
+// The plane that fits a map best in the least-squares sense, about its middle.
+struct Plane {
+    double mean = 0, along_x = 0, along_y = 0;
+    explicit Plane(const HeightMap& map) : mid_x(0.5 * (map.nx - 1)), mid_y(0.5 * (map.ny - 1)) {
+        double xx = 0, yy = 0;
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i) {
+                const double x = i - mid_x, y = j - mid_y;
+                mean += map(i, j), along_x += x * map(i, j), along_y += y * map(i, j);
+                xx += x * x, yy += y * y;
             }
-        }
-        for (int j = 0; j < map.ny; ++j) std::copy_n(out.row(j), map.nx, map.row(j));
+        mean /= static_cast<double>(map.nx) * map.ny;
+        along_x /= std::max(xx, 1.0), along_y /= std::max(yy, 1.0);
     }
-    void columns(HeightMap& map) const {
-        std::vector<double> line(static_cast<std::size_t>(map.nx + 2 * reach_));
-        for (int j = 0; j < map.ny; ++j) {
-            double* const row = map.row(j);
-            for (int i = -reach_; i < map.nx + reach_; ++i)
-                line[static_cast<std::size_t>(i + reach_)] = row[inside(i, map.nx, map.periodic)];
-            std::fill(row, row + map.nx, 0.0);
-            for (int k = 0; k <= 2 * reach_; ++k)
-                for (int i = 0; i < map.nx; ++i) row[i] += weight_[static_cast<std::size_t>(k)] * line[static_cast<std::size_t>(i + k)];
-        }
-    }
-
-private:
-    static int inside(int i, int n, bool periodic) {
-        if (periodic) return (i % n + n) % n;
-        const int two = 2 * n;
-        i = (i % two + two) % two;
-        return i < n ? i : two - 1 - i;
-    }
-    int reach_ = 0;
-    std::vector<double> weight_;
+    double operator()(int i, int j) const { return mean + along_x * (i - mid_x) + along_y * (j - mid_y); }
+    double mid_x, mid_y;
 };
 
 }  // namespace
@@ -292,22 +254,47 @@ double height_step(const HeightMap& map) {
     return static_cast<double>(other) <= most_other * static_cast<double>(pairs) ? least : 0.0;
 }
 
-void smooth_within_step(HeightMap& map, double step) {
-    const HeightMap rounded = map.copy();
-    // Mean length of plateaus, 1/(1 - share of equal neighbours). They may be tilted, because a form was subtracted.
-    constexpr double longest = 16, tilted = 0.25;
-    const double length = std::min(longest, 1 / std::max(1e-3, 1 - equal_share(map, tilted * step)));
-    constexpr int passes = 4;
-    for (const double width : {0.5 * length, 0.25 * length}) {
-        const Smoothing smoothing(std::max(0.5, width));
-        for (int pass = 0; pass < passes; ++pass) {
-            smoothing.columns(map);
-            smoothing.rows(map);
-            for (int j = 0; j < map.ny; ++j)
-                for (int i = 0; i < map.nx; ++i)
-                    map.row(j)[i] = std::clamp(map(i, j), rounded(i, j) - 0.5 * step, rounded(i, j) + 0.5 * step);
-        }
+void smooth_rounded(HeightMap& map, double step) {
+    const auto nx = static_cast<std::size_t>(map.nx), ny = static_cast<std::size_t>(map.ny);
+    const std::unique_ptr<double[], HeightMap::Free> series(allocate_doubles(nx * ny, "the cosine series of a map"));
+    FftwPlan forward, back;
+    {
+        const auto lock = fftw_planning();
+        forward.reset(fftw_plan_r2r_2d(map.ny, map.nx, series.get(), series.get(), FFTW_REDFT10, FFTW_REDFT10, FFTW_ESTIMATE));
+        back.reset(fftw_plan_r2r_2d(map.ny, map.nx, series.get(), series.get(), FFTW_REDFT01, FFTW_REDFT01, FFTW_ESTIMATE));
     }
+    if (!forward || !back) throw Error(Failure::internal, "a map without its rounding: FFTW made no plan");
+    const Plane plane(map);  // its cosine series would hide the rounding
+    for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i) {
+            const int column = static_cast<int>(i), row = static_cast<int>(j);
+            series[j * nx + i] = map(column, row) - plane(column, row);
+        }
+    fftw_execute(forward.get());
+    // Mean power on rings of a wave number each, and that of the rounding, which is the same on all.
+    const double points = static_cast<double>(nx * ny), shorter = static_cast<double>(std::min(nx, ny));
+    const auto ring = [&](std::size_t i, std::size_t j) {
+        return static_cast<std::size_t>(std::lround(
+            shorter * std::hypot(static_cast<double>(i) / static_cast<double>(nx), static_cast<double>(j) / static_cast<double>(ny))));
+    };
+    std::vector<double> power(ring(nx, ny) + 1), modes(power.size()), gain(power.size(), 0.0);
+    for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i) power[ring(i, j)] += series[j * nx + i] * series[j * nx + i], ++modes[ring(i, j)];
+    constexpr double safety = 1.5;  // the rounding's power on a ring scatters
+    const double rounding = safety * 4 * points * step * step / 12;
+    constexpr std::size_t beside = 2;  // rings of either side that the mean is taken over, too
+    for (std::size_t k = 0; k < power.size(); ++k) {
+        double sum = 0, count = 0;
+        for (std::size_t l = k - std::min(k, beside); l <= std::min(k + beside, power.size() - 1); ++l) sum += power[l], count += modes[l];
+        gain[k] = std::max(0.0, 1 - rounding * count / std::max(sum, 1e-300));
+        if (k > 0 && gain[k] == 0) break;  // shorter waves are the rounding's
+    }
+    for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i) series[j * nx + i] *= gain[ring(i, j)] / (4 * points);
+    fftw_execute(back.get());
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            map.row(j)[i] = plane(i, j) + series[static_cast<std::size_t>(j) * nx + static_cast<std::size_t>(i)];
 }
 
 }  // namespace rsc

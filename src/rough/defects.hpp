@@ -25,8 +25,8 @@ void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMa
 // 0. Missing points (NaN) are left out. Call it before a form is subtracted.
 double height_step(const HeightMap& map);
 
-// Replaces the heights by a smooth surface within half a step of them, on which a plateau is the top of one summit: smoothing over the
-// plateaus' width by a kernel that leaves paraboloids as they are, and going back to within half a step, in turn.
-void smooth_within_step(HeightMap& map, double step);
+// Takes the rounding out of a map whose heights are rounded to multiples of `step` (Wiener's filter on its cosine series): rounding adds a power of
+// step^2/12 spread evenly over all waves; waves that have little more are damped, and those shorter than the first that has no more are dropped.
+void smooth_rounded(HeightMap& map, double step);
 
 }  // namespace rsc

@@ -146,7 +146,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                            m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
     if (m.height_step > 0)
         lines.push_back(
-            format("heights are rounded to multiples of %.4g %s: asperities are summits of a smooth surface within half a step of them",
+            format("heights are rounded to multiples of %.4g %s: asperities are summits of the map without its rounding (filter of Wiener)",
                    m.height_step, l));
     tell_breaks(m, l, lines);
     if (m.fit) {

@@ -246,7 +246,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     auto seen = std::make_shared<HeightMap>();
     if (step > 0 || !breaks->pits.empty() || detail_of(settings) == Detail::subgrid) *seen = map.copy();
     if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
-    if (step > 0) smooth_within_step(*seen, step);
+    if (step > 0) smooth_rounded(*seen, step);
     model.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
                                        surface.origin.points_per_wave, nullptr, breaks.get());
     if (measured) {

@@ -160,7 +160,7 @@ TESTS {
             forces(clean, law, as_it_was, truth);
             forces(map, law, now, truth);
             std::printf("rounded to %g sigma: N %.4g, not rounded %.4g\n", part, now, as_it_was);
-            CHECK_RELATIVE(now, as_it_was, 0.1);
+            CHECK_RELATIVE(now, as_it_was, 0.06);
         }
     }
 }
