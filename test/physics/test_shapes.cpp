@@ -86,7 +86,7 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
 // p = 3/2; a punch sticks all over until it slides).
 void friction(const char* name, const ShapeKeys& keys, double depth, double side) {
     const Shape s = shape(name, keys);
-    const HeightMap map = flat_map(48, 48, side / 48);
+    const HeightMap map = flat_map(49, 49, side / 49);  // a point under the tip
     ElementContact one(map, {kE, s, 0, 0}, elements()), other(map, {kE, s, 0, 0}, elements());
     ContactCurve curve(one, other);
     const Friction mu{0.3, 0.8};
@@ -101,7 +101,7 @@ void friction(const char* name, const ShapeKeys& keys, double depth, double side
 // Pressed until all yields, N = H A; nowhere more than H.
 void hardness(const char* name, const ShapeKeys& keys, double depth, double side) {
     constexpr double H = 0.5;
-    const HeightMap map = flat_map(48, 48, side / 48);
+    const HeightMap map = flat_map(49, 49, side / 49);  // a point under the tip
     SolverOptions options = elements();
     options.hardness.H0 = H;
     ElementContact contact(map, {kE, shape(name, keys), 0, 0}, options);

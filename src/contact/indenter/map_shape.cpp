@@ -52,9 +52,9 @@ public:
     }
     double biharmonic(double x, double y) const override {
         Along u, v;
-        if (!place(x, map_.dx, map_.nx, 4, u) || !place(y, map_.dy, map_.ny, 4, v)) return 0;
+        if (!place(x, map_.dx, map_.nx, 5, u) || !place(y, map_.dy, map_.ny, 5, v)) return 0;
         const double dx2 = map_.dx * map_.dx, dy2 = map_.dy * map_.dy;
-        return -(sum(u, 3, v, 0) / (dx2 * dx2) + 2 * sum(u, 2, v, 2) / (dx2 * dy2) + sum(u, 0, v, 3) / (dy2 * dy2));
+        return -(sum(u, 4, v, 0) / (dx2 * dx2) + 2 * sum(u, 2, v, 2) / (dx2 * dy2) + sum(u, 0, v, 4) / (dy2 * dy2));
     }
     double lowest(const Box& box) const override {
         const auto range = [this](double low, double high, double step, int n, int blocks, int& first, int& last) {
