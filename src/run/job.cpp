@@ -166,8 +166,9 @@ Job prepare(const Case& settings) {
     job.levels = spaced(indentation);
     job.times = times_of(indentation, job.levels.size());
     if (relaxes(settings) && job.times.empty())
-        throw Error(Failure::bad_input, "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give "
-                                        "duration or times");
+        throw Error(Failure::bad_input,
+                    "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give "
+                    "duration or times");
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
         const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
