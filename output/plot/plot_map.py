@@ -73,6 +73,7 @@ def maps(results, options):
             image.set_clim(0, end)
         colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
     what = ("Area fraction and pressure" if one else "Pressure") + ("; dashed: smooth sphere under the same force" if any(r.has_sphere() for r, _, _ in panels) else "")
+    figure.canvas.draw()  # the layout takes the width of tick labels from the drawing before
     figure.suptitle("\n".join(part for line in (results[0].heading(what) if one else what).split("\n") if line for part in _wrapped(line, int(options.width / 1.65))))
     return figure
 

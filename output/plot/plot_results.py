@@ -15,7 +15,7 @@ _NO_MATTER = ("run%title", "run%threads", "output%")
 _SYMBOLS = {
     "surface%sigma": (r"$\sigma$", "length"), "surface%hurst": ("$H$", ""), "surface%L": ("$L$", "length"), "surface%n": ("$n$", ""),
     "surface%L_lambda_l": (r"$L/\lambda_l$", ""), "surface%L_lambda_s": (r"$L/\lambda_s$", ""), "solids%R": ("$R$", "length"), "solids%E": ("$E$", "modulus"),
-    "solids%nu": (r"$\nu$", ""), "solids%hardness": ("$H_0$", "modulus"), "solids%friction": (r"$\mu$", ""), "asperities%law": ("law", ""),
+    "solids%nu": (r"$\nu$", ""), "solids%hardness": ("$H_0$", "modulus"), "solids%layer_thickness": ("layer thickness", "length"), "solids%layer_E": ("layer $E$", "modulus"), "solids%friction": (r"$\mu$", ""), "asperities%law": ("law", ""),
     "solver%model": ("model", ""), "solver%method": ("method", ""), "solver%interaction": ("interaction", ""), "run%seed": ("seed", ""),
 }
 

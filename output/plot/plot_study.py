@@ -52,6 +52,9 @@ def study(results, options):
                 axis.set_xscale("log")
             symbol, unit = key_label(keys[0], results[0])
             label(axis, "x", symbol + (f" [{unit}]" if unit else ""))
+            if x.size <= 5:  # the values themselves
+                axis.minorticks_off()
+                axis.set_xticks(x[order], [value_text(texts[k][0]) for k in order])
             label(axis, "y", QUANTITIES[quantity], dimension)
             continue
         ends = [sorted({t[i] for t in texts}, key=_in_order) for i in (0, 1)]

@@ -108,7 +108,7 @@ def label(axis, which, text, dimension=""):
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
         for setter in (side.set_major_formatter, side.set_minor_formatter):
-            ticks = _LogTicks(minor_thresholds=(1.2, 0.45))
+            ticks = _LogTicks(minor_thresholds=(1.6, 0.45))
             ticks.size = size
             setter(ticks)
     else:
