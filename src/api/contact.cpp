@@ -79,6 +79,8 @@ void put_finite(double* to, double value) {
 
 void tell_convergence(const rsc_contact& contact) {
     if (contact.known.level->status == LevelStatus::not_converged) {
+        if (contact.known.level->fallback == rsc::Fallback::held)
+            throw Outcome{RSC_NOT_CONVERGED, "no state carries this force: the contact is held where its force is smallest"};
         throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
 }

@@ -27,7 +27,7 @@ const FrictionHistory& contact_of(const rsc_friction* friction) {
 }
 
 void require_elastic(const rsc_contact& contact) {
-    if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction is not available with hardness");
+    if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction is not available with hardness or adhesion");
     if (contact.contact.indenter().layers.count > 0) refuse(2, "contact", "has layers: friction is not available for them yet");
 }
 
