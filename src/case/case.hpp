@@ -28,7 +28,7 @@ enum class Format { netcdf4, cdf5, classic };
 inline constexpr std::array kFormatNames = {"netcdf4", "cdf5", "classic"};
 enum class Contacts { automatic, none, last, all };
 inline constexpr std::array kContactsNames = {"auto", "none", "last", "all"};
-// The words that compare%levels may be instead of a list.
+// Words allowed for compare%levels instead of a list.
 enum class CompareWhat { automatic, none };
 inline constexpr std::array kCompareNames = {"auto", "none"};
 enum class StudyMode { product, zip };

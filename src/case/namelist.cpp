@@ -29,7 +29,7 @@ public:
             if (text[i] == '\n') lines_.push_back(i + 1);
     }
 
-    // Text outside of groups is skipped, comments as a whole: a group named in one is not there.
+    // Text outside of groups is skipped; a group inside a comment does not count.
     Document document() {
         std::size_t resumed = 0;  // where the last group ended
         for (int c = next(); c != kEnd; c = next()) {
@@ -266,7 +266,7 @@ private:
         group.assignments.push_back(std::move(a));
     }
 
-    // One dimension, blanks allowed anywhere. Returns what is wrong.
+    // One dimension, blanks allowed anywhere. Returns an error message.
     std::string subscript(Assignment& a) {
         Subscript s;
         s.at = position(at_);

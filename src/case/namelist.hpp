@@ -63,19 +63,19 @@ inline constexpr long kLargestRepeat = 200'000'000;                // gfortran's
 inline constexpr std::size_t kMostItems = 100'000;                 // in one assignment
 inline constexpr std::size_t kMostFaults = 100;                    // reported at once
 
-// Parses a whole text: groups of the given (lower case) names, anything outside of them being ignored. Never throws on bad text:
+// Parses a whole text: groups of the given (lower case) names, text outside of them is ignored. Never throws on bad text:
 // faults are collected.
 Document parse(std::string_view text, const std::vector<std::string_view>& known_groups);
 
 // Parses the assignments of one group, without its &name and its end: `sigma = 0.01`.
 Document parse_assignments(std::string_view text);
 
-// The one of `candidates` that `word` is most likely a misspelling of; empty when none is near.
+// The candidate closest in spelling to `word`; empty if none is close.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 std::string lower_case(std::string_view word);
 
-// "name:line:column: text", or "name: text" for a fault that is nowhere.
+// "name:line:column: text", or "name: text" for a fault without a place.
 std::string format(const std::string& name, const Fault& fault);
 
 }  // namespace rsc::namelist

@@ -5,7 +5,7 @@
 
 namespace rsc::namelist {
 
-// Each gives nothing when gfortran would refuse the spelling for a variable of that type.
+// Empty if gfortran would refuse the spelling for a variable of that type.
 std::optional<std::int64_t> to_integer(std::string_view word);  // nothing also beyond 64 bits
 std::optional<double> to_real(std::string_view word);           // 1.5, .5, 5., 1e3, 1d3, 1q3, 1.5+3, Inf, Infinity, NaN, NaN(...)
 std::optional<bool> to_logical(std::string_view word);          // whatever begins with t, f, .t or .f

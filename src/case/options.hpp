@@ -26,7 +26,7 @@ struct Options {
     bool version = false;
 };
 
-// Throws Error(bad_input) saying what is wrong with the command line. --help, --man and --version win over all that follows them.
+// Throws Error(bad_input) for a wrong command line. Options after --help and --version are not read.
 Options parse_options(int argc, const char* const* argv);
 
 std::string usage_text();

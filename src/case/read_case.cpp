@@ -85,7 +85,7 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     }
 }
 
-// "--set surface%sigma=1": what is wrong with it, or nothing.
+// Applies "--set surface%sigma=1"; returns an error message, or nothing.
 std::string apply_set(Case& settings, const std::string& argument) {
     const std::size_t equals = argument.find('=');
     try {

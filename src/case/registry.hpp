@@ -25,7 +25,7 @@ struct Bounds {
     std::string text() const;  // "> 0", "0 to 1", ... ; empty when anything goes
 };
 
-// An enumeration seen as the number of its choice in the key's list.
+// An enumeration, as the number of its choice in the key's list.
 struct ChoiceSlot {
     void* object;
     int (*get)(const void*);

@@ -77,7 +77,7 @@ private:
         if (auto* s = std::get_if<std::string*>(&slot)) check_text(key, **s);
     }
 
-    // Text that the effective namelist could not give back unchanged is refused.
+    // Text that the effective namelist could not reproduce is refused.
     void check_text(const Key& key, const std::string& text) {
         const auto control = [](char c) { return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127; };
         std::string wrong;

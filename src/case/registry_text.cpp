@@ -121,7 +121,7 @@ std::string describe(std::string_view name) {
 
 namespace {
 
-// Text as roff takes it for text: no command at the start of a line, hyphens that can be copied.
+// Escapes text for roff: no command at the start of a line, hyphens that can be copied.
 std::string escaped(std::string_view text) {
     std::string result;
     if (!text.empty() && (text.front() == '.' || text.front() == '\'')) result = "\\&";

@@ -1,4 +1,4 @@
-// Values by name: what an assignment of a namelist does to a Case, and the way back.
+// Values by name: stores the assignments of a namelist in a Case, and reads them back.
 
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
@@ -56,7 +56,7 @@ std::string likely_cause(const Assignment& a, const Item& item) {
     return {};
 }
 
-// Trailing blanks mean nothing to a Fortran character variable.
+// Trailing blanks are not significant in Fortran.
 std::string trimmed(std::string text) {
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
@@ -90,7 +90,7 @@ bool put(Slots& slot, long element, Number value) {
     return true;
 }
 
-// Converts and stores one value; returns what is wrong with it.
+// Converts and stores one value; returns an error message.
 std::string store(Slot slot, const Key& key, long element, const Item& item, Ledger::Entry& entry) {
     switch (key.type) {
         case Type::logical: {

@@ -58,11 +58,11 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-// 1 `from` in `to`; 0 where the two measure different things or their zeros differ.
+// The factor from `from` to `to`; 0 if they measure different quantities or have different zeros.
 double factor_between(const Unit& from, const Unit& to) {
     const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(from.get(), to.get()), cv_free);
     if (!converter || cv_convert_double(converter.get(), 0.0) != 0) return 0;
-    // Units are decimal fractions of each other; products of their prefixes are so to the last bits only.
+    // Units are decimal fractions of each other, but products of their prefixes have rounding errors.
     char digits[40];
     std::snprintf(digits, sizeof digits, "%.14e", cv_convert_double(converter.get(), 1.0));
     return std::strtod(digits, nullptr);
@@ -89,7 +89,7 @@ std::string problem_of(Session& session, const std::string& text, const Unit& un
 }  // namespace
 
 std::string unit_problem(const std::string& text, Quantity quantity) {
-    // Known without being looked up: the defaults work where the list of units is missing.
+    // Not looked up, so that the defaults work without the list of units.
     if (text.empty() || text == "1" || text == known(quantity).usual) return {};
     Session session;
     return problem_of(session, text, session.parse(trimmed(text)), quantity);

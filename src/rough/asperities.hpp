@@ -18,8 +18,8 @@ inline bool usable_positive(double v) noexcept { return v >= 1 / kLargestNumber 
 enum class Curvature { geometric, algebraic };
 inline constexpr std::array kCurvatureNames = {"geometric", "algebraic"};
 
-// Structure of arrays, one entry an asperity. x, y, z [length] and radius [length] are always there; the rest is empty when
-// the asperities were given without curvatures.
+// Structure of arrays, one entry for each asperity. x, y, z [length] and radius [length] are required; the others are empty if the
+// asperities were given without curvatures.
 struct Asperities {
     std::vector<double> x, y, z, radius;
     std::vector<double> kappa1, kappa2;  // principal curvatures, kappa1 >= kappa2 > 0 [1/length]
@@ -50,7 +50,7 @@ inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
 
 // Checks asperities given by the user: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
 // the same length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at
-// the same (x, y). `name(i)` says in the message which one is meant.
+// the same (x, y). `name(i)` names asperity i in messages.
 void validate(const Asperities& asperities, const std::function<std::string(std::size_t)>& name);
 
 }  // namespace rsc

@@ -30,8 +30,8 @@ struct Breaks {
 Breaks find_breaks(const HeightMap& map, double height_step);
 inline constexpr double kBreak = 12;
 
-// Raises pits to the polynomial through the points across them: nothing touches their bottoms, and the summits beside them are then those of
-// the surface around.
+// Raises pits to the polynomial through the points around them. Nothing touches their bottoms, and the summits beside them are then those
+// of the surrounding surface.
 void raise_pits(HeightMap& map, const Breaks& breaks);
 
 }  // namespace rsc

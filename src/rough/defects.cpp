@@ -27,7 +27,7 @@ public:
         const std::size_t n = points_.size();
         left_.resize(n, -1), below_.resize(n, -1), right_.resize(n, -1), above_.resize(n, -1);
         diagonal_.resize(n), source_.resize(n), solution_.resize(n);
-        // Unknowns are measured from one level, that large offsets cost no digits.
+        // A common level is subtracted, so that large offsets cost no digits.
         double sum = 0, weight = 0;
         const auto visit = [&](std::size_t k, int i, int j, double w, int& neighbour) {
             if (i < 0 || j < 0 || i >= map.nx || j >= map.ny) return;

@@ -14,12 +14,10 @@ long count_missing(const HeightMap& map);
 // 1e-12. Returns the points filled, 1 at j*nx + i, or nothing if none was missing. Throws Error(bad_input) if all are missing.
 std::vector<std::uint8_t> fill_missing(HeightMap& map);
 
-// Leaves out the asperities nearer than `distance` to a filled point and corrects the count: their curvatures are the filling's. The means of the
-// count are those of the asperities kept.
+// Removes the asperities closer than `distance` to a filled point, whose curvatures depend on the filling, and corrects the count and its
+// means.
 void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled,
                       double distance);
-
-// Maps whose heights were rounded by the instrument or its file: plateaus have no summits, and second differences on them are the rounding's.
 
 // The step of which all differences of neighbouring heights are multiples, if many neighbours are equal; otherwise
 // 0. Missing points (NaN) are left out. Call it before a form is subtracted.

@@ -17,7 +17,7 @@ struct Part {
 
 void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-// The means are summed over the whole, so that they do not depend on where it was cut.
+// The means are summed over all, so that they do not depend on the number of parts.
 SummitCount counted(const Asperities& all, long saddles, long repeated) {
     double sum_g = 0, sum_a = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -66,7 +66,7 @@ Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic,
     return std::move(all.found);
 }
 
-// Runs part(t, first, last) on each of `threads` shares of the rows 0 ... rows - 1; an exception of one comes out of here.
+// Runs part(t, first, last) on each of `threads` shares of the rows 0 ... rows - 1; rethrows the first exception of a part.
 void share_rows(int rows, int threads, const std::function<void(int, int, int)>& part) {
     std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(threads));
     Watch* const watch = Watch::here();

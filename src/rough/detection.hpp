@@ -43,10 +43,10 @@ struct SummitCount {
 // 1/kappa_a. Neither the result nor the means depend on `threads`, to the last bit.
 //
 // Detail::subgrid: the summits of the surface that Newton's method reaches from those points and from those whose second differences
-// promise one within a step, in the order of these points; periodic x, y lie in the map. points_per_wave >= 4 says that the map
+// indicate one within a step, in the order of these points; periodic x, y lie in the map. points_per_wave >= 4 says that the map
 // holds no wave shorter than so many grid steps (Error(bad_input) for less): errors are then some 1e-8 of the derivatives' rms
 // values, and a summit is the same on every grid that finds it; one beside a higher one may be missed (one in 170 with 4 points in
-// lambda_s, one in some thousands with 8). 0: nothing is known, as of a measured map; Lagrange polynomials through
+// lambda_s, one in some thousands with 8). 0: not known, for measured maps; Lagrange polynomials through
 // kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
 // 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
 // on top. Near the border of a map that is not periodic, and near breaks (whose pits were raised), they go through fewer points.

@@ -26,7 +26,7 @@ struct Normal {
             b[i] += other.b[i];
         }
     }
-    // By Cholesky's factors. A pivot that vanishes is a coefficient that the points do not fix.
+    // By Cholesky factorisation. A vanishing pivot belongs to a coefficient that the points do not determine.
     std::array<double, kUnknowns> solve(const char* form) const {
         constexpr double kSingular = 1e-11;  // of the diagonal before elimination; full maps have 0.1 and more
         std::array<std::array<double, kUnknowns>, kUnknowns> l{};
@@ -80,7 +80,7 @@ std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, cons
     return all.solve(form);
 }
 
-// Subtracts `level` and a polynomial of first (3) or second (6 unknowns) degree. The second round removes what rounding left of a large one.
+// Subtracts `level` and a polynomial of first (3) or second (6 unknowns) degree. The second round removes rounding errors of large forms.
 template <int kUnknowns>
 std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form, double level) {
     const auto basis = [](double u, double v) {
@@ -121,7 +121,7 @@ struct Sphere {
     }
 };
 
-// Mean square of what the sphere leaves; NaN when the map reaches beyond it.
+// Mean square residual of the sphere; NaN if the map is wider than the sphere.
 double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double level) {
     double sum = 0;
     long points = 0;
@@ -255,7 +255,7 @@ Form detrend(HeightMap& map, Detrend how) {
 
 namespace {
 
-// Transmission of the waves a transform of n points knows: half waves on n steps (cosine transform), or whole ones, counted in the
+// Transmission of the waves of a transform of n points: half waves on n steps (cosine transform), or whole ones, counted in the
 // order of FFTW's half-complex format (r0, r1, ..., i2, i1). It is a product of a function of kx and one of ky.
 std::vector<double> transmissions(int n, double step, double cutoff, bool periodic) {
     std::vector<double> t(static_cast<std::size_t>(n));

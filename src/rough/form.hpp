@@ -21,17 +21,15 @@ struct Form {
 
 // Subtracts the least-squares form in place; points whose height is NaN are missing: they are not fitted and stay NaN. The plane
 // and the quadratic are polynomials of first and second degree; the sphere is fitted in the vertical distance, centre and radius
-// free, by Gauss and Newton's method from the paraboloid. Throws Error(bad_input) when the points present do not fix the form
-// (none at all, all on one line, ...) or no sphere as wide as the map fits them; the map is then as it was.
+// free, by the Gauss-Newton method from the paraboloid. Throws Error(bad_input) if the points present do not determine the form
+// (none, all on one line, ...) or no sphere as wide as the map fits them; the map is then unchanged.
 Form detrend(HeightMap& map, Detrend how);
-
-// The Gaussian filter of areal surface texture (ISO 16610-61).
 
 // Transmission of a wave of length lambda = 2 pi/k: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi), one half at
 // lambda = cutoff.
 double gaussian_transmission(double cutoff, double k);
 
-// Low-pass filter with nesting index `cutoff` > 0 [length], in place: shorter waves are taken out. The map is continued beyond its
+// Gaussian low-pass filter (ISO 16610-61) with nesting index `cutoff` > 0 [length], in place: shorter waves are removed. The map is continued beyond its
 // edges by reflection (by its period if it is periodic: cosine and Fourier transforms). No point may be missing. Throws
 // Error(bad_input) unless the cutoff is positive and finite, Error(no_memory).
 void gaussian_filter(HeightMap& map, double cutoff);

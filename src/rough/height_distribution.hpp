@@ -5,15 +5,15 @@
 
 namespace rsc {
 
-// A distribution of mean 0 and variance 1, as the rising function of a standard normal variable that has it.
+// A distribution of mean 0 and variance 1, represented as an increasing function of a standard normal variable.
 class HeightDistribution {
 public:
     // The member of Johnson's system (Biometrika 36, 1949) with this skewness and kurtosis: SU, SB or, between them, the lognormal one.
-    // Throws Error(bad_input) naming the bound unless skewness^2 + 1 < kurtosis <= 100, or when they lie so near to the bound that nearly
+    // Throws Error(bad_input) naming the bound unless skewness^2 + 1 < kurtosis <= 100, or when they are so close to the bound that nearly
     // all heights would have one of two values.
     static HeightDistribution of_moments(double skewness, double kurtosis);
 
-    // From heights at rising normal scores, linear between them and straight beyond them. Throws Error(bad_input) unless heights rise.
+    // From heights at increasing normal scores, linear between them and extrapolated linearly. Throws Error(bad_input) unless heights increase.
     static HeightDistribution of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights);
 
     double operator()(double normal) const;

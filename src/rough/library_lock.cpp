@@ -12,7 +12,7 @@ namespace {
 std::mutex mutex;
 thread_local int depth = 0;
 
-// A program that makes plans of its own, and knows nothing of rsc's lock, is then safe beside rsc.
+// Makes programs safe that plan transforms themselves, without rsc's lock.
 [[maybe_unused]] const bool planner_is_safe = (fftw_make_planner_thread_safe(), fftwf_make_planner_thread_safe(), true);
 
 }  // namespace

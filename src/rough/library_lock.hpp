@@ -7,10 +7,9 @@
 
 namespace rsc {
 
-// The one lock of libraries that several threads may not use at once: NetCDF with HDF5, and the planner of FFTW. All of rsc holds it while it is
-// in them, and rsc_lock (rsc.h) gives it to programs that use these libraries, too.
-
-// A mutex that its owner may lock again. A fork waits until no other thread holds it, so that the libraries are in order in the child.
+// The one lock for NetCDF with HDF5 and for the planner of FFTW, which are not thread-safe. rsc holds it while it calls them; rsc_lock
+// (rsc.h) gives it to programs that use these libraries, too.
+// It is recursive. A fork waits until no other thread holds it, so that the libraries are in a consistent state in the child.
 class LibraryLock {
 public:
     LibraryLock();
@@ -20,8 +19,8 @@ public:
 
 LibraryLock& library_lock();
 
-// FFTW's planner is the one part of FFTW that threads may not share: everything of rsc that makes or destroys a plan holds
-// library_lock(). Plans are made with FFTW_ESTIMATE always: measured plans differ from run to run, and bits with them.
+// Plans are made and destroyed under library_lock(), always with FFTW_ESTIMATE: measured plans, and the bits of results, differ from run to
+// run.
 
 // The lock, to be held while plans are made. FFTW ends the program if it is out of memory: some memory is allocated for a test first. Throws
 // std::bad_alloc.

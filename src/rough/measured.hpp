@@ -1,4 +1,4 @@
-// From a measured map to a rough surface: missing points, form, filter, and what is left when they are done (physics, section 11).
+// From a measured map to a rough surface: missing points, form, filter, and the properties of the result (physics, section 11).
 #pragma once
 
 #include "rough/breaks.hpp"
@@ -54,14 +54,14 @@ struct Measured {
     double points_per_wave() const;    // grid steps in the shortest wave
 };
 
-// Least ratio of rms slopes that isotropic maps have, those of few waves too.
+// Lower bound of the ratio of rms slopes of isotropic maps, including those of few waves.
 inline constexpr double kIsotropic = 0.8;
 
-// Fewer points in the shortest wave than this, and the grid, or noise at the pixel, makes the curvatures.
+// With fewer points in the shortest wave curvatures are determined by the grid, or by noise.
 inline constexpr double kFewPointsPerWave = 4;
 
-// Takes out outliers if asked to, subtracts the form fitted to the points present, fills the missing ones with the harmonic function of what is left around them, and filters, in place.
-// Throws Error(bad_input) when points are missing and Missing::refuse says so (the message names the first), or all are missing.
+// Subtracts the form fitted to the points present, fills the missing ones with the harmonic function of the heights around them, and filters, in
+// place. Throws Error(bad_input) if points are missing with Missing::refuse (the message names the first), or all are missing.
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
 // The treatment and the properties of a map as lines of text; `length_unit` follows every length.

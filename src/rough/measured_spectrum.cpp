@@ -15,7 +15,7 @@ std::vector<double> hann(int n, bool none) {
     return w;
 }
 
-// Sums of 1, x, y, x^2, xy, y^2 with weights over the points before index i, so that a line through any run of points costs nothing.
+// Sums of 1, x, y, x^2, xy, y^2 with weights over the points before index i, so that a line through any range of points is cheap.
 class Sums {
 public:
     struct Six {
@@ -83,7 +83,7 @@ public:
         }
         return line_through(s);
     }
-    // Weighted sum of squares of what is left, and the weight that it is a sum over.
+    // Weighted sum of squared residuals, and the sum of weights.
     struct Left {
         double square = 0, weight = 0;
         double mean() const { return square / weight; }
@@ -102,7 +102,7 @@ public:
         }
         return l;
     }
-    // Bayes' criterion: a break must earn its parameters. Infinite for what is no self-affine band.
+    // Bayesian information criterion, which penalises the parameters of a break. Infinite if the cut is no self-affine band.
     double cost(const Cut& c) const {
         constexpr double kSteepest = -2 * (1 + 1.5), kFlattest = -2 * (1 - 0.5);
         const double slope = power_law(c).slope;
@@ -208,7 +208,7 @@ double SelfAffineFit::around(double k) const {
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
     const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
     const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
-    // The window makes a constant a wave as long as the map: the mean it sees goes first.
+    // With the window a constant becomes a wave as long as the map: the windowed mean is subtracted first.
     double sum = 0, weights = 0, squares = 0;
     for (int j = 0; j < ny; ++j) {
         double row = 0, row_w = 0, row_s = 0;

@@ -5,8 +5,6 @@
 
 namespace rsc {
 
-// White noise of the modes of a random surface: counter-based, so that a mode's noise depends on nothing but its name.
-
 // Identifies the noise: realization number `realization` of `seed`. All 128 bits count.
 struct NoiseKey {
     std::int64_t seed = 1;

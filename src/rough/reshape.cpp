@@ -12,10 +12,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Grid points in the shortest wave while heights are changed: enough for what heights of changed ranks add beyond the band.
+// Grid points in the shortest wave during the iteration: enough for the waves that changed heights add beyond the band.
 constexpr double kPointsPerWave = 2.5;
 constexpr int kMostRounds = 60;
-// Reached: half of what is promised of one surface.
+// Tolerances: half of those documented for one surface.
 constexpr double kNearSkewness = 0.01, kNearKurtosis = 0.025;
 
 class Reshaping {
@@ -69,7 +69,7 @@ public:
             const double distance = std::max(std::abs(ds) / kNearSkewness, std::abs(dk) / kNearKurtosis);
             if (distance < best_distance) best_distance = distance, best = got, kept_ = phase_;
             if (distance <= 1) break;
-            // Within what Johnson's system offers; the margin keeps the heights off two single values.
+            // Within Johnson's system, with a margin from distributions of two values.
             ask.skewness = std::clamp(ask.skewness + 0.5 * ds, -6.0, 6.0);
             ask.kurtosis = std::clamp(ask.kurtosis + 0.5 * dk, 1.2 * ask.skewness * ask.skewness + 1.3, 90.0);
         }

@@ -5,7 +5,7 @@
 
 namespace rsc {
 
-// Skewness and kurtosis of heights; those of Gaussian ones by default.
+// Skewness and kurtosis of heights, by default of Gaussian ones.
 struct HeightShape {
     double skewness = 0, kurtosis = 3;
 };
@@ -14,14 +14,14 @@ struct HeightShape {
 // which one has none.
 class SpectrumTable {
 public:
-    // wavenumber [1/length], psd [length^4], of any unit as long as it is one. Throws Error(bad_input) naming the entry unless there are two
+    // wavenumber [1/length], psd [length^4], in any consistent unit. Throws Error(bad_input) naming the entry unless there are two
     // or more of each, finite, wavenumbers positive and rising, psd not negative and somewhere positive between two entries that are.
     SpectrumTable(std::vector<double> wavenumber, std::vector<double> psd);
     double operator()(double k) const;
     double lowest() const { return k_.front(); }
     double highest() const { return k_.back(); }
     double largest() const { return largest_; }  // psd
-    // Integral of k^power Phi(k) dk, exact for what the table means.
+    // Integral of k^power Phi(k) dk, exact for the interpolated table.
     double integral(double power) const;
     double sigma() const;  // rms height: the square root of the integral of 2 pi k Phi
 
@@ -69,7 +69,7 @@ struct Spectrum {
     HeightShape shape = {};
     std::shared_ptr<const HeightDistribution> heights = nullptr;
     bool gaussian() const { return !heights && shape.skewness == 0 && shape.kurtosis == 3; }
-    // If there is one, it is the spectrum, scaled to sigma; hurst and plateau mean nothing then, and the cutoffs are its ends.
+    // If set, the spectrum, scaled to sigma; hurst and plateau are then not used, and the cutoffs are its ends.
     std::shared_ptr<const SpectrumTable> table = nullptr;
     // The same by direction, instead of the table.
     std::shared_ptr<const PlaneSpectrum> plane = nullptr;
@@ -104,7 +104,7 @@ struct Moments {
     double mean_radius() const;                           // the paper's r_g = 1/<kappa_g> = 0.737/sqrt(m4) [length]
 };
 
-// The moments of the surface that an isotropic one of moments m2, m4 becomes when it is stretched and turned.
+// The moments of an isotropic surface of moments m2, m4 after stretching and rotation.
 MomentTensor directional_moments(double m2, double m4, double aspect, double direction);
 
 // Throws Error(bad_input) naming the member unless L > 0, 0 <= hurst <= 1, 1 <= L_lambda_l <= L_lambda_s (strictly less without
@@ -116,8 +116,8 @@ void validate(const Spectrum& spectrum);
 // of MomentTensor. Throws as validate().
 Moments theoretical_moments(const Spectrum& spectrum);
 
-// The same of the modes a periodic L x L square has (integer wavevectors), scaled so that m0 = sigma^2: what the sampled
-// moments are in expectation. A sum over all modes: takes time in proportion to L_lambda_s^2. Throws as validate().
+// The same of the modes a periodic L x L square has (integer wavevectors), scaled so that m0 = sigma^2: the
+// expectation of the sampled moments. A sum over all modes, whose time is proportional to L_lambda_s^2. Throws as validate().
 Moments discrete_moments(const Spectrum& spectrum);
 
 // The squared length of integer wavevectors after stretching: q2 = xx kx^2 + 2 xy kx ky + yy ky^2, of determinant 1.

@@ -77,7 +77,7 @@ double Stencil::fit(double cutoff) {
     constexpr int kWaves = 160;
     constexpr double kLongest = 1.0 / 256;  // longest wave of the weight, in 1/cutoff; longer ones count as much
     constexpr double kExponent = -2.6;      // profile spectrum of H = 0.8
-    // The weights are kept small where the band leaves them free: rounding errors of the heights are not blown up.
+    // Weights that the band does not determine are kept small, so that rounding errors of the heights are not amplified.
     constexpr double kRidge = 1e-15;
     std::vector<double> k(kWaves), weight(kWaves);
     double energy = 0;

@@ -1,4 +1,4 @@
-// Stencils that give a height map and its derivatives between its points.
+// Stencils for heights and derivatives of a map between its points.
 #pragma once
 
 namespace rsc {
@@ -18,7 +18,7 @@ public:
     // below 1e-8; lower derivatives are better. Throws Error(bad_input) for fewer points a wave.
     static Stencil band_limited(double points_per_wave);
 
-    // For lines of which nothing is known: Lagrange's polynomial through the 2 reach + 1 points and its derivatives.
+    // For lines with an unknown spectrum: Lagrange's polynomial through the 2 reach + 1 points and its derivatives.
     static Stencil polynomial(int reach);
 
     int reach() const { return reach_; }

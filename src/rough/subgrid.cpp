@@ -67,7 +67,7 @@ const double* SummitClimber::difference_row(int j, const double* z) {
     return row.z.data() + beside;
 }
 
-// How far a stencil at (i, j) may reach: up to the map's border and the next break; 0 on one.
+// Largest reach of a stencil at (i, j), limited by the map's border and the next break; 0 on a break.
 int SummitClimber::clear_reach(int i, int j) const {
     int reach = stencils_.back().reach();
     if (!place_.periodic) reach = std::min({reach, i, j, place_.nx - 1 - i, ny_ - 1 - j});

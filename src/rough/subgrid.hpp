@@ -1,4 +1,4 @@
-// Summits between the points of the grid: what asperity detection does where the law looks closer than Hertz's.
+// Summits between the points of the grid, for all laws but 'hertz'.
 #pragma once
 
 #include "rough/asperities.hpp"
@@ -70,7 +70,7 @@ private:
     std::vector<Start> starts_;
 };
 
-// Several starts may lead to one summit: leaves the one that is a maximum, or else the nearest to it; returns how many maxima went.
+// Several starts may lead to the same summit: keeps a start that is a maximum, or else the nearest one; returns the number of maxima removed.
 long drop_repeated(RefinedSummits& summits, int nx, int ny, bool periodic);
 
 }  // namespace rsc

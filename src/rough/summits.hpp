@@ -46,7 +46,7 @@ long append_summits(const RowPlace& place, const double* below, const double* z,
                     Asperities& found);
 
 // Starts of the search for summits between the points: the maxima of the grid, and the points from which a paraboloid through the
-// neighbours has its top a fraction of a step away. The latter know of summits beside a higher one that no point is a maximum of.
+// neighbours has its top a fraction of a step away. The latter find summits next to higher ones, without a grid maximum.
 struct Start {
     int column = 0;
     bool maximum = false;

@@ -36,7 +36,7 @@ private:
 }  // namespace
 
 double* allocate_doubles(std::size_t n, const char* purpose) {
-    // The system may promise memory that it does not have; more than a pointer can span it cannot even promise.
+    // The system may allocate more memory than it has, but not more than a pointer can address.
     constexpr std::size_t kMost = std::size_t{1} << 44;
     void* p = nullptr;
     if (n < kMost) {

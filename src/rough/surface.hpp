@@ -5,7 +5,7 @@
 
 namespace rsc {
 
-// Aligned memory for n doubles, in huge pages where the system has them; throws Error(no_memory) saying what it was for.
+// Aligned memory for n doubles, in huge pages where the system has them; throws Error(no_memory) with the purpose.
 double* allocate_doubles(std::size_t n, const char* purpose);
 
 // Heights on a regular rectangular grid: point (i, j) is at x = i dx, y = j dy (+ origin), value z(i, j) = data[j*stride + i].
@@ -34,9 +34,9 @@ struct HeightMap {
 enum class Normalise { sample, ensemble };
 inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 
-// Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): beside the spectral ones they
-// say how well the grid resolves lambda_s. First differences between neighbours give m20, m11, m02; second differences m40 ... m04.
-// A map that is not periodic gives what lies inside it; too small a map gives zeros. Points whose height is NaN are missing: the
+// Moments from finite differences on the grid (m0 about the mean; m2, m4 isotropic averages): compared with the
+// spectral ones they show how well the grid resolves lambda_s. First differences between neighbours give m20, m11, m02; second differences m40 ... m04.
+// Of a map that is not periodic only differences inside it count; too small a map gives zeros. Points whose height is NaN are missing: the
 // differences that need them are left out.
 Moments grid_moments(const HeightMap& map);
 

@@ -1,6 +1,5 @@
-// The making of a synthetic surface, in two halves: the modes and the transforms along y of the columns that have any, then
-// the transforms along x, row by row, by whoever wants the rows. Half the transforms of a full two-dimensional one fall away,
-// and a row can be used while it is in the cache.
+// Synthetic surfaces, made in two steps: the modes and the transforms along y of the columns with modes, then the transforms along x, row by
+// row, on demand. This saves half of the transforms of a full two-dimensional one, and rows are used while they are in the cache.
 #pragma once
 
 #include "rough/library_lock.hpp"
@@ -31,7 +30,7 @@ public:
     };
 
     // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows aligned to 64 bytes. The bits of a row do
-    // not depend on the call it was made by.
+    // not depend on the other arguments.
     void rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const;
 
     static constexpr int kBlock = 16;  // rows at a time for which rows() is efficient

@@ -69,7 +69,7 @@ public:
         return std::lerp(std::lerp(of(i, j), of(i + 1, j), u - i), std::lerp(of(i, j + 1), of(i + 1, j + 1), u - i), v - j);
     }
 
-    // The lag at which it first falls to kFallen along a direction; negative, how far was looked, where it does not.
+    // The lag at which it first falls to kFallen along a direction; the negative of the longest lag examined, if it does not.
     double decay(double angle) const {
         const double c = std::cos(angle), s = std::sin(angle), step = 0.25 * std::min(dx_, dy_);
         const double end =

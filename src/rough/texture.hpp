@@ -1,4 +1,4 @@
-// The texture of a height map: how far heights resemble each other along and across its lay, and how high and low they reach.
+// The texture of a height map: autocorrelation lengths along and across its lay, and the height distribution.
 #pragma once
 
 #include "rough/surface.hpp"
