@@ -45,7 +45,7 @@ protected:
     void step(double dt) override;
     double slope() override;
     double tolerance() const override;
-    // A smooth indenter's where it is known, or a flat punch's as wide as the surface, the smaller: no rough surface needs less depth.
+    // The smaller of the depths of a smooth indenter, if known, and of a flat punch as wide as the surface: a lower bound for rough surfaces.
     double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
     double shift() const override;
@@ -56,7 +56,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// The contact of elements that an indenter asks for: this one, or where it has a period that of periodic_element_contact.hpp.
+// The contact of elements for an indenter: this one, or with periodic boundaries that of periodic_element_contact.hpp.
 std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
 
 }  // namespace rsc

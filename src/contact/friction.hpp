@@ -58,7 +58,7 @@ public:
     // Elastic energies: W of the normal problem, and that stored by the slide, (m/2) int S' u^2 ds.
     double normal_energy() const { return now_.nodes.empty() ? 0 : now_.nodes.back().energy; }
     double tangential_energy() const;
-    // Work lost to friction, ever and on the last step. Along any path, int Q dxi = change of tangential_energy() + work lost.
+    // Friction work, in total and of the last step. Along any path, int Q dxi = change of tangential_energy() + work lost.
     double work_lost() const { return now_.lost; }
     double step_lost() const { return now_.step_lost; }
     // The spring (approach) inside which all stick: approach() where all do, first touch where none does.
@@ -90,7 +90,7 @@ public:
     const Friction& friction() const { return friction_; }
     const State& state() const { return now_; }
     const State& committed() const { return committed_; }
-    // Takes states back that state() and committed() gave. Throws Error(bad_input) where they are none of this friction.
+    // Restores states returned by state() and committed(). Throws Error(bad_input) where they are none of this friction.
     void restore(const State& now, const State& committed);
 
 private:

@@ -81,7 +81,7 @@ struct SolverOptions {
     double sigma = 0;         // rms height: unit of delta0 and of selection='paper' [length]
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
-    double delta0 = 0.01;        // first regularisation of the paper's method, in sigma
+    double delta0 = 0.01;        // initial regularisation of the paper's method, in sigma
     double delta_cut = 5.0;      // the paper's method divides delta by this each iteration (the paper: 2 to 10)
     double mean_spacing = 0;     // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
     double points_per_wave = 0;  // of the grid that the asperities were found on, in the shortest wave; 0: not known

@@ -65,7 +65,7 @@ struct LevelValues {
     double time = kNotComputed;           // of bodies that relax [time]
     double energy_lost = kNotComputed;    // work that will not come back, since the first level [force length]
     std::int32_t contacts = 0;
-    std::int32_t candidates = 0;  // places (asperities, pixels) the solver was given
+    std::int32_t candidates = 0;  // asperities or pixels given to the solver
     std::int32_t iterations = 0;  // Newton steps
     LevelStatus status = LevelStatus::converged;
     Method method = Method::direct;      // the one whose answer this is

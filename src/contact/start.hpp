@@ -7,7 +7,7 @@
 
 namespace rsc {
 
-// Earlier levels, from which B F of the next is extrapolated.
+// Earlier levels, from which B F of the next level is extrapolated.
 class EarlierLevels {
 public:
     // The level at Z0 with penetrations v over the candidates. `unique`: it is proved to be the only solution.

@@ -16,7 +16,7 @@ struct Job {
     SurfaceDomain domain;
     Indenter indenter;
     SolverOptions solver;
-    double sigma = 0;                  // the length unit='sigma' and delta0 mean
+    double sigma = 0;                  // unit of length for unit = 'sigma' and delta0
     std::vector<double> levels;        // separations [length], or forces [force] with control='force' or 'pressure'
     std::vector<double> times;         // of the levels; empty: none are given
     double level_unit = 1;             // what 1 of the case's levels is of them

@@ -1,4 +1,4 @@
-// The form of body 2, the indenter: the one interface through which everything else asks for it.
+// The form of body 2, the indenter, behind one interface.
 //
 // A shape is the height s(x, y) of the indenter's face above its tip, at the offset (x, y) from the tip. With the tip at (x0, y0) and the
 // separation Z0, the penetration of a point of the surface without interaction is g0 = z(x, y) - s(x - x0, y - y0) - Z0.

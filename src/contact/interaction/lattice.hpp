@@ -1,4 +1,4 @@
-// The potential of a point and of its images on a rectangular lattice in the plane: what 1/d becomes where everything repeats.
+// The potential of a point and of its images on a rectangular lattice in the plane: the periodic form of 1/d.
 #pragma once
 
 #include "contact/period.hpp"

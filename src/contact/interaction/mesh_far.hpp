@@ -13,7 +13,7 @@ namespace rsc {
 // in mesh spacings.
 //
 // F(d) = 1/d [int_0^{d/c} w / int_0^1 w] with the Kaiser-Bessel bell w(t) = I0(beta sqrt(1 - t^2)), c the cutoff: F = 1/d beyond
-// c, and its transform is exp(-beta) beyond the wavenumber beta / c. The spreading window is the same bell of another shape. For
+// c, and its transform is exp(-beta) beyond the wavenumber beta / c. The spreading window is the same bell with another shape parameter. For
 // a given width of the window and cutoff, beta and the window's shape b are those of least error; aliases are weighed as by
 // Hockney and Eastwood, Computer Simulation Using Particles, section 8-3.
 struct MeshDesign {

@@ -24,7 +24,7 @@ struct WorkingSet {
 
 struct NewtonOutcome {
     bool converged = false;
-    bool minimum = true;  // second-order condition holds where it was asked
+    bool minimum = true;  // second-order condition holds, if it was checked
     int iterations = 0;
     double residual = 0;  // |F - f(<g0 - B F>)| / |F|
 };

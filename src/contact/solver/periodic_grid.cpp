@@ -363,7 +363,7 @@ double PeriodicGrid::descend(std::vector<double>& x, bool keep_sum, int most_ste
     }
 }
 
-// Pressures into their bounds, and their mean back to what is given: what is missing is added where a lower flat would add it.
+// Clips pressures to their bounds and restores their given mean, by adding pressure where a lower flat would.
 void PeriodicGrid::bound(Given given) {
     const std::size_t n = p_.size();
     for (double& p : p_) p = std::clamp(p, 0.0, highest_);
