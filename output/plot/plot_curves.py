@@ -27,7 +27,8 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
             page.entry("expected error of the model", color="#c1440e", alpha=0.18, lw=5)
     if name:
         page.entry(name, color=colour, ls=line)
-    page.status(axis, x, np.where(y > 0, y, np.nan), status, meanings, colour)
+    drawn = np.isin(np.arange(y.size), result.loaded()) & (y > 0)
+    page.status(axis, x, np.where(drawn, y, np.nan), status, meanings, colour)
 
 
 def band(page, axis, x, low, high, colour):
@@ -61,7 +62,8 @@ def _many_decades(values):
 
 def load(results, options):
     """Force, of two flats nominal pressure, against separation, and how many contacts carry it."""
-    results = [r for r in results if "contacts" in r and r.loaded().size]
+    held = lambda r: "time" in r and np.ptp(r.mean("force")[r.loaded()]) < 1e-4 * r.mean("force").max()  # drawn against time
+    results = [r for r in results if "contacts" in r and r.loaded().size and not held(r)]
     if not results:
         return None
     flat = all("pressure" in r for r in results)
@@ -72,6 +74,8 @@ def load(results, options):
         for result, look in zip(results, looks):
             curve(page, axis, result, look, result.depth()[0], result.mean(name), scatter=name, error="force_error_expected" if name == first else None, alone=alone)
         axis.set_yscale("log" if _many_decades([r.mean(name)[r.loaded()] for r in results]) else "linear")
+        if name == first and not any(r.load_varies() for r in results):
+            axis.set_ylim(0, 2 * max(r.mean(name)[r.loaded()].max() for r in results))
         axis.invert_xaxis()  # the bodies approach from left to right
         label(axis, "x", *results[0].depth()[1:])
         label(axis, "y", error if name == first else "number of contacts", results[0].dimension(name))
@@ -79,7 +83,7 @@ def load(results, options):
 
 
 def _against_force(results, options, name, sign, text, what):
-    results = [r for r in results if name in r and np.isfinite(r.mean(name)[r.loaded()]).any()]
+    results = [r for r in results if name in r and np.isfinite(r.mean(name)[r.loaded()]).any() and r.load_varies()]
     if not results:
         return None
     page, looks = begin(results, options)
