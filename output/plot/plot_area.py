@@ -9,7 +9,7 @@ from plot_style import GREY, amount, label
 def area(results, options):
     """A(N). Of one result with the smooth sphere (Hertz) and the two regimes of the paper with their crossing, of two flats with the theories of
     Persson, of Bush, Gibson and Thomas, of Greenwood and Williamson."""
-    results = [r for r in results if "contact_area" in r and (np.nan_to_num(r.mean("contact_area")) > 0).any()]
+    results = [r for r in results if "contact_area" in r and (np.nan_to_num(r.mean("contact_area")) > 0).any() and r.load_varies()]
     if not results:
         return None
     page, looks = begin(results, options)

@@ -49,6 +49,8 @@ def compare(results, options):
         errors.plot(result.mean("force")[steps], 100 * result[name], marker, ls=line, color=colour, ms=3.5, label=f"error of {text}")
     errors.axhline(0, color="k", lw=0.6)
     errors.set_xscale("log")
+    if steps.size == 1:
+        errors.set_xlim(result.mean("force")[steps[0]] / 3, result.mean("force")[steps[0]] * 3)
     label(errors, "x", "force $N$", result.dimension("force"))
     label(errors, "y", "error [%]")
     if not pixels:

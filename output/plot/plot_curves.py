@@ -62,8 +62,7 @@ def _many_decades(values):
 
 def load(results, options):
     """Force, of two flats nominal pressure, against separation, and how many contacts carry it."""
-    held = lambda r: "time" in r and np.ptp(r.mean("force")[r.loaded()]) < 1e-4 * r.mean("force").max()  # drawn against time
-    results = [r for r in results if "contacts" in r and r.loaded().size and not held(r)]
+    results = [r for r in results if "contacts" in r and r.loaded().size and r.load_varies()]
     if not results:
         return None
     flat = all("pressure" in r for r in results)
@@ -74,8 +73,6 @@ def load(results, options):
         for result, look in zip(results, looks):
             curve(page, axis, result, look, result.depth()[0], result.mean(name), scatter=name, error="force_error_expected" if name == first else None, alone=alone)
         axis.set_yscale("log" if _many_decades([r.mean(name)[r.loaded()] for r in results]) else "linear")
-        if name == first and not any(r.load_varies() for r in results):
-            axis.set_ylim(0, 2 * max(r.mean(name)[r.loaded()].max() for r in results))
         axis.invert_xaxis()  # the bodies approach from left to right
         label(axis, "x", *results[0].depth()[1:])
         label(axis, "y", error if name == first else "number of contacts", results[0].dimension(name))

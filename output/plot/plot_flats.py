@@ -8,7 +8,7 @@ from plot_style import GREY, label
 
 def flats(results, options):
     """kappa = A E* h'/N and the mean separation against the nominal pressure over E* h'."""
-    results = [r for r in results if "pressure" in r and "area_fraction" in r and (np.nan_to_num(r.mean("pressure")) > 0).any()]
+    results = [r for r in results if "pressure" in r and "area_fraction" in r and (np.nan_to_num(r.mean("pressure")) > 0).any() and r.load_varies()]
     if not results:
         return None
     page, looks = begin(results, options, 2)

@@ -4,7 +4,7 @@ import numpy as np
 
 from plot_map import hertz_radius, shown
 from plot_curves import title
-from plot_style import FEW, Page, STYLES, label, plt
+from plot_style import FEW, Page, STYLES, amount, label, plt
 
 
 def radial(results, options):
@@ -13,6 +13,8 @@ def radial(results, options):
     panels = shown(results, options)
     if not panels:
         return None
+    if len({name for _, _, name in panels}) < len(panels):  # levels of one separation, as where it is held
+        panels = [(r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}") for r, level, name in panels]
     page = Page(options, 2)
     many = len(panels) > FEW
     if many:
@@ -36,6 +38,7 @@ def radial(results, options):
         page.axes[1].set_ylim(max(positive.min(), positive.max() * 1e-4) / 2, positive.max() * 2)
     for axis in page.axes:
         axis.set_xlim(0, min(1.05 * end, results[0]["radius"][-1]))
+        axis.dataLim.update_from_data_x(axis.get_xlim(), ignore=False)  # one unit for both
         label(axis, "x", "distance from the tip $r$", results[0].dimension("radius"))
     page.axes[0].set_ylim(bottom=0)
     for axis in page.axes:

@@ -121,6 +121,11 @@ class Result:
         """The levels with contact."""
         return np.flatnonzero(np.nan_to_num(self.mean("force")) > 0) if "force" in self else np.array([], int)
 
+    def load_varies(self):
+        """Whether there is a curve over the load: not where it is held, as for creep."""
+        force = self.mean("force")[self.loaded()] if "force" in self else np.zeros(0)
+        return force.size < 2 or bool(np.ptp(force) > 1e-3 * force.max())
+
     def chosen(self, count, step):
         """The level asked for, or `count` levels with contact, evenly spread and ending with the last; none where nothing touches."""
         loaded = self.loaded()

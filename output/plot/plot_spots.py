@@ -74,7 +74,9 @@ def spots(results, options):
     result = results[0]
     if len(results) > 1 or "contact_count" not in result or not (result["contact_count"] > 0).any():
         return None
-    step = options.step - 1 if options.step is not None else int(np.flatnonzero(result["contact_count"] > 0)[-1])
+    touching = np.flatnonzero(result["contact_count"] > 0)
+    depth = -result.mean("separation")[touching] if "separation" in result else touching
+    step = options.step - 1 if options.step is not None else int(touching[np.flatnonzero(depth >= depth.max())[-1]])  # pressed in most
     found = spots_of(result, step)
     if found is None:
         return None
@@ -118,7 +120,7 @@ def spots(results, options):
     if yields.any() and not pixels:
         page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
     what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else "share of each cell in contact" if pixels else "true to size"
-    page.axes[0].set_title(f"{x.size} spots" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))
+    page.axes[0].set_title(f"{x.size} spot{'s' if x.size > 1 else ''}" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))
     page.axes[1].set_title(f"{'in' if pixels else 'around'} the largest: {what}")
     force = "" if result.control() == "force" else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"
     return page.finish(result.heading(f"Contact spots at {result.level_name(step)}{force}{result.warning(step)}"))
