@@ -143,7 +143,7 @@ void AdhesiveContact::Impl::choose_products() {
     const bool on_mesh = choose_method(options, *kernel, set) == Method::mesh;
     if (on_mesh && !mesh) mesh = make_mesh_products(kernel, std::min(1e-6, 0.1 * options.tolerance), 1e-3);
     products = on_mesh ? mesh.get() : direct.get();
-    goal = std::max(std::min(1e-9, options.tolerance), 100 * products->full_error());
+    goal = std::min(on_mesh ? 1e-8 : 1e-9, options.tolerance);  // full products are the same each time, exact or not
     products->set_points(set.size(), set.x.data(), set.y.data());
     solver.use(*products);
 }
@@ -529,8 +529,10 @@ std::optional<Level> AdhesiveContact::solve_under(double N) {
         if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
             // No state carries it: back to the one with the smallest force.
             const double least = my.now.least_force;
-            my.begin(-kInfinity);
-            if (!my.active.empty()) my.go(1e300, least * (1 - 1e-7));
+            for (const double above : {1e-7, 1e-5, 1e-3}) {
+                my.begin(-kInfinity);
+                if (my.active.empty() || (my.go(1e300, least * (1 - above)) && !my.lost_way)) break;
+            }
             Level level = my.report();
             level.fallback = Fallback::held;
             level.status = LevelStatus::not_converged;
