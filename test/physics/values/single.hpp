@@ -195,7 +195,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     }
     f.same("isotropy_ratio", {std::sqrt(low / high)}, 1e-5);
     CHECK(m.fit.has_value());
-    f.same("points_per_wave", {2 * pi / m.fit->ks.value / std::max(g.dx, g.dy)}, kRounding);
+    f.same("points_per_wave", {m.shortest_wave / std::max(g.dx, g.dy)}, kRounding);
     Vector middles, density(60);
     const double width = sq / 6, level = mean(g.z);
     for (int b = 0; b < 60; ++b) middles.push_back((b - 29.5) * width);
@@ -210,9 +210,17 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
         "psd_fit",
         [&] {
             Vector v;
+            // The mean over directions of the spectrum in wave vectors stretched along the lay.
+            constexpr int angles = 180;
             for (double k : m.spectrum.wavenumber) {
-                const double line = fit.Phi0.value * std::pow(k / fit.kl.value, -2 * (1 + fit.hurst.value));
-                v.push_back(k > fit.ks.value ? 0 : k < fit.kl.value ? (fit.plateau ? fit.Phi0.value : 0) : line);
+                double sum = 0;
+                for (int a = 0; a < angles; ++a) {
+                    const double way = pi * (a + 0.5) / angles, g2 = fit.aspect;
+                    const double q = k * std::sqrt(g2 * std::pow(std::cos(way), 2) + std::pow(std::sin(way), 2) / g2);
+                    const double line = fit.Phi0.value * std::pow(q / fit.kl.value, -2 * (1 + fit.hurst.value));
+                    sum += q > fit.ks.value * (1 + 1e-12) ? 0 : q < fit.kl.value ? (fit.plateau ? fit.Phi0.value : 0) : line;
+                }
+                v.push_back(sum / angles);
             }
             return v;
         }(),
