@@ -3,16 +3,17 @@
 
 namespace rsc {
 
-// ln of the bound = sum of coefficient times predictor, the first one 1: slope, beyond, overlap, elongation, crowding, few, coarse, plastic, flats.
+// ln of the bound = sum of coefficient times predictor, the first one 1: slope, pressed, overlap, elongation, crowding, few, coarse, plastic, flats.
 inline constexpr int kErrorPredictors = 9;
 inline constexpr double kLeastError = 0.003, kMostError = 1000.0;
 inline constexpr double kErrorTable[3][2][kErrorPredictors + 1] = {
     // hertz, elliptic, fourth_order; N, A
     {{-1.843, 0.186, 0, 0.3964, 0.2301, 0.5269, 1.753, 0.2423, 2.585, 0.4524},
      {-0.1284, 0.1283, 0, 0.3356, 0.06325, 1.199, 2.217, 0, 0.1009, 0.3234}},
-    {{-2.026, 0, 0, 0.3103, 0.09822, 0.3067, 0.5821, 0.3031, 0.7287, 0.3373}, {-1.366, 0, 0, 0.6262, 0.1146, 0.1535, 0.2573, 0.508, 0, 0}},
-    {{-3.389, 0.06129, 1.559, 0, 0.2939, 0.2392, 1.127, 0.1998, 1.012, 0.6701},
-     {-3.04, 0.06963, 1.297, 0.2234, 0.3243, 0.1522, 1.244, 0.9445, 0, 0.207}},
+    {{-0.9487, 0.07021, 0.9738, 0.06472, 0.04854, 0.992, 0.08505, 0, 2.225, 0.4184},
+     {-0.007244, 0.07474, 1.094, 0, 0.1019, 1.271, 1.18, 0, 0, 0.2342}},
+    {{-3.865, 0.07884, 1.068, 0.09005, 0.3578, 0.4215, 0.5942, 0.8599, 5.323, 0.6346},
+     {-3.168, 0.09803, 1.732, 0.3173, 0.1848, 0.3575, 1.064, 0.8366, 3.289, 0.2476}},
 };
 
 }  // namespace rsc
