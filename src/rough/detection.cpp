@@ -51,7 +51,8 @@ double lay_share(const Asperities& summits) {
     }
     // Some ten summits of an isotropic surface reach the first by chance; surfaces whose correlation lengths are as 1:1.6 reach the second.
     constexpr double none = 0.3, whole = 0.75;
-    return all > 0 ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
+    constexpr std::size_t fewest = 10;
+    return all > 0 && summits.size() >= fewest ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
 }
 
 Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic, SummitCount* count) {
