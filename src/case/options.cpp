@@ -10,13 +10,16 @@ namespace {
 struct Flag {
     char letter;  // '\0': none
     std::string_view name;
-    bool takes_value;
+    bool Options::*set = nullptr;  // the options that take no value
+    bool takes_value = false;
 };
 
 constexpr Flag kFlags[] = {
-    {'\0', "case", false}, {'o', "output", true},  {'s', "set", true},      {'\0', "check", false},   {'\0', "describe", false},
-    {'\0', "list", false}, {'\0', "member", true}, {'\0', "resume", false}, {'\0', "merge", false},   {'\0', "progress", true},
-    {'q', "quiet", false}, {'h', "help", false},   {'\0', "man", false},    {'\0', "version", false},
+    {'\0', "case", &Options::show_case}, {'o', "output", nullptr, true},         {'s', "set", nullptr, true},
+    {'\0', "check", &Options::check},    {'\0', "describe", &Options::describe}, {'\0', "list", &Options::list},
+    {'\0', "member", nullptr, true},     {'\0', "resume", &Options::resume},     {'\0', "merge"},
+    {'\0', "progress", nullptr, true},   {'q', "quiet", &Options::quiet},        {'h', "help", &Options::help},
+    {'\0', "man", &Options::man},        {'\0', "version", &Options::version},
 };
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, text + " (--help lists the options)"); }
@@ -52,34 +55,15 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
             refuse("--member " + value + ": expected the number of a member, 1 or more");
         options.member = member;
     } else if (flag.name == "progress") {
-        if (value == "auto")
-            options.progress = Progress::automatic;
-        else if (value == "always")
-            options.progress = Progress::always;
-        else if (value == "never")
-            options.progress = Progress::never;
-        else
-            refuse("--progress " + value + ": expected auto, always or never");
-    } else if (flag.name == "case")
-        options.show_case = true;
-    else if (flag.name == "check")
-        options.check = true;
-    else if (flag.name == "describe")
-        options.describe = true;
-    else if (flag.name == "list")
-        options.list = true;
-    else if (flag.name == "resume")
-        options.resume = true;
-    else if (flag.name == "merge")
+        constexpr std::string_view kWords[] = {"auto", "always", "never"};
+        const auto* const word = std::find(std::begin(kWords), std::end(kWords), value);
+        if (word == std::end(kWords)) refuse("--progress " + value + ": expected auto, always or never");
+        options.progress = static_cast<Progress>(word - kWords);
+    } else if (flag.name == "merge") {
         options.merge.emplace_back();
-    else if (flag.name == "quiet")
-        options.quiet = true;
-    else if (flag.name == "help")
-        options.help = true;
-    else if (flag.name == "man")
-        options.man = true;
-    else
-        options.version = true;
+    } else {
+        options.*flag.set = true;
+    }
 }
 
 }  // namespace

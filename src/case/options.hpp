@@ -1,14 +1,4 @@
-// The command line. The intended calls, in the order a main program makes them:
-//
-//     const Options options = parse_options(argc, argv);          // Error(bad_input) on wrong usage: exit status 2
-//     if (options.help) { std::cout << usage_text(); return 0; }
-//     if (options.version) { std::cout << version_text(); return 0; }
-//     if (options.man) { std::cout << manual_page(); return 0; }  // case/manual.hpp
-//     if (options.describe) { std::cout << describe(options.describe_what); return 0; }       // case/registry.hpp
-//     const ReadCase read = read_case(options);                   // case/read_case.hpp: the file or standard input
-//     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
-//     if (options.check) { std::cout << effective_namelist(read); return 0; }
-//     if (options.list) ...                                       // expand_study(read.settings, *read.study), case/study.hpp
+// The command line; main.cpp uses it.
 #pragma once
 
 #include "std.hpp"

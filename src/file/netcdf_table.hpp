@@ -60,7 +60,7 @@ private:
     void theory();
     void outline();
     void regimes();
-    // netcdf_measured.cpp
+    // netcdf_writer.cpp
     void measured();
     void friction();
     void two_flats(const Moments& moments);

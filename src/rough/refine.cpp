@@ -1,7 +1,7 @@
 #include "rough/refine.hpp"
 
 #include "rough/dispatch.hpp"
-#include "rough/neighbours.hpp"
+#include "rough/summits.hpp"
 
 namespace rsc {
 namespace {
@@ -41,7 +41,7 @@ struct Step {
     bool peak = false;  // Newton's step, and the surface is curved down in all directions
 };
 
-Step step_to_summit(const Differences& d) {
+Step step_to_summit(const PointDifferences& d) {
     const double determinant = d.determinant();
     Step s;
     if (determinant > 0 && d.zxx + d.zyy < 0) {

@@ -1,6 +1,6 @@
 #include "rough/subgrid.hpp"
 
-#include "rough/neighbours.hpp"
+#include "rough/summits.hpp"
 
 namespace rsc {
 namespace {
@@ -117,7 +117,7 @@ bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const
         double x, y;
     };
     const auto top = [&](int l, int k) -> Top {  // of the paraboloid about point (k, l) of z
-        const Differences d = differences(z[l - 1], z[l], z[l + 1], k - 1, k, k + 1);
+        const PointDifferences d = differences(z[l - 1], z[l], z[l + 1], k - 1, k, k + 1);
         return {k + d.step_x() / d.determinant(), l + d.step_y() / d.determinant()};
     };
     const Top own = top(2, 2);

@@ -1,7 +1,6 @@
 #include "rough/summits.hpp"
 
 #include "rough/dispatch.hpp"
-#include "rough/neighbours.hpp"
 
 namespace rsc {
 namespace {
@@ -34,7 +33,7 @@ RSC_DISPATCH(flag_groups, flag_groups_body, (const double* below, const double* 
 // grid steps, 2 where the point is above its neighbours along both axes.
 RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, const double* above, int points, std::uint64_t* flags) {
     for (int i = 0; i < points; ++i) {
-        const Differences d = differences(below, z, above, i - 1, i, i + 1);
+        const PointDifferences d = differences(below, z, above, i - 1, i, i + 1);
         const double determinant = d.determinant(), reach = kNearStep * determinant, x = d.step_x(), y = d.step_y();
         const bool top = (d.zxx < 0) & (determinant > 0) & (x <= reach) & (-x <= reach) & (y <= reach) & (-y <= reach);
         const bool above_four = (z[i - 1] < z[i]) & (z[i + 1] < z[i]) & (below[i] < z[i]) & (above[i] < z[i]);
@@ -94,7 +93,7 @@ long append_summits(const RowPlace& place, const double* below, const double* z,
                     Asperities& found) {
     long saddles = 0;
     scan_row(place, below, z, above, [&](int l, int i, int r) {
-        const Differences d = differences(below, z, above, l, i, r);
+        const PointDifferences d = differences(below, z, above, l, i, r);
         const SecondOrder second{0.5 * d.zxx / (place.dx * place.dx), 0.5 * d.zyy / (place.dy * place.dy),
                                  0.5 * d.zxy / (place.dx * place.dy)};
         if (!append_summit(place.x0 + i * place.dx, place.y, z[i], second, curvature, found)) ++saddles;
