@@ -111,7 +111,7 @@ struct AsperityContact::Impl {
           newton(*law) {
         use(Method::direct);
         if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
-            throw Error(Failure::bad_input, "indentation%selection = 'paper' takes the asperities in a circle under a sphere");
+            throw Error(Failure::bad_input, "indentation%selection = 'paper' is defined for a sphere only");
         ranking.assign(asperities, indenter);
     }
 
@@ -366,7 +366,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
     Vector deepest;
     for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
         if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
-            throw Error(Failure::bad_input, "this is no memory of these asperities");
+            throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
         yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
     }
     my.law->forget();

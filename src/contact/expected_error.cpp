@@ -10,11 +10,11 @@ using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is 1
 // In the order of the table; the same as in input/trust/trust.py.
 constexpr const char* kCauses[kErrorPredictors + 1] = {
     "",
-    "the indenter's slope at the contacts: not the summits of the surface touch (slope_ratio)",
-    "contacts pressed beyond what the law knows of a summit (beyond_law)",
+    "the slope of the indenter at the contacts, which touches other points than summits (slope_ratio)",
+    "contacts beyond the validity of the contact law (beyond_law)",
     "spots that overlap (overlapping_pairs)",
     "elongated summits",
-    "the size of the contacts against the spacing of the summits",
+    "the size of the contacts relative to the spacing of the summits",
     "few contacts",
     "few points in the shortest wave",
     "contacts that yield",

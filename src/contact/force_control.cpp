@@ -112,7 +112,7 @@ Level Contact::solve_between_planes(double Z0) {
 Level Contact::at_force(double N) {
     if (!(N > 0) || !std::isfinite(N)) throw Error(Failure::bad_input, "the force must be positive and finite");
     double above = first_touch();  // separations that carry less
-    if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the sphere: no force can be carried");
+    if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it carries no force");
     if (std::optional<Level> level = solve_under(N)) {
         finish(*level);
         return std::move(*level);
@@ -182,9 +182,10 @@ Level Contact::at_force(double N) {
             if (std::abs(level.force - N) > resolved)
                 level.status = LevelStatus::not_converged;
             else if (std::abs(level.force / N - 1) > kUnresolved)  // a force grows with the depth to the power 3/2
-                throw Error(Failure::bad_input, format("a force of %.9g is less than the separation can tell: near %.9g its smallest steps "
-                                                       "allow %.9g or more",
-                                                       N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
+                throw Error(Failure::bad_input,
+                            format("a force of %.9g is too small for the resolution of the separation: near %.9g its smallest steps "
+                                   "allow %.9g or more",
+                                   N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
             break;
         }
         Z0 = next;

@@ -25,7 +25,7 @@ Slide between(const Node& begin, const Node& end, double s) { return begin.defle
 Node node_at(LoadCurve& curve, double s, Slide u) {
     const auto load = curve.load(s);
     if (!std::isfinite(load.force) || !std::isfinite(load.energy))
-        throw Error(Failure::not_converged, "the load is beyond the range of numbers: other units may help");
+        throw Error(Failure::not_converged, "the load overflows double precision: choose other units");
     return {s, load.force, load.energy, u};
 }
 
@@ -78,7 +78,7 @@ void FrictionHistory::restore(const State& now, const State& committed) {
                     norm(node.deflection) <= c * (state->delta - node.approach) + 1e-9 * c * (state->delta - nodes.front().approach);
         }
         sound = sound && nodes.size() != 1 && (nodes.empty() || nodes.back().approach == state->delta);
-        if (!sound) throw Error(Failure::bad_input, "this is no state of a contact with this friction");
+        if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact with this friction");
     }
     now_ = now;
     committed_ = committed;
@@ -329,7 +329,7 @@ namespace {
 
 void require_contact(const LoadCurve& curve, double delta) {
     if (!std::isfinite(delta)) throw Error(Failure::bad_input, "the approach must be finite");
-    if (!(delta > curve.first_touch())) throw Error(Failure::bad_input, "there is no contact yet that could be slid");
+    if (!(delta > curve.first_touch())) throw Error(Failure::bad_input, "there is no contact yet");
 }
 
 }  // namespace
@@ -373,7 +373,7 @@ std::size_t slide_cycle_points(int steps) {
 SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, int steps) {
     require_friction(friction);
     require_contact(curve, delta);
-    if (steps < 20 || steps % 10 != 0) throw Error(Failure::internal, "a cycle wants steps in multiples of 10");
+    if (steps < 20 || steps % 10 != 0) throw Error(Failure::internal, "the number of steps of a cycle must be a multiple of 10");
     const double mu = friction.coefficient, c = friction.slide_per_approach(), touch = curve.first_touch();
     const auto n = static_cast<std::size_t>(steps), top = n * 9 / 10;
     std::vector<double> drop(n + 1);  // N(delta) - N(delta*) at delta* = delta - k/n (delta - touch)

@@ -27,7 +27,7 @@ void check(int status, const std::string& path) {
         throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
     // The file is put together in memory: when NetCDF or HDF5 fail there, memory is the likely reason, whatever error they report.
     throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
-                "'" + path + "' cannot be put together (" + nc_strerror(status) +
+                "'" + path + "' cannot be written (" + nc_strerror(status) +
                     "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
 }
 

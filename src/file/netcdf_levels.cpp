@@ -37,7 +37,7 @@ void ResultTable::global_attributes(const std::string& history) {
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
                     "makes this file again, "
                     "equal but for the attribute `history`.");
-    if (r_.path_dependent) file_.attribute("path", "levels depend on those before them: what yielded (solids hardness) stays pressed down");
+    if (r_.path_dependent) file_.attribute("path", "with hardness, levels depend on those before them: points that yielded stay lowered");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
@@ -108,10 +108,9 @@ std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::
 }
 
 void ResultTable::means() {
-    add("converged", {"step"}, "1", "realizations that count in the means", o_.force.count,
-        comment(
-            "levels that did not converge (status 4) are left out of all means of levels, and those that lack a quantity out of its own; "
-            "maps, radial means and distributions are of all realizations"));
+    add("converged", {"step"}, "1", "realizations included in the means", o_.force.count,
+        comment("levels that did not converge (status 4) are left out of the means, and levels without a quantity out of its mean; "
+                "maps, radial means and distributions are of all realizations"));
     if (r_.force_control) {
         add_absent("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
         add_absent("separation_std", {"step"}, unit(1), "standard deviation of the separation over realizations", o_.separation.deviation,
@@ -156,13 +155,12 @@ void ResultTable::surfaces() {
                    std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
                    of_surfaces([of = of](const auto& s) { return s.tensor.*of; }), origin);
     add_absent("m2_grid", dims, "1", "second profile moment from finite differences", of_surfaces([](const auto& s) { return s.m2_grid; }),
-               "its distance from m2 says how well the grid resolves the shortest waves");
+               "differs from m2 if the grid does not resolve the shortest waves");
     add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",
-               of_surfaces([](const auto& s) { return s.m4_grid; }),
-               "its distance from m4 says how well the grid resolves the shortest waves");
+               of_surfaces([](const auto& s) { return s.m4_grid; }), "differs from m4 if the grid does not resolve the shortest waves");
     if (computed(of_surfaces([](const auto& s) { return s.skewness; }))) {
-        add("skewness", dims, "1", "skewness of the heights made", of_surfaces([](const auto& s) { return s.skewness; }));
-        add("kurtosis", dims, "1", "kurtosis of the heights made", of_surfaces([](const auto& s) { return s.kurtosis; }));
+        add("skewness", dims, "1", "skewness of the heights", of_surfaces([](const auto& s) { return s.skewness; }));
+        add("kurtosis", dims, "1", "kurtosis of the heights", of_surfaces([](const auto& s) { return s.kurtosis; }));
     }
     add_absent("rms_slope", dims, "1", "rms gradient of the surface", of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
                "sqrt(2 m2); the theory is one of small slopes");
@@ -170,9 +168,9 @@ void ResultTable::surfaces() {
     for (const SurfaceStatistics& s : o_.surface) summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
     if (std::any_of(summits.begin(), summits.end(), [](auto n) { return n > 0; })) {  // elements do not look for summits
         add("summits", dims, "1", "number of asperities", summits);
-        add("saddles", dims, "1", "grid maxima that are no asperities, not kept", saddles,
-            comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' those that lead to no summit between the grid "
-                    "points, or to one already found"));
+        add("saddles", dims, "1", "grid maxima that are not asperities", saddles,
+            comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' maxima without a summit between the grid "
+                    "points, or with one already found"));
     }
     add_absent("mean_kappa_g", dims, unit(-1), "mean geometric curvature of the summits",
                of_surfaces([](const auto& s) { return s.mean_kappa_g; }), "1.356 sqrt(m4) in theory");
@@ -195,11 +193,11 @@ void ResultTable::theory() {
     add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the topmost"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
-               "1/R* = 1/R1 + 1/R2; absent for flat on flat and for what is no sphere");
+               "1/R* = 1/R1 + 1/R2; absent for two flats and for other shapes than spheres");
     add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
     add("tip_y", {}, unit(1), "y of the indenter's tip", std::vector<double>{r_.indenter.y0});
     outline();
-    add_absent("sigma_reference", {}, unit(1), "rms height that separations are divided by", {r_.sigma});
+    add_absent("sigma_reference", {}, unit(1), "rms height used as the unit of separations", {r_.sigma});
 }
 
 // The part of body 2 that can meet heights of up to 4 rms heights above the mean plane at the deepest level; hardly any point is higher.
@@ -214,7 +212,7 @@ void ResultTable::outline() {
     std::vector<double> x, y;
     for (const Vec2& p : curve) x.push_back(r_.indenter.x0 + p.x), y.push_back(r_.indenter.y0 + p.y);
     file_.dimension("outline_point", curve.size());
-    const auto how = comment("closed curve on which the indenter's face is 4 sigma_reference above the mean plane at the deepest level");
+    const auto how = comment("closed curve on which the indenter is 4 sigma_reference above the mean plane at the deepest level");
     add("outline_x", {"outline_point"}, unit(1), "x of the indenter's outline", x, how);
     add("outline_y", {"outline_point"}, unit(1), "y of the indenter's outline", y, how);
 }
@@ -240,7 +238,7 @@ void ResultTable::regimes() {
     if (r_.indenter.period.finite()) return two_flats(m);
     if (r_.indenter.layers.count > 0) return;  // no closed form
     add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
-               "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for flat on flat and where no closed form is known");
+               "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for two flats and where no closed form is known");
 }
 
 void ResultTable::friction() {
@@ -255,12 +253,12 @@ void ResultTable::friction() {
          {"comment", "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 % of it, closed"}});
     const Names loop{"step", "point"};
     const std::string none = "absent without contact";
-    add_absent("tangential_displacement", loop, unit(1), "slide of the sphere against the surface", f.displacement, none);
-    add_absent("tangential_force", loop, unit(0, 1), "force that resists the slide", f.force,
+    add_absent("tangential_displacement", loop, unit(1), "tangential displacement of the indenter", f.displacement, none);
+    add_absent("tangential_force", loop, unit(0, 1), "tangential force", f.force,
                "partial slip with the coefficient solids%friction at every point; at full slip it is that times the normal force; " + none);
-    add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness while all sticks", f.stiffness,
+    add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness in full stick", f.stiffness,
                "4 G*/E* times -dN/dZ0; " + none);
-    add_absent("cycle_work", {"step"}, unit(1, 1), "work lost to friction in a cycle", f.cycle_work, "the area of the loop; " + none);
+    add_absent("cycle_work", {"step"}, unit(1, 1), "friction work of a cycle", f.cycle_work, "the area of the loop; " + none);
 }
 
 void ResultTable::two_flats(const Moments& m) {

@@ -246,7 +246,7 @@ void ResultTable::residual_profile() {
     const std::string points = " of the points of the surface that are lower for good";
     add("residual_pixel_x", dims, unit(1), "x" + points, p.x, {{"pixel_size", std::vector<double>{p.dx}}});
     add("residual_pixel_y", dims, unit(1), "y" + points, p.y, {{"pixel_size", std::vector<double>{p.dy}}});
-    add("residual_pixel_depth", dims, unit(1), "how far they are pressed down without force, after the last level", p.depth);
+    add("residual_pixel_depth", dims, unit(1), "residual depth without force, after the last level", p.depth);
 }
 
 void ResultTable::compared() {
@@ -257,7 +257,7 @@ void ResultTable::compared() {
     for (std::int32_t& s : step) ++s;
     const Names dims{"compare"};
     const std::string by = " by elements";
-    add("compare_step", dims, "1", "number of the level that was solved once more by elements", step,
+    add("compare_step", dims, "1", "number of the level that was solved by elements, too", step,
         {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "of the first realization"}});
     add("compare_separation", dims, unit(1), "separation of that level, Z0", c.separation,
         comment(r_.force_control ? "of elements under the level's force" : ""));
@@ -265,16 +265,16 @@ void ResultTable::compared() {
     add("compare_contact_area", dims, unit(2), "true contact area" + by, c.area);
     add("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, not corrected for their border", c.area_pixels);
     add("compare_contacts", dims, "1", "number of contacts" + by, c.contacts, comment("sets of pixels connected by their sides"));
-    add("compare_residual", dims, "1", "what the conditions of contact miss", c.residual);
+    add("compare_residual", dims, "1", "residual of the contact conditions", c.residual);
     const std::string over = "of asperities over that of elements, less 1";
     if (r_.force_control)
         add_absent("separation_error", dims, unit(1), "separation of asperities less that of elements, at equal force", c.separation_error);
     else
         add_absent("force_error", dims, "1", "force " + over, c.force_error);
-    add_absent("compare_force_error_expected", dims, "1", "how far the force of elements may be off itself, relative",
-               c.force_error_expected, "by its change with the grid");
-    add_absent("compare_area_error_expected", dims, "1", "how far the contact area of elements may be off itself, relative",
-               c.area_error_expected, "by its change with the grid");
+    add_absent("compare_force_error_expected", dims, "1", "expected relative error of the force of elements", c.force_error_expected,
+               "by its change with the grid");
+    add_absent("compare_area_error_expected", dims, "1", "expected relative error of the contact area of elements", c.area_error_expected,
+               "by its change with the grid");
     add("compare_columns", dims, "1", "points of the elements' grid along x", c.columns);
     add("compare_rows", dims, "1", "points of the elements' grid along y", c.rows);
     add_absent("area_error", dims, "1", "contact area " + over, c.area_error);

@@ -38,7 +38,8 @@ void ResultTable::measured() {
                             const std::string& note = "") { add(name, {}, units, long_name, std::vector<double>{value}, comment(note)); };
     add("filled_points", {}, "1", "missing points of the map that were filled", std::vector<std::int32_t>{clamped(m.missing)},
         {{"share", std::vector<double>{m.missing_share}},
-         {"comment", "by the harmonic function of their border; summits nearer to them than the shortest wave, 2 pi/ks, are left out"}});
+         {"comment",
+          "with the harmonic function of the heights around them; summits closer to them than the shortest wave, 2 pi/ks, are left out"}});
     std::vector<std::int32_t> values;
     std::string meanings;
     for (const char* name : kDetrendNames) {
@@ -51,12 +52,13 @@ void ResultTable::measured() {
                           {"slope", std::vector<double>{m.form.slope_x, m.form.slope_y}},
                           {"second_derivatives", std::vector<double>{m.form.zxx, m.form.zxy, m.form.zyy}}};
     if (m.form.how == Detrend::sphere && std::isfinite(m.form.radius)) form.push_back({"radius", std::vector<double>{m.form.radius}});
-    form.push_back({"comment",
-                    "fitted by least squares to the points present and subtracted; attributes: in the middle of the map, x and y; xx, xy "
-                    "and yy; the radius of a sphere is positive for a dome"});
+    form.push_back(
+        {"comment",
+         "least-squares fit to the points present, subtracted; slopes and second derivatives in the middle of the map: x, y, xx, xy "
+         "and yy; the radius of a sphere is positive for a dome"});
     add("form_removed", {}, "1", "form subtracted from the heights", std::vector<std::int32_t>{static_cast<std::int32_t>(m.form.how)},
         form);
-    scalar("filter_cutoff", unit(1), "cutoff of the Gaussian filter the heights went through; 0: none", m.filter_cutoff,
+    scalar("filter_cutoff", unit(1), "cutoff of the Gaussian filter of the heights; 0: none", m.filter_cutoff,
            "ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)");
 
     file_.dimension("map_stage", 3);
@@ -77,10 +79,10 @@ void ResultTable::measured() {
     add_absent("ssk", {}, "1", "skewness of the heights Ssk (ISO 25178-2)", {m.parameters.ssk}, "0 for Gaussian heights");
     add_absent("sku", {}, "1", "kurtosis of the heights Sku (ISO 25178-2)", {m.parameters.sku}, "3 for Gaussian heights");
     scalar("sdq", "1", "rms gradient Sdq (ISO 25178-2)", m.parameters.sdq);
-    scalar("isotropy_ratio", "1", "least over largest rms slope of all directions", m.isotropy,
+    scalar("isotropy_ratio", "1", "ratio of smallest to largest rms slope over all directions", m.isotropy,
            "1 for an isotropic surface, 0 for grooves");
     scalar("points_per_wave", "1", "grid steps in the shortest wave, 2 pi/ks", m.points_per_wave(),
-           "below 4 the grid, or noise at the pixel, makes slopes, curvatures and summits");
+           "below 4 slopes, curvatures and summits are determined by the grid, or by noise");
 
     file_.dimension("height_bin", m.height_pdf.size());
     std::vector<double> bins;
@@ -106,7 +108,7 @@ void ResultTable::measured() {
     add_absent("sal", {}, unit(1), "autocorrelation length Sal (ISO 25178-2)", {t.sal},
                "shortest lag at which the autocorrelation falls to 0.2");
     add_absent("str", {}, "1", "texture aspect ratio Str (ISO 25178-2)", {t.str},
-               t.str_bounded ? "at most this: along the lay the autocorrelation does not fall to 0.2 within half the map" : "");
+               t.str_bounded ? "upper bound: along the lay the autocorrelation does not fall to 0.2 within half the map" : "");
     scalar("std", "degree", "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO 25178-2)",
            m.spectrum.lay(), "at right angles to the direction with the most power");
     scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);

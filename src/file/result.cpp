@@ -113,7 +113,7 @@ public:
     std::vector<double> values(const std::string& name, const std::vector<std::size_t>& lengths) const {
         const NetcdfInput::Variable* variable = find(name);
         if (!variable) refuse("it has no variable " + name + ", by which campaigns are put together");
-        if (variable->lengths != lengths) refuse("variable " + variable->shape() + " has not the shape that its case gives it");
+        if (variable->lengths != lengths) refuse("variable " + variable->shape() + " does not have the shape given by its case");
         std::size_t count = 1;
         for (const std::size_t n : lengths) count *= n;
         std::vector<double> values(count);

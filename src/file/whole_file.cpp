@@ -207,13 +207,13 @@ bool check_output(const std::string& path, const std::vector<std::string>& input
     if (path.back() == '/') refuse("a file name is expected after the last '/'");
     // NetCDF takes such names for data sets on the net or for folders of the zarr format.
     if (path.find("://") != std::string::npos || path.starts_with("http:") || path.find("#mode=") != std::string::npos)
-        refuse("this is an address, not the name of a file; rsc writes to plain files alone");
+        refuse("this is a URL; rsc writes to plain files only");
     std::error_code error;
     const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? fs::path(".") : parent,
                    ancestor = existing_ancestor(folder);
     if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
     if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
-        refuse("folder '" + folder.string() + "' does not exist; make it first");
+        refuse("folder '" + folder.string() + "' does not exist; create it first");
     if (::access(ancestor.c_str(), W_OK | X_OK) != 0)
         refuse("folder '" + ancestor.string() + "' cannot be written to: " + std::error_code(errno, std::generic_category()).message());
     for (const std::string& input : inputs)

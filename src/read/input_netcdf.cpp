@@ -29,7 +29,7 @@ void require_sound(const std::string& path) {
     if (!in.read(line.data(), length)) return;
     if (!line.starts_with(start)) {
         if (line.find(start) != std::string::npos)
-            throw Error(Failure::bad_input, path + ": is cut off: its last line, the checksum, is not whole");
+            throw Error(Failure::bad_input, path + ": is truncated: its last line, the checksum, is incomplete");
         return;
     }
     std::vector<char> buffer(1 << 20);
@@ -41,10 +41,9 @@ void require_sound(const std::string& path) {
         left -= in.gcount();
     }
     if (line_of(crc) != line)
-        throw Error(Failure::bad_input,
-                    path +
-                        ": is damaged, or was changed since rsc wrote it: its checksum does not hold (nccopy makes a copy "
-                        "without one)");
+        throw Error(Failure::bad_input, path +
+                                            ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy makes a copy "
+                                            "without one)");
 }
 
 namespace {
@@ -109,7 +108,7 @@ public:
 private:
     [[noreturn]] void damaged() const {
         throw Error(Failure::bad_input,
-                    path_ + ": looks like NetCDF, but its header is cut off or damaged at byte " + std::to_string(position_));
+                    path_ + ": looks like NetCDF, but its header is truncated or damaged at byte " + std::to_string(position_));
     }
 
     std::uint64_t number(int bytes) {
@@ -182,7 +181,7 @@ void check_classic_length(const std::string& path) {
     const std::uint64_t wanted = header.wanted_length();
     if (header.length() < wanted)
         throw Error(Failure::bad_input, path + ": ends at byte " + std::to_string(header.length()) + " of the " + std::to_string(wanted) +
-                                            " its header announces; the file is not whole");
+                                            " its header announces; the file is truncated");
 }
 
 namespace {

@@ -183,7 +183,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
             maps.push_back(v);
         }
     if (maps.empty()) refuse(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
-    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and it cannot be told which is meant: " + names);
+    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and more than one other: " + names);
     return maps[0];
 }
 
@@ -219,7 +219,7 @@ Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heigh
     }
     if (with && without)
         refuse(file.path() + ": " + with->name + " is in '" + file.text_attribute(*with, "units").value_or("") + "', but " + without->name +
-               " has no attribute units: it cannot be told what it is in");
+               " has no attribute units, so that its unit is unknown");
     return {factor[0], factor[1], factor[2]};
 }
 

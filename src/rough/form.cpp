@@ -36,7 +36,7 @@ struct Normal {
                 double sum = a[j][i];
                 for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
                 if (i == j && !(sum > kSingular * a[j][j]))
-                    refuse("the points that are present do not fix a " + std::string(form) + ": too few of them, or all on one line");
+                    refuse("the points that are present do not determine a " + std::string(form) + ": too few of them, or all on one line");
                 l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
             }
         for (int i = 0; i < kUnknowns; ++i) {
@@ -183,7 +183,7 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
         s = next;
         left = next_left;
     }
-    refuse("no sphere as wide as the map fits it; detrend = 'quadratic' fits what is no sphere");
+    refuse("no sphere as wide as the map fits it; use detrend = 'quadratic'");
 }
 
 // Mean over the points present.
@@ -215,7 +215,7 @@ Form detrend(HeightMap& map, Detrend how) {
     form.how = how;
     long points = 0;
     const double level = mean_present(map, points);
-    if (points == 0) refuse("the map has no point that is not missing");
+    if (points == 0) refuse("all points of the map are missing");
     if (how != Detrend::none) form.level = level;
     if (how == Detrend::mean) lower(map, level);
     const Frame frame(map);

@@ -74,7 +74,7 @@ double lognormal_delta(double skewness) {
 
 [[noreturn]] void refuse(double skewness, double kurtosis, const std::string& bound) {
     throw Error(Failure::bad_input, "surface: kurtosis = " + std::to_string(kurtosis) + " with skewness = " + std::to_string(skewness) +
-                                        ": no distribution of heights is known that has them; " + bound);
+                                        ": there is no height distribution with them; " + bound);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ HeightDistribution HeightDistribution::of_moments(double skewness, double kurtos
     const Shape shape = shape_of(found);
     constexpr double near = 1e-3;
     if (!(std::abs(shape.skewness - s) <= near && std::abs(shape.kurtosis - kurtosis) <= near * kurtosis))
-        refuse(skewness, kurtosis, "they lie too near to the bound kurtosis = skewness^2 + 1 = " + std::to_string(least));
+        refuse(skewness, kurtosis, "they are too close to the bound kurtosis = skewness^2 + 1 = " + std::to_string(least));
     std::vector<double> values(kValues);
     for (int i = 0; i < kValues; ++i) {
         const double value = (found(score(i)) - shape.mean) / shape.deviation;

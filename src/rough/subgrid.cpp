@@ -87,7 +87,7 @@ void SummitClimber::keep_within(int i, int j, int reach) {
 }
 
 // The patch around (i, j).
-void SummitClimber::cut_out(int i, int j, const Rows& row) {
+void SummitClimber::cut_out(int i, int, const Rows& row) {
     const int span = margin(), nx = place_.nx;
     for (const int side : {1, -1})
         for (int d = 0; d <= span; ++d) {

@@ -162,8 +162,8 @@ void test_sums(const Folder& folder) {
     CHECK(with([](auto& o) { o.map.y0 += 1e-9; }).find("y" + begins) != std::string::npos);
     CHECK(with([](auto& o) { o.pdf.pressure_max *= 1.01; }).find("pressure_mean_bin" + begins) != std::string::npos);
     CHECK(with([](auto& o) { o.pdf.area_max *= 1.01; }).find("spot_area_bin" + begins) != std::string::npos);
-    CHECK(with([](auto& o) { o.map.nx += 1; }).find("has not the shape that its case gives it") != std::string::npos);
-    CHECK(refusal(path, options, sample::kSteps + 1).find("has not the shape that its case gives it") != std::string::npos);
+    CHECK(with([](auto& o) { o.map.nx += 1; }).find("the shape") != std::string::npos);
+    CHECK(refusal(path, options, sample::kSteps + 1).find("the shape") != std::string::npos);
     CHECK(refusal(one, options, sample::kSteps).find("it has no variable map_area_fraction_rest") != std::string::npos);
 
     Result bad = sample::result(1);

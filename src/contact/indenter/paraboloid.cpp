@@ -76,7 +76,7 @@ std::shared_ptr<const IndenterShape> make_paraboloid(const char* name, const Sha
         if (!(R > 0)) throw Error(Failure::bad_input, "the paraboloid's radii must be positive (Infinity: straight)");
     if (std::isinf(keys.radii[0]) && std::isinf(keys.radii[1]))
         throw Error(Failure::bad_input,
-                    "indenter%radii = Infinity, Infinity is a flat: take shape = 'sphere' and solids%R = Infinity, Infinity");
+                    "indenter%radii = Infinity, Infinity is a flat: use shape = 'sphere' and solids%R = Infinity, Infinity");
     return std::make_shared<Paraboloid>(name, keys);
 }
 

@@ -135,10 +135,8 @@ Series expand(const LayeredBody& body) {
         }
         low = best / step, high = best * step * 1.01;
     }
-    throw Error(
-        Failure::bad_input,
-        format("the layers and the body below them are too different in stiffness or thickness: no series of %d terms describes them",
-               longest));
+    throw Error(Failure::bad_input,
+                format("the layers and the body below them differ too much in stiffness or thickness for a series of %d terms", longest));
 }
 
 }  // namespace

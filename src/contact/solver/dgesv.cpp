@@ -16,7 +16,7 @@ std::unique_ptr<double[]> allocate_matrix(std::size_t n) {
     } catch (const std::bad_alloc&) {
         throw Error(Failure::no_memory, "solver%method='dgesv' needs a dense matrix of " + std::to_string(n) + " x " + std::to_string(n) +
                                             " numbers (" + std::to_string(n * n / 131072) +
-                                            " MiB), which was refused; method='direct' needs none");
+                                            " MiB), which could not be allocated; method = 'direct' needs none");
     }
 }
 

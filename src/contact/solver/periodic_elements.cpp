@@ -104,18 +104,16 @@ ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, 
     Impl& my = *impl_;
     const ElementsOutcome outcome = my.solve({true, mean_pressure / my.pressure_unit()}, tolerance, most_iterations);
     if (my.grid->full())
-        throw Error(Failure::bad_input,
-                    format("a nominal pressure of %.9g closes the gap altogether: on this surface nothing is left of it from %.9g on",
-                           mean_pressure, closing_pressure()));
+        throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that of full contact on this surface, %.9g",
+                                               mean_pressure, closing_pressure()));
     return outcome;
 }
 
 ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {
     Impl& my = *impl_;
     if (!(Z0 > closed()))
-        throw Error(Failure::bad_input,
-                    format("a separation of %.9g closes the gap altogether: between the mean planes nothing is left at %.9g", Z0,
-                           std::abs(my.mean) > kRounding * my.rms ? my.mean : 0.0));
+        throw Error(Failure::bad_input, format("a separation of %.9g is below that of full contact, %.9g", Z0,
+                                               std::abs(my.mean) > kRounding * my.rms ? my.mean : 0.0));
     return my.solve({false, (Z0 - my.zero) / my.rms}, tolerance, most_iterations);
 }
 
