@@ -3,17 +3,17 @@
  * Rough Spheres Investigated Using a Deterministic Multi-Asperity Model", J. Multiscale Modelling, 2018). The whole of the C
  * interface.
  *
- * Way through it
+ * Order of use
  *     rsc_surface (heights)  ->  rsc_asperities (its summits)  ->  rsc_contact (a sphere pressed on them)
- *     rsc_case (every option, by the names of the program's namelist) goes along wherever there is something to choose.
- *     Each step may begin with data of your own: rsc_surface_take, rsc_asperities_take.
+ *     rsc_case (all options, by the names of the program's namelist) is an argument wherever there is something to choose.
+ *     Surfaces and asperities may also come from your own arrays: rsc_surface_take, rsc_asperities_take.
  *
- * Units are yours, as long as they are consistent: lengths, forces, moduli in force/length^2, energies in force length.
+ * Units: any consistent ones; lengths, forces, moduli in force/length^2, energies in force length.
  *
  * Status
  *     Every function returns an int32_t: 0 is success; -i says that argument number i (counted from 1) is wrong; a positive value
- *     is one of RSC_STATUS_LIST. rsc_message gives the reason in words. No function ends the program, prints, or lets a C++
- *     exception out. Errors found in an option of a case carry the number of the case argument.
+ *     is one of RSC_STATUS_LIST. rsc_message gives the reason in words. No function ends the program, prints, or throws a C++
+ *     exception. Errors found in an option of a case carry the number of the case argument.
  * After a failure
  *     Output arguments hold what they held before, except that a constructor sets its handle to null, and except for
  *     RSC_NOT_CONVERGED, where all outputs are written (see rsc_contact_indent). Handles stay valid and usable.
@@ -23,10 +23,10 @@
  *     constructor overwrites the handle it is given: destroy what it held before. Handles own copies of all arrays they were made
  *     from, and share nothing you could change: a surface or a case may be destroyed while the things made from it are in use.
  * Threads
- *     Different handles may be used by different threads at the same time. One handle may be read by several threads at once: all
- *     functions that take it as pointer to const. Global is one lock: NetCDF, HDF5 and the planner of FFTW are not made for several threads,
- *     and rsc lets one of its threads at a time into them. Programs that use these libraries themselves take the same lock, rsc_lock.
- *     After a fork the child may go on with copies of its handles; it computes with one thread. modules/README has more: "rsc inside your program".
+ *     Different handles may be used by different threads at the same time. Several threads may call functions that take the same handle
+ *     as pointer to const. NetCDF, HDF5 and the planner of FFTW are not thread-safe, so that rsc calls them under one global lock;
+ *     programs that use these libraries themselves must take the same lock, rsc_lock.
+ *     After a fork the child may use its copies of the handles; it computes with one thread. modules/README has more: "rsc inside your program".
  * Numbers
  *     of arrays, and what describes a grid, a sphere or a material, must be finite and at most 1e50, positive ones at least 1e-50:
  *     beyond that, squares and powers of them would overflow. "Not finite" and "not positive" below include that.
@@ -35,7 +35,7 @@
  *     NULL. Two-dimensional arrays are stored with x running fastest: z[j*nx + i] is the height at (x0 + i dx, y0 + j dy).
  * Text
  *     goes in as a null-terminated string, and comes out into a caller's buffer: at most size-1 characters are written, always
- *     followed by a null character, and *length receives the full length without it: length >= size tells that the text was cut.
+ *     followed by a null character, and *length receives the full length without it: length >= size means that the text was cut.
  *     The buffer may be null if size is 0; length may be null.
  */
 /* clang-format on */
@@ -62,9 +62,9 @@ extern "C" {
     X(RSC_NOT_CONVERGED, 1, "the solver did not reach its tolerance; the results are those of its last iterate") \
     X(RSC_NO_MEMORY, 2, "out of memory")                                                                         \
     X(RSC_FILE, 3, "a file could not be read or written")                                                        \
-    X(RSC_NO_RESULT, 4, "the contact holds no result: indent or press first")                                    \
+    X(RSC_NO_RESULT, 4, "the contact has no result yet: indent or press first")                                  \
     X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")                                             \
-    X(RSC_STOPPED, 6, "the caller stopped it")
+    X(RSC_STOPPED, 6, "stopped by the caller")
 
 #define RSC_STATUS_ENUMERATOR(name, value, meaning) name = value,
 enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
@@ -72,11 +72,11 @@ enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
 
 /* Status of a computed level (rsc_contact_level), the more serious the larger. The values are those of
  * the variable `status` of a result file. */
-#define RSC_LEVEL_LIST(X)                                                                                       \
-    X(RSC_LEVEL_CONVERGED, 0, "converged")                                                                      \
-    X(RSC_LEVEL_OUT_OF_VALIDITY, 1, "some contact radius exceeds a quarter of the mean spacing of asperities")  \
-    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")                                                   \
-    X(RSC_LEVEL_NOT_UNIQUE, 3, "the solution is a minimum of the energy that could not be proved the only one") \
+#define RSC_LEVEL_LIST(X)                                                                                 \
+    X(RSC_LEVEL_CONVERGED, 0, "converged")                                                                \
+    X(RSC_LEVEL_OUT_OF_VALIDITY, 1, "outside the range of validity: see the attribute comment of status") \
+    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")                                             \
+    X(RSC_LEVEL_NOT_UNIQUE, 3, "the solution is a minimum of the energy, perhaps not the only one")       \
     X(RSC_LEVEL_NOT_CONVERGED, 4, "the solver did not reach its tolerance")
 
 #define RSC_LEVEL_ENUMERATOR(name, value, meaning) name = value,
@@ -87,7 +87,7 @@ typedef struct rsc_case rsc_case;             /* options: every key of the namel
 typedef struct rsc_surface rsc_surface;       /* heights on a regular grid */
 typedef struct rsc_asperities rsc_asperities; /* summits: positions and radii */
 typedef struct rsc_contact rsc_contact;       /* a rigid sphere on asperities, and the last level computed */
-typedef struct rsc_friction rsc_friction;     /* a contact with friction, and the path it was led along */
+typedef struct rsc_friction rsc_friction;     /* a contact with friction, and its path */
 
 /* ---- version and messages ------------------------------------------------------------------------------------------------- */
 
@@ -100,8 +100,8 @@ typedef struct rsc_friction rsc_friction;     /* a contact with friction, and th
  * buffer, size, length: text output. Errors: -1 buffer null with size > 0; -2 size < 0. */
 RSC_API int32_t rsc_version(char* buffer, int64_t size, int64_t* length);
 
-/* Why the last failing call of this thread failed; empty if none did. Successful calls leave the message as it is, and so does
- * this one. buffer, size, length: text output. Errors: -1 buffer null with size > 0; -2 size < 0. */
+/* The reason why the last failing call of this thread failed; empty if none did. Successful calls, and this one, do not change the
+ * message. buffer, size, length: text output. Errors: -1 buffer null with size > 0; -2 size < 0. */
 RSC_API int32_t rsc_message(char* buffer, int64_t size, int64_t* length);
 
 /* The meaning of a status code in general, for a status of any value.
@@ -121,14 +121,14 @@ RSC_API int32_t rsc_case_copy(rsc_case** new_case, const rsc_case* original);
 /* Releases a case and nulls the handle. Errors: -1 null address. */
 RSC_API int32_t rsc_case_destroy(rsc_case** old_case);
 
-/* Replaces all keys by what a namelist text says, defaults where it says nothing.
+/* Replaces all keys by those of a namelist text; keys that are not in the text get their defaults.
  * a_case: the case; text: namelist input, as the program reads it, without &study.
- * Errors: -1, -2 null; -2 whatever is wrong with the text, the message having a line for each fault; RSC_NO_MEMORY. On failure
+ * Errors: -1, -2 null; -2 errors in the text, one line of the message for each; RSC_NO_MEMORY. On failure
  * the case is unchanged. */
 RSC_API int32_t rsc_case_read(rsc_case* a_case, const char* text);
 
-/* The same from a file, which messages call by its name.
- * a_case: the case; path: the file. Errors: -1, -2 null; -2 a file that cannot be read, or whatever is wrong with its text;
+/* The same from a file.
+ * a_case: the case; path: the file. Errors: -1, -2 null; -2 a file that cannot be read, or errors in its text;
  * RSC_NO_MEMORY. On failure the case is unchanged. */
 RSC_API int32_t rsc_case_read_file(rsc_case* a_case, const char* path);
 
@@ -136,7 +136,7 @@ RSC_API int32_t rsc_case_read_file(rsc_case* a_case, const char* path);
  * a_case: the case; name: "group%key", "group%key(2)" or "group%key(1:2)", in any case; value: in namelist syntax (texts in
  * quotes). A key with a fixed number of values (solids%E has two) takes all of them, "1e5, 2e5", or one by its subscript.
  * Errors: -1 null; -2 null or unknown name; -3 null or a value that is refused; RSC_NO_MEMORY. On failure the case is
- * unchanged. Relations between keys are looked at where the case is used. */
+ * unchanged. Relations between keys are checked where the case is used. */
 RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value);
 
 /* The value of one key in namelist syntax, exactly as rsc_case_set takes it; empty for a key that is not set.
@@ -159,32 +159,32 @@ RSC_API int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* l
 /* Runs the case as the program does, and writes its result file (output%file, relative to the working directory). Prints nothing.
  * a_case: the case; failed_levels (out, may be null): number of levels that did not converge.
  * Errors: -1 null or a case that is refused, an input file that cannot be used included; RSC_NOT_CONVERGED if failed_levels > 0,
- * the file being written all the same; RSC_FILE; RSC_NO_MEMORY. No other failure leaves a
- * result file behind; of several realizations, what is done stays beside it for the program's --resume. */
+ * the file being written all the same; RSC_FILE; RSC_NO_MEMORY. After any other failure
+ * there is no result file, but a campaign leaves its checkpoint for the program's --resume. */
 RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
 
-/* Asked while a case runs: levels done of how many, or realizations where there are several; data: what was given along. Returns 0 to go on,
- * anything else to stop. Called by the thread that called rsc_case_run_watched, about ten times a second; seconds may pass while a
- * large surface is made or a map read. It must not throw an exception or jump out. */
+/* Called while a case runs: levels (or realizations, if there are several) done, and their total number; data: the pointer given to
+ * rsc_case_run_watched. Returns 0 to continue, any other value to stop. Called by the thread that called rsc_case_run_watched, about ten
+ * times a second, less often while a large surface is made or a map read. It must neither throw an exception nor call longjmp. */
 typedef int32_t (*rsc_watch)(double done, double total, void* data);
 
-/* rsc_case_run with someone who watches, and who may stop it.
- * a_case: the case; watch: is asked, null for nobody; data: given to it; failed_levels (out, may be null): number of levels that did not
- * converge. Errors: as rsc_case_run; RSC_STOPPED if watch stopped it: no result is written then, and of several realizations what is done
- * stays for the program's --resume. */
+/* rsc_case_run with a function that reports progress and may stop the run.
+ * a_case: the case; watch: the function, or null; data: passed to it; failed_levels (out, may be null): number of levels that did not
+ * converge. Errors: as rsc_case_run; RSC_STOPPED if watch stopped the run: there is no result then, but a campaign leaves its checkpoint
+ * for the program's --resume. */
 RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels);
 
-/* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for a program that calls these libraries from another thread than
- * the one that is in rsc at the time. Waits until rsc is out of them. A thread that holds the lock may call rsc, and take it again; it
- * has to be given back as often as it was taken. Keep it for as short as can be: other threads in rsc wait meanwhile. */
+/* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for programs in which other threads call these libraries. Waits
+ * until no other thread holds it. A thread that holds the lock may call rsc, and take the lock again; it must be released as often as it
+ * was taken. Hold it as short as possible: other threads in rsc wait. */
 RSC_API int32_t rsc_lock(void);
 
-/* Gives the lock back. Errors: RSC_NO_RESULT if this thread does not hold it. */
+/* Releases the lock. Errors: RSC_NO_RESULT if this thread does not hold it. */
 RSC_API int32_t rsc_unlock(void);
 
 /* ---- surfaces ----------------------------------------------------------------------------------- */
 
-/* The surface that &surface names, as the program has it. source = 'synthetic' or 'spectrum': a random one by the keys of &surface and
+/* The surface described by &surface, as in the program. source = 'synthetic' or 'spectrum': a random one by the keys of &surface and
  * run%seed, on run%threads threads, the same as realization number `realization` of the program, whatever the threads; its heights are
  * periodic, on x = i L/n, y = j L/n (a contact on a free surface sees one period only: beyond its border there is nothing to press on).
  * source = 'heights': the map in surface%file, in run%length_unit, its missing points, form and noise treated as the keys say. surface
@@ -242,8 +242,8 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
  * asperity rsc_contact_spots gives the pixel with the highest pressure, row*nx + column from 0. */
 RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case);
 
-/* The asperities of whatever &surface source names, as the program has them: those of the surface of rsc_surface_synthesize, a synthetic
- * one not being stored (faster, in half the memory, and on any grid for every asperities%law), or the list in surface%file; with
+/* The asperities for surface%source, as in the program: those of the surface of rsc_surface_synthesize, or the list in surface%file. A
+ * synthetic surface is not stored, which is faster, takes half the memory and allows any grid for every asperities%law. With
  * solver%model = 'elements' the points of the surface on the grid of elements%points_per_wave.
  * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number, without effect on what is read.
  * Errors: -1 null; -2 keys of &surface, &asperities or &run that are refused, or a file that cannot be used; RSC_NO_MEMORY. */
@@ -252,8 +252,8 @@ RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case*
 /* Given asperities, copied.
  * asperities (out): the handle; n: number of them, 1 to 2^31-1; x, y, z: summits [length]; radius: > 0 [length]; kappa1, kappa2:
  * principal curvatures, kappa1 >= kappa2 > 0 [1/length], and angle: direction of the kappa2 axis from x [rad], all three or none
- * of them (null); biharmonic: nabla^4 z at the summit [1/length^3], or null. Laws of asperities%law that need what is not there
- * refuse it. Errors: -1 null; -2 out of range; -3 to -10 null where it must not be, a value that is not finite, not positive
+ * of them (null); biharmonic: nabla^4 z at the summit [1/length^3], or null. Contact laws (asperities%law) that need
+ * missing columns refuse them. Errors: -1 null; -2 out of range; -3 to -10 null where it must not be, a value that is not finite, not positive
  * where it must be, or two summits at the same (x, y) (-3); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z,
                                     const double* radius, const double* kappa1, const double* kappa2, const double* angle,
@@ -269,11 +269,11 @@ RSC_API int32_t rsc_asperities_destroy(rsc_asperities** asperities);
 /* Number of asperities. asperities: the asperities; n (out): their number. Errors: -1, -2 null. */
 RSC_API int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n);
 
-/* Reads them back. asperities: the asperities; n: length of each array, their number; x, y, z, radius (out, may be null)
+/* Positions and radii. asperities: the asperities; n: length of each array, their number; x, y, z, radius (out, may be null)
  * [length]. Errors: -1 null; -2 n is not their number. */
 RSC_API int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius);
 
-/* Reads the curvatures back. asperities: the asperities; n: length of each array, their number; kappa1, kappa2 (out, may be null)
+/* Curvatures. asperities: the asperities; n: length of each array, their number; kappa1, kappa2 (out, may be null)
  * [1/length]; angle (out, may be null) [rad].
  * Errors: -1 null, or asperities that were given without curvatures; -2 n is not their number. */
 RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle);
@@ -296,7 +296,7 @@ RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* 
  * a_case: the case, null for the defaults. Errors: -1, -2 null; -3 keys that are refused; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case);
 
-/* A copy that is independent of the original, with its last level, what stays of its path (solids%hardness) and its committed state.
+/* A copy that is independent of the original, with its last level, its plastic residual (solids%hardness) and its committed state.
  * contact (out): the handle; original: the contact, which other threads may use only by functions that take it as pointer to const.
  * Errors: -1, -2 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original);
@@ -310,24 +310,24 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * then is not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
-/* Keeps the state as the one that rsc_contact_rollback goes back to: the tip, the last level, and what the path has left where asperities or
- * elements yield (solids%hardness). A new contact is committed as it was made. For codes that try a step and may have to repeat it.
+/* Stores the state for rsc_contact_rollback: the tip, the last level, and the plastic residual (solids%hardness). A new contact is committed
+ * when it is made. For codes that try a step and may have to repeat it.
  * contact: the contact. Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_commit(rsc_contact* contact);
 
-/* Goes back to the state of the last commit. Levels that follow are the ones that would have followed then, to the tolerance.
+/* Restores the state of the last commit. The levels that follow equal those that would have followed it then, to the tolerance.
  * contact: the contact. Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_rollback(rsc_contact* contact);
 
 /* Position of the tip. contact: the contact; x0, y0 (out, may be null) [length]. Errors: -1 null. */
 RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0);
 
-/* The separation at which the sphere, coming down, touches its first asperity.
+/* The separation of first contact.
  * contact: the contact; separation (out) [length]. Errors: -1 null, or no asperity lies under the sphere; -2 null. */
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
-/* Computes the contact at a separation. The answer depends on the separation and the tip alone; a level near the last one is
- * computed faster, and the last one itself, with the tip where it was, is there at once.
+/* Computes the contact at a separation. The result depends on the separation and the tip alone, and with solids%hardness on the levels
+ * before. A level near the last one is computed faster; the last one itself is not computed again.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, results then being those of the last iterate; RSC_NO_MEMORY,
  * RSC_INTERNAL, the contact then holding no result. */
@@ -351,12 +351,12 @@ RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separatio
 RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
                                   int64_t* overlapping_pairs, double* residual);
 
-/* The answer of the last level in one call, for codes that ask at every step. All outputs may be null. contact: the contact;
+/* The results of the last level in one call. All outputs may be null. contact: the contact;
  * separation: Z0 [length]; force: N [force]; stiffness: dN/dZ0, negative, 0 without contact (takes one more solution of linear
- * equations, unless null) [force/length]; area: A [length^2]; energy: W, dW/dZ0 = -N [force length]; lateral_x, lateral_y: force that
- * pushes the sphere sideways at this separation, -dW/dx0, -dW/dy0 = -sum f_i (x_i - x0)/sqrt(R^2 - rho_i^2), alike in y [force];
+ * equations, unless null) [force/length]; area: A [length^2]; energy: W, dW/dZ0 = -N [force length]; lateral_x, lateral_y: lateral
+ * force on the sphere at this separation, -dW/dx0, -dW/dy0 = -sum f_i (x_i - x0)/sqrt(R^2 - rho_i^2), alike in y [force];
  * level_status: of RSC_LEVEL_LIST; contacts: their number, of which overlapping_pairs overlap, large_contacts have a radius above a
- * quarter of the mean spacing, beyond_law lie past the range of the law, edge_contacts within a mean spacing of the border of the
+ * quarter of the mean spacing, beyond_law are beyond the validity of the contact law, edge_contacts within a mean spacing of the border of the
  * surface. All are those at the tip's place when the level was computed.
  * Errors: -1 null; RSC_NO_RESULT, also if stiffness or energy is no finite number; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force, double* stiffness, double* area, double* energy,
@@ -400,21 +400,21 @@ RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t
  * (out, may be null): as above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration);
 
-/* The lowering of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a
+/* Deflection of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a
  * Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq. 3.42), continuous everywhere: at distance d from the middle
  * of a spot 3f/(8 E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside, f/(pi E* d) far away.
- * The solver lets spots act on each other as points; what finite spots do beyond that, some a^2/(10 d^2), is seen here only. With laws
- * other than 'hertz' a spot is taken as a circle of its area. contact: the contact; n: number of points, >= 0; x, y: places [length];
+ * In the solver spots interact as points; the effect of their finite size, some a^2/(10 d^2), is included here only. With laws
+ * other than 'hertz' a spot is replaced by a circle of the same area. contact: the contact; n: number of points, >= 0; x, y: places [length];
  * deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or not finite; -5 null with n > 0;
  * RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
 /* ---- many contacts, and contacts saved in files -------------------------------------------------- */
 
-/* rsc_contact_press for many contacts, shared out among threads. The answers do not depend on the threads.
+/* rsc_contact_press for many contacts, in parallel. The results do not depend on the number of threads.
  * n: number of contacts, >= 0; contacts: different handles, which no other thread uses meanwhile; force: N >= 0 of each [force];
  * separation (out, may be null): Z0 of each, unchanged where it failed [length]; status (out, may be null): what rsc_contact_press returns
- * for each; threads: 1 or more, 0 for all the machine has. Errors: -1, -6 out of range; -2 null, a null handle, or one given twice; -3
+ * for each; threads: 1 or more, 0 for all of the machine. Errors: -1, -6 out of range; -2 null, a null handle, or one given twice; -3
  * null with n > 0. Otherwise RSC_SUCCESS if all were, or the status of the first that was not, negative ones as -2. */
 RSC_API int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status,
                                    int32_t threads);
@@ -424,8 +424,8 @@ RSC_API int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const doub
 RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status,
                                     int32_t threads);
 
-/* A step of many contacts: moves their tips, brings each to a separation or under a force, and gives the answers that codes need which move
- * bodies. Shared out among threads, on which the answers do not depend.
+/* A step of many contacts, in parallel: moves their tips, brings each to a separation or under a force, and returns what codes for moving
+ * bodies need. The results do not depend on the number of threads.
  * n: number of contacts, >= 0; contacts: different handles, which no other thread uses meanwhile; x0, y0: tips, both null to leave them
  * [length]; by_force: 1 where value is a force, 0 where it is a separation; value: of each [force] or [length]. Outputs, each may be null, of a
  * contact that failed unchanged unless it is RSC_NOT_CONVERGED: separation, force; stiffness: dN/dZ0 (takes one more solution of linear
@@ -439,11 +439,11 @@ RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const doubl
                                   double* lateral_y, double* moment_x, double* moment_y, int32_t* level_status, int32_t* status,
                                   int32_t threads);
 
-/* Saves a contact in a file: tip, options, the last level, what the path has left (solids%hardness) and the committed state; not the
- * asperities, or the surface of elements. The contact that was saved and the one restored go on alike, an elastic one bit for bit: for that,
- * earlier levels stop to be starts for the next ones (answers after a save may differ from those without it by the tolerance). The file is
- * of this machine's kind; later versions of the library read it. It is whole or not there. An existing file is replaced only if it is a save
- * of rsc: links, devices, read-only and other files are left as they are.
+/* Saves a contact in a file: tip, options, the last level, the plastic residual (solids%hardness) and the committed state, but neither the
+ * asperities nor the surface of elements. The saved and the restored contact continue alike, an elastic one bit for bit. For that,
+ * earlier levels no longer serve as starts for the next ones, so that results after a save may differ within the tolerance. The file
+ * depends on the machine type; later versions of the library can read it. It is written completely or not at all. An existing file is
+ * replaced only if it is a save of rsc; links, devices, read-only and other files are left as they are.
  * contact: the contact; path: the file. Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY; RSC_INTERNAL. */
 RSC_API int32_t rsc_contact_save(rsc_contact* contact, const char* path);
 
@@ -478,11 +478,11 @@ RSC_API int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* o
 /* Releases friction and nulls the handle. Errors: -1 null address. */
 RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
 
-/* Leads the contact on a straight path to (separation, x, y) and tells the forces there: one level at the new separation, one more where
- * something slips. The first call says where the path begins: the contact there, if any, is pressed and not slid. Only differences of x and
- * y count; a slide without contact leaves no trace.
+/* Moves the contact on a straight path to (separation, x, y) and returns the forces there. Costs one level at the new separation, one more
+ * where spots slip. The first call defines the start of the path, pressed without slide. Only differences of x and y matter; a slide
+ * without contact has no effect.
  * friction: the friction; separation: Z0; x, y: slide [length]; force (out, may be null): N [force]; force_x, force_y (out, may be
- * null): tangential force Q [force], along the slide at first: it is what resists, so that the sphere is pushed by -Q; lost (out, may be
+ * null): tangential force Q [force], along the slide at first; the force on the sphere is -Q; lost (out, may be
  * null): work lost to friction on this step, >= 0 [force length]. Errors: -1 null; -2, -3, -4 not finite; RSC_NOT_CONVERGED, outputs then
  * being those of the last iterates; RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged. */
 RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x,
@@ -508,14 +508,15 @@ RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, doubl
 RSC_API int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x,
                                    double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation);
 
-/* Keeps the state as the one that rsc_friction_rollback goes back to. A new friction is committed without a path.
+/* Stores the state for rsc_friction_rollback. A new friction is committed without a path.
  * friction: the friction. Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_commit(rsc_friction* friction);
 
-/* Goes back to the state of the last commit, for codes that try a step. friction: the friction. Errors: -1 null; RSC_NO_MEMORY. */
+/* Restores the state of the last commit. friction: the friction. Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
 
-/* First loading at the separation of the last update: what a contact pressed there and then slid would answer; the path is not touched.
+/* First loading at the separation of the last update: tangential forces of a contact that is pressed there and then slid. The path of the
+ * friction is not changed.
  * Q = mu [N(Z0) - N(Z0')], slide = (mu/m) (Z0' - Z0). A level for each slide short of full slip.
  * friction: the friction; n: length of the arrays, >= 0; slide: >= 0 [length]; force (out): Q [force]; stick_separation (out, may be
  * null): Z0' [length]. Errors: -1 null; -2 negative; -3 null with n > 0, negative or not finite; -4 null with n > 0; RSC_NO_RESULT before
@@ -539,7 +540,7 @@ RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* sli
 RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius,
                                    double* stick_radius, double* force_x, double* force_y);
 
-/* Keeps friction with its path, and the committed state, in a file, as rsc_contact_save does. friction: the friction; path: the file.
+/* Saves friction with its path, and the committed state, in a file, as rsc_contact_save does. friction: the friction; path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_save(rsc_friction* friction, const char* path);
 
