@@ -1,8 +1,7 @@
 // Fortran namelist text, parsed without knowing any key: groups of assignments, each with its subscript and its list of values.
 // Separators, repeat counts, null values and comments are taken as gfortran's runtime takes them.
 //
-// By hand: the readers that exist are parts of Fortran runtimes. They need the keys declared beforehand, stop at the first error, and
-// do not say where it stands.
+// Existing readers are parts of Fortran runtimes: they need the keys declared beforehand, and stop at the first error without its place.
 #pragma once
 
 #include "std.hpp"
@@ -14,7 +13,7 @@ struct Position {
     int line = 0, column = 0;
 };
 
-// Something wrong (or, among the warnings, doubtful) at a place.
+// An error or a warning at a place of the text.
 struct Fault {
     Position at;
     std::string text;
@@ -55,8 +54,8 @@ struct Group {
 
 struct Document {
     std::vector<Group> groups;
-    std::vector<Fault> faults;    // what gfortran would refuse as well, and unknown groups
-    std::vector<Fault> warnings;  // what gfortran reads otherwise than the Fortran standard
+    std::vector<Fault> faults;    // errors that gfortran reports, too, and unknown groups
+    std::vector<Fault> warnings;  // text that gfortran reads differently from the Fortran standard
 };
 
 inline constexpr std::size_t kLargestText = std::size_t{4} << 20;  // bytes

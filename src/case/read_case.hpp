@@ -26,7 +26,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
 // The effective namelist of a case and its study: what --check prints.
 std::string effective_namelist(const ReadCase& read);
 
-// The first half alone: what the text says, before bounds and relations of the keys are looked at. Never throws on bad text.
+// The contents of the text, before bounds and relations of the keys are checked. Never throws on bad text.
 struct Reading {
     Case settings;
     std::optional<Study> study;

@@ -1,5 +1,5 @@
-// The key registry: every key of the namelist, written once. It drives the reader, --describe, --check, the `case` attribute of a
-// result file and set and get by name.
+// The key registry: one row for each key of the namelist, used by the reader, --describe, --check, the `case` attribute of result files,
+// and the functions that set and get keys by name.
 #pragma once
 
 #include "case/case.hpp"

@@ -48,8 +48,8 @@ inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
     {"biharmonic", &Asperities::biharmonic, false, -3, "biharmonic of the height at the summit, nabla^4 z"},
 }};
 
-// Asperities that come from outside: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
-// one length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at
+// Checks asperities given by the user: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
+// the same length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at
 // the same (x, y). `name(i)` says in the message which one is meant.
 void validate(const Asperities& asperities, const std::function<std::string(std::size_t)>& name);
 

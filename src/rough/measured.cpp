@@ -109,7 +109,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     return m;
 }
 
-std::vector<std::string> told(const Measured& m, const std::string& length_unit) {
+std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
     lines.push_back(

@@ -60,7 +60,7 @@ inline constexpr double kFewPointsPerWave = 4;
 // Throws Error(bad_input) when points are missing and Missing::refuse says so (the message names the first), or all are missing.
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
-// Lines that tell what was done, without line ends; `length_unit` follows every length.
-std::vector<std::string> told(const Measured& measured, const std::string& length_unit);
+// The treatment and the properties of a map as lines of text; `length_unit` follows every length.
+std::vector<std::string> report(const Measured& measured, const std::string& length_unit);
 
 }  // namespace rsc

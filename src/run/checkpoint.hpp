@@ -2,11 +2,9 @@
 //
 // It is a sequence of frames (kind, length, checksum, bytes): one that names the program and the case, one with the sums over the
 // first realizations, and one for each realization that is finished and not yet in the sums. Frames are appended as realizations
-// finish; when they have outgrown the sums, the file is written anew (sums of all that can be added, the rest) under another name
-// and takes the old one's place. A process killed at any moment leaves at most a torn frame at the end, which reading ignores:
-// what is lost are the realizations that were being computed.
-//
-// By hand: a process killed while it writes to a NetCDF or HDF5 file may leave one that cannot be opened at all.
+// finish; when they take more space than the sums, the file is rewritten under another name (sums of all that can be added, the rest)
+// and then replaces the old one. A process killed at any moment leaves at most an incomplete frame at the end, which is ignored: only
+// the realizations in progress are lost. NetCDF is not used, because a process killed while it writes may leave a file that cannot be opened.
 #pragma once
 
 #include "case/case.hpp"
@@ -23,12 +21,12 @@ public:
         std::vector<std::string> records;  // in the order they were appended
     };
 
-    // Opens the state of the campaign `settings` and keeps others away from it while it is open.
+    // Opens the state of the campaign `settings`, and locks it while it is open.
     //   resume = false   starts a new one. Throws Error(bad_input), saying what to do, when there is one already, so that none is lost
     //                    by accident.
-    //   resume = true    goes on with the one that is there, if any: contents() has what is in it. Throws Error(bad_input) when it
+    //   resume = true    continues with the existing one, if any: contents() has its contents. Throws Error(bad_input) when it
     //                    belongs to another case, naming the keys that differ, to another version, or is damaged.
-    // Throws Error(bad_input) when another process is at work on it, Error(file_system) when it cannot be written.
+    // Throws Error(bad_input) when another process has it open, Error(file_system) when it cannot be written.
     Checkpoint(const std::string& result_file, const Case& settings, bool resume);
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
@@ -40,10 +38,10 @@ public:
     // Adds a finished realization. After an error (disk full: Error(file_system)) the file is as it was before the call.
     void append(const std::string& record);
 
-    // The appended records have outgrown the rest: time to rewrite(). It keeps what is written within three times what is
-    // computed.
+    // True if the appended records take more space than the rest: time to rewrite(). The total written is then at most three times the
+    // size of all records.
     bool wants_rewrite() const;
-    // All there is, anew. When there is no room for it the file stays as it is, and may grow on.
+    // Rewrites the file. If the disk is full the file stays as it is, and may continue to grow.
     void rewrite(const std::string& sums, const std::vector<const std::string*>& records);
 
     // The campaign is finished.

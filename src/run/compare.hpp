@@ -1,4 +1,4 @@
-// &compare: levels of the asperity model once more by elements, on the same surface at the same separation.
+// &compare: levels of the asperity model compared with elements on the same surface.
 #pragma once
 
 #include "file/result.hpp"

@@ -1,4 +1,4 @@
-// A case made ready: what is read, computed and checked once, and how one realization of it is run.
+// A prepared case, with all that is read, computed and checked once, and the run of one realization.
 #pragma once
 
 #include "case/case.hpp"

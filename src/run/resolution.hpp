@@ -1,9 +1,9 @@
 // Grid errors of elements.
 //
-// A made surface is solved once more on a grid of half as many points a side, a quarter of the work; a map read from a file, of which
-// coarser points would be another surface, on twice as many, interpolated by its own cosine series (rough/resample.hpp). What N changes
-// says what is left to change: the error of elements falls at least as the first power of the grid's step, so half of what N changed
-// on the way to the grid, or all of what it changes beyond it.
+// A made surface is solved again on a grid of half as many points a side, a quarter of the work; a map read from a file, whose coarser
+// points would be another surface, on twice as many, interpolated by its cosine series (rough/surface.hpp). The error of elements decreases
+// at least as the first power of the grid step. The expected error is therefore half the change of N from the coarser grid, or the
+// whole change to the finer one.
 #pragma once
 
 #include "contact/contact.hpp"
@@ -14,7 +14,7 @@
 
 namespace rsc {
 
-// N of elements that changes by more than this with the grid makes a level out_of_validity.
+// A level is out_of_validity if N of elements changes by more than this with the grid.
 inline constexpr double kUnresolved = 0.01;
 
 // Expected errors of N and A, relative; both are bounds by the argument above.
@@ -35,7 +35,7 @@ public:
     bool exists() const { return contact_ != nullptr; }
     // Expected errors of a level by elements. None without another grid, or if it did not converge there.
     std::optional<GridError> error(const LevelValues& level);
-    // A level that must be visited though it is not judged: where the path of a surface that yields turns.
+    // Solves a level that is not checked, but changes the path: a reversal of the path of a surface that yields.
     void visit(double separation);
 
 private:

@@ -11,14 +11,14 @@ struct RunOptions {
     std::string command;              // for the history attribute
     std::vector<std::string> inputs;  // files that the case was read from: no result is written over them
     Progress progress = Progress::never;
-    bool quiet = false;                            // no table; the summary's warnings and failures are still told on `messages`
-    bool compare_automatically = false;            // what compare%levels = 'auto' stands for is done: by the program, in single runs
-    bool resume = false;                           // a campaign: go on with what an interrupted run left
+    bool quiet = false;                            // no table; warnings and failures still go to `messages`
+    bool compare_automatically = false;            // obey compare%levels = 'auto': the program does, in single runs
+    bool resume = false;                           // a campaign: continue an interrupted run
     std::ostream* table = nullptr;                 // the level table and the summary; null: none
     std::ostream* messages = nullptr;              // warnings, progress; null: none
     const std::atomic<bool>* abandoned = nullptr;  // once true the run ends, with Interrupted
-    // Called by the thread that called, several times a second where it can be: levels or realizations done, of how many. True: the run ends, with
-    // Interrupted.
+    // Reports levels or realizations done, and their total number, several times a second in the calling thread. If it returns true the run
+    // ends with Interrupted.
     std::function<bool(double done, double total)> report;
 };
 
@@ -29,16 +29,16 @@ struct RunSummary {
     double force = 0, area = 0;
 };
 
-// check_output for the result of a case: neither the files it was read from nor the surface's. Returns whether a result is replaced.
+// check_output for the result of a case, which must not replace its input files. Returns true if an earlier result is replaced.
 bool check_result_path(const Case& settings, const RunOptions& options);
 
-// The effective namelist as it stands in a result file: that of the case but for run%threads, which touches nothing in the file.
+// The effective namelist in a result file: that of the case without run%threads, which has no effect on results.
 std::string case_text(const Case& settings);
 
 // The stream for a progress line, or null if none is wanted; `terminal` is set if stderr is one.
 std::ostream* progress_stream(const RunOptions& options, bool& terminal);
 
-// Tells `messages` about levels that did not converge.
+// Reports levels that did not converge on `messages`.
 void tell_failed(const RunOptions& options, const RunSummary& summary);
 
 // Runs a case of one realization: its surface, its levels, the observations, the result file and the screen. Errors as run_case.

@@ -10,7 +10,7 @@ namespace rsc {
 
 std::string status_text(LevelStatus status);
 
-// The title, the bodies, and what theory says of the surface.
+// The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job);
 
 // The treatment of a measured map, if there is one.
@@ -20,25 +20,24 @@ void print_measured(std::ostream& out, const Job& job);
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 
-// The methods the levels were solved with, and why others than asked for; how often each status came, with what it means and what to do;
-// what else to be wary of.
+// The methods of the levels and the reasons for fallbacks; the number of levels with each status, its meaning and remedies; warnings.
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job);
 
 // A remark on rms slopes too large for the theory; empty for small ones.
 const char* slope_remark(double rms_slope);
 
-// The last lines: the file written, whether it took the place of another result, and how to see it.
+// The last lines: the result file, a note if it replaced another one, and the command for pictures.
 void print_result(std::ostream& out, const std::string& file, bool replaces);
 
 // "12.3 s", "4 min 10 s", ...
 std::string duration(double seconds);
 
-// A line on a terminal that is written over, with rate and time left; on other streams a line now and then.
+// Progress with rate and remaining time: a line that is redrawn on a terminal, a line every 30 s on other streams.
 class ProgressLine {
 public:
-    // `out` null: silent. `terminal`: redraw in place. `already`: how much an earlier run has done; it says nothing of the rate.
+    // `out` null: silent. `terminal`: redraw in place. `already`: done by an earlier run, which does not count for the rate.
     ProgressLine(std::ostream* out, bool terminal, const char* unit, double already = 0);
-    ~ProgressLine();  // wipes the line
+    ~ProgressLine();  // erases the line
     void show(double done, double total);
     void wipe();  // before something else is printed to the same terminal
 
@@ -53,13 +52,13 @@ private:
 
 // A campaign on stdout: a line for each batch of realizations, and at the end the mean curve with its scatter.
 
-// The case, how many realizations by how many workers, the column heads. `done` of them are there from an interrupted run.
+// The case, the numbers of realizations and workers, the column heads. `done`: realizations of an interrupted run.
 void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done);
 
 // Means and scatter (standard deviation of a realization) of the last level over the realizations so far.
 void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds, std::size_t done_in_this_run);
 
-// The mean curve, statuses, what to be wary of, the file.
+// The mean curve, statuses, warnings, the file.
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file,
                             bool replaces);
 

@@ -1,4 +1,4 @@
-// SIGINT, SIGTERM and SIGHUP, remembered until the work can be stopped in an orderly state.
+// SIGINT, SIGTERM and SIGHUP are recorded, so that a run can stop in an orderly state.
 #pragma once
 
 #include "std.hpp"
@@ -16,7 +16,7 @@ int caught_signal() noexcept;
 // As if the signal had come to this process: another rank was told to stop.
 void note_signal(int signal) noexcept;
 
-// The work was left in order because of a signal; the text says how to go on. The exit status is 128 + signal.
+// The run was stopped by a signal; the text says how to continue. The exit status is 128 + signal.
 class Interrupted : public std::runtime_error {
 public:
     Interrupted(int signal, const std::string& message) : std::runtime_error(message), signal_(signal) {}

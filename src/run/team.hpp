@@ -1,5 +1,5 @@
 // Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
-// handed out piece by piece, to whoever has finished the last one; nothing about the answer depends on who does what.
+// handed out piece by piece to workers that are idle; results do not depend on the distribution.
 #pragma once
 
 #include "case/case.hpp"
@@ -14,19 +14,19 @@ struct Task {
     std::int64_t realization = 0;
 };
 
-// Does a task and gives back its answer as bytes. When `abandoned` becomes true the answer is not wanted any more.
+// Does a task and returns its result as bytes. When `abandoned` becomes true the result is no longer needed.
 using Work = std::function<std::string(const Task&, const std::atomic<bool>& abandoned)>;
 
 class Team {
 public:
     // The next task; none when there is none to begin now. Asked again after every answer.
     using Next = std::function<std::optional<Task>()>;
-    // Takes an answer. Called by the thread that called run(), one at a time, in the order in which the answers come.
+    // Takes a result. Called by the thread that called run(), in the order in which results arrive.
     using Collect = std::function<void(const Task&, std::string&&)>;
 
     virtual ~Team() = default;
     virtual std::size_t workers() const = 0;
-    // Runs until `next` has nothing more and every answer is in. `ahead`: tasks held ready for a worker beside the one it is at.
+    // Runs until `next` has no more tasks and every result has arrived. `ahead`: tasks queued for a worker beside its present one.
     // Throws what a task or `collect` throws, and Interrupted once a signal has been caught; unfinished tasks are then abandoned.
     virtual void run(const Next& next, const Collect& collect, int ahead) = 0;
 
@@ -44,7 +44,7 @@ public:
     WorkerThreads(const Work& work, std::size_t threads);
     WorkerThreads(const WorkerThreads&) = delete;
     WorkerThreads& operator=(const WorkerThreads&) = delete;
-    ~WorkerThreads();  // abandons what is going on and waits for the threads
+    ~WorkerThreads();  // abandons running tasks and waits for the threads
 
     void push(const Task& task);
     // Waits for an answer, at most so long.
@@ -68,7 +68,7 @@ private:
 
 class ThreadTeam : public Team {
 public:
-    // threads = 0: as many as the machine offers this process.
+    // threads = 0: as many as are available to this process.
     ThreadTeam(Work work, int threads);
     std::size_t workers() const override { return threads_; }
     void run(const Next& next, const Collect& collect, int ahead) override;

@@ -32,7 +32,7 @@ inline void read_input(const std::string& path, std::optional<double> L) {
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) PROMISE(std::isfinite(map(i, j)), "a measured height");
         PROMISE(std::isfinite(measured.parameters.sq) && measured.shortest_wave() > 0, "what was measured");
-        PROMISE(!rsc::told(measured, "mm").empty(), "what is told");
+        PROMISE(!rsc::report(measured, "mm").empty(), "the report");
     } catch (const rsc::Error& error) {
         refused(error);
     }
