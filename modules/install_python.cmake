@@ -1,5 +1,5 @@
 # Installs rsc.py where a Python looks that belongs to the prefix (/usr, /usr/local, ~/.local); under another prefix into
-# lib/python3/dist-packages, and says how Python finds it. Run at installation time: the prefix is known only then. SOURCE: rsc.py and _rsc_h.py.
+# lib/python3/dist-packages, and says how Python finds it. Run at installation time: the prefix is known only then. SOURCE: rsc.py and what it imports.
 set(folder "")
 foreach(python /usr/bin/python3 python3)
   if(NOT folder)

@@ -896,7 +896,9 @@ def _given(name, value):
 def read(path, xarray=None):
     """Reads a result file. path: of the file. xarray: True for an xarray.Dataset (which needs Debian's python3-xarray), False for a
     dictionary {variable: numpy array} with the file's attributes under the empty name ""; None, the default, for the Dataset where xarray
-    is installed. Needs netCDF4 (Debian's python3-netcdf4). Shapes, units and meanings are those of the file (ncdump -h); absent values of
+    is installed. Of the manifest of a study, its members as one cube: every variable that all of them have, with a first dimension for
+    each key that varies (where the members are no full grid of its values, or differ in one key's values side by side: one, 'member'), which
+    holds the key's values. Needs netCDF4 (Debian's python3-netcdf4). Shapes, units and meanings are those of the file (ncdump -h); absent values of
     reals are NaN. Raises Error if the file cannot be read, ImportError if a package is missing."""
     path = os.fspath(path)
     import netCDF4
@@ -917,13 +919,33 @@ def read(path, xarray=None):
         except ImportError:
             if xarray:
                 raise
-        else:
-            data = {name: (about[name][0], values, about[name][1]) for name, values in variables.items()}
-            if "separation" in data and data["separation"][0] == ("step",):
-                coordinates.append("separation")
-            return package.Dataset({k: v for k, v in data.items() if k not in coordinates}, {k: data[k] for k in coordinates}, attributes)
+            xarray = False
+    if "member" in variables and "file" in variables:
+        return _cube(path, xarray is not False)
+    if xarray is not False:
+        data = {name: (about[name][0], values, about[name][1]) for name, values in variables.items()}
+        if "separation" in data and data["separation"][0] == ("step",):
+            coordinates.append("separation")
+        return package.Dataset({k: v for k, v in data.items() if k not in coordinates}, {k: data[k] for k in coordinates}, attributes)
     variables[""] = attributes
     return variables
+
+
+def _cube(path, dataset):
+    """The members of a study as one: a Dataset, or a dictionary of arrays with {name: dimensions} under the name "dimensions"."""
+    import _rsc_cube
+
+    try:
+        with lock():
+            cube = _rsc_cube.cube(path, _check_sound)
+    except OSError as error:
+        raise Error(f"{path}: a member cannot be read: {error.strerror or error}", FILE) from None
+    if not dataset:
+        return {name: values for name, (_, values, _) in cube.variables.items()} | {"": cube.attributes, "dimensions": {name: d for name, (d, _, _) in cube.variables.items()}}
+    import xarray
+
+    coordinates = {name for name, (dimensions, _, _) in cube.variables.items() if dimensions == (name,) or name in cube.keys}
+    return xarray.Dataset({k: v for k, v in cube.variables.items() if k not in coordinates}, {k: cube.variables[k] for k in coordinates}, cube.attributes)
 
 
 def _check_sound(path):

@@ -39,7 +39,9 @@ module rsc_results
     integer(int32), allocatable :: realization(:)
     real(real64), allocatable :: separation(:,:), separation_sigma(:,:)  !< (S,1), or (S,R) under force control
     real(real64), allocatable :: force(:,:), contact_area(:,:), residual(:,:)
-    real(real64), allocatable :: stiffness(:,:)                          !< size zero if it was not computed
+    real(real64), allocatable :: stiffness(:,:), energy(:,:)             !< size zero if it was not computed
+    real(real64), allocatable :: conductance_length(:,:), resistance(:,:)  !< resistance: with resistivities only
+    real(real64), allocatable :: lateral_force(:,:,:)                    !< (2, S, R): along x and y
     integer(int32), allocatable :: contacts(:,:), candidates(:,:), iterations(:,:), status(:,:), method(:,:)
     integer(int32), allocatable :: products(:,:), overlapping_pairs(:,:), large_contacts(:,:), crowded_cells(:,:)
     integer(int32), allocatable :: beyond_law(:,:)                       !< contacts past the range of the asperity law
@@ -319,6 +321,10 @@ contains
     call get(r, 'contact_area', a%contact_area)
     call get(r, 'residual', a%residual)
     call get(r, 'stiffness', a%stiffness)
+    call get(r, 'energy', a%energy)
+    call get(r, 'conductance_length', a%conductance_length)
+    call get(r, 'resistance', a%resistance)
+    call get(r, 'lateral_force', a%lateral_force)
     call get(r, 'contacts', a%contacts)
     call get(r, 'candidates', a%candidates)
     call get(r, 'iterations', a%iterations)
