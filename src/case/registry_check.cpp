@@ -121,6 +121,7 @@ private:
         refuse(relaxes(c_), "solids%relaxation_share", "with solids%relaxation_share it is not available yet");
         refuse(s.adhesion_range > 0, "solids%adhesion_range", "with adhesion_range > 0 it is not available yet; 0 is JKR");
         refuse(by_elements(c_), "solver%model", "with model = 'elements' it is not available yet");
+        refuse(!c_.output.fields.empty(), "output%fields", "fields about spots that stick are not available yet");
         refuse(c_.compare.listed(), "compare%levels", "with model = 'elements' it is not available yet; give no compare%levels");
         refuse(c_.solver.method == Method::dgesv, "solver%method", "the paper's method knows no tension; give another method than 'dgesv'");
         refuse(c_.indentation.selection == Selection::paper, "indentation%selection",

@@ -38,8 +38,7 @@ std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
 void tell_failed(const RunOptions& options, const RunSummary& summary) {
     if (summary.failed == 0 || !options.messages) return;
     *options.messages << "rsc: " << summary.failed << " of " << summary.levels
-                      << " levels did not converge; their values are in the file with status = 4. Raise solver%max_iterations or "
-                         "solver%tolerance.\n";
+                      << " levels did not converge; their values are in the file with status = 4.\n";
 }
 
 namespace {

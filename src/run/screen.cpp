@@ -187,7 +187,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         tell(count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
              "separation below -3 sigma - the tip lies below 99.9 % of the heights: the asperity model is outside its range.");
         tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
-             "contact area above the nominal area under the sphere - the asperity model is outside its range.");
+             "contact area above the nominal area - the asperity model is outside its range.");
         std::map<std::int32_t, long> causes;
         for (const LevelValues& l : levels) causes[l.error_cause] += l.force_error_expected > kMuchError;
         for (const auto& [cause, found] : causes)
@@ -208,8 +208,11 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     tell_status(
         LevelStatus::not_unique,
         "spots that overlap so much that other solutions may exist: the one given is a local minimum of the energy, found by a fixed rule.");
-    tell_status(LevelStatus::not_converged,
-                "the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
+    const auto held = [](const LevelValues& l) { return l.fallback == Fallback::held; };
+    tell(count(held), "no state carries the force asked for: the level is the last stable one, that of the smallest force.");
+    tell(count([&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l); }),
+         status_text(LevelStatus::not_converged) +
+             " - the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }
 
 // "N = 1.23 N +- 5 %": the last level of a single run with its expected errors.
