@@ -25,8 +25,8 @@
 !>
 !> Faults of gfortran 12 with whole arrays of types that hold objects. With a component type(rsc_contact) :: c, longer(1:n) =
 !> list crashes in code of gfortran's own, and list = [list, p] stops with a message. With a component that is an array of fixed
-!> size, type(rsc_contact) :: c(2), gfortran warns "TODO: type-bound defined assignment(s)" and copies bit by bit. Use loops
-!> there, or hold a pointer in the type:
+!> size, type(rsc_contact) :: c(2), gfortran warns that it does not call the assignment of the type, and copies bit by bit. Use
+!> loops there, or hold a pointer in the type:
 !>     type(rsc_contact), pointer :: contact => null()    ! allocate(p%contact); assignment copies the pointer; deallocate it once
 !>
 !> Every procedure takes stat and errmsg like the statements of the language: with stat, a failure is told there (negative: an argument

@@ -58,12 +58,11 @@ struct LevelValues {
     double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
     double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
     // Adhesion:
-    double least_force = kNotComputed;    // the smallest met since the beginning [force]
-    double cohesive_area = kNotComputed;  // under the traction w/z0, out of contact [length^2]
-    std::int32_t jumps = 0;               // on the way from the level before
-    std::int32_t plastic_contacts = 0;    // contacts that yield at this level
-    double time = kNotComputed;           // of bodies that relax [time]
-    double energy_lost = kNotComputed;    // work that will not come back, since the first level [force length]
+    double least_force = kNotComputed;  // the smallest met since the beginning [force]
+    std::int32_t jumps = 0;             // on the way from the level before
+    std::int32_t plastic_contacts = 0;  // contacts that yield at this level
+    double time = kNotComputed;         // of bodies that relax [time]
+    double energy_lost = kNotComputed;  // work that will not come back, since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // asperities or pixels given to the solver
     std::int32_t iterations = 0;  // Newton steps

@@ -91,8 +91,6 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "adhesion: places that attach or let go at one separation, all that follows at once being one jump", .always = false},
     {.name = "least_force", .member = &V::least_force, .force_power = 1, .meaning = "the smallest force met since the first level",
      .comment = "adhesion: also between levels; pull_off_force is its last value", .always = false},
-    {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2, .meaning = "area under attraction out of contact",
-     .comment = "adhesion_range > 0", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
      .comment = "of contacts; elements: of pixels, each with its own pressure. No metal carries such pressures elastically: solids%hardness "
