@@ -2,7 +2,6 @@
 
 #include "contact/interaction/pairs_kernel.hpp"
 #include "error.hpp"
-#include "rough/dispatch.hpp"
 
 namespace rsc {
 
@@ -106,26 +105,6 @@ void onto(const PairLoops<Real, Coordinate>& loops, std::size_t n_targets, Targe
 }
 
 }  // namespace
-
-const PairKernels* pair_kernels(const char* instruction_set) {
-    const std::string_view name(instruction_set);
-    if (name == "generic") return pair_kernels_generic();
-#if defined(__x86_64__) || defined(_M_X64)
-    if (name == "sse2") return pair_kernels_sse2();
-    if (name == "avx2" && rsc::instruction_set() >= InstructionSet::avx2) return pair_kernels_avx2();
-    if (name == "avx512" && rsc::instruction_set() == InstructionSet::avx512) return pair_kernels_avx512();
-#endif
-    return nullptr;
-}
-
-const PairKernels& pair_kernels() {
-    static const PairKernels& best = []() -> const PairKernels& {
-        for (const char* name : {"avx512", "avx2", "sse2"})
-            if (const PairKernels* kernels = pair_kernels(name)) return *kernels;
-        return *pair_kernels_generic();
-    }();
-    return best;
-}
 
 const char* pair_instruction_set() { return pair_kernels().name; }
 

@@ -1,5 +1,4 @@
-// The table of pair loops that one instruction set provides. Inside the room only; plain declarations, because the files that
-// fill the table are compiled with different flags and must not share inline functions.
+// The table of pair loops that one instruction set provides. Inside the room only.
 #pragma once
 
 #include <cstddef>
@@ -60,15 +59,9 @@ struct PairKernels {
                         std::size_t stride);
 };
 
-// The table for "generic", "sse2", "avx2" or "avx512"; nullptr if this build or this processor has not got it.
+// The table for "sse2" ("generic" elsewhere than on x86-64), "avx2" or "avx512"; nullptr if this build or this processor has not got it.
 const PairKernels* pair_kernels(const char* instruction_set);
 // The best one.
 const PairKernels& pair_kernels();
-
-// One a file; nullptr where the file compiles to nothing.
-const PairKernels* pair_kernels_generic();
-const PairKernels* pair_kernels_sse2();
-const PairKernels* pair_kernels_avx2();
-const PairKernels* pair_kernels_avx512();
 
 }  // namespace rsc
