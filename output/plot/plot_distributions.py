@@ -44,7 +44,8 @@ def distributions(results, options):
     shown = []
     for result, name in zip(results, names(results) if results else []):
         counts = contacts_behind(result)
-        levels = np.flatnonzero(counts >= ENOUGH)
+        distinct = np.unique(np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"]), return_index=True)[1]  # several pdf_levels may have one nearest level
+        levels = np.sort(distinct[counts[distinct] >= ENOUGH])
         for k in levels if len(results) == 1 else levels[np.argsort(counts[levels])[-1:]]:
             step, z = int(result["pdf_step"][k]) - 1, result["pdf_separation_sigma"][k]  # step -1: it differs between realizations
             level = result.level_name(step) + result.warning(step) if step >= 0 else rf"$Z_0/\sigma$ = {z:.3g}" if np.isfinite(z) else f"level {k + 1}"

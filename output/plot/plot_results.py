@@ -96,7 +96,10 @@ class Result:
         return self.case.get("indentation%control", "separation").strip("'")
 
     def level_name(self, step):
-        """What a level is called: by the separation, force or pressure that the case asks for."""
+        """Name of a level: the separation, force or pressure that the case sets; the time, where that is held constant."""
+        driven = {"force": "force", "pressure": "pressure"}.get(self.control(), "separation")
+        if "time" in self and driven in self and np.ptp(self.mean(driven)) <= 1e-9 * np.abs(self.mean(driven)).max():
+            return f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
         if self.control() == "force" and "force" in self:
             return f"$N$ = {amount(self.mean('force')[step], self.dimension('force'))}"
         if self.control() == "pressure" and "pressure" in self:
