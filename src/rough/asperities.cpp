@@ -12,7 +12,7 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
         std::snprintf(buffer, sizeof buffer, "%.17g", v);
         return std::string(buffer);
     };
-    if (n == 0) refuse("there is no asperity");
+    if (n == 0) refuse("there are no asperities");
     for (const AsperityColumn& column : kAsperityColumns) {
         const std::vector<double>& values = a.*column.values;
         if (values.empty() && !column.required) continue;

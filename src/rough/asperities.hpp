@@ -5,8 +5,8 @@
 
 namespace rsc {
 
-// The numbers rsc works with. Moments and forces are made of squares and powers of lengths and moduli: beyond these bounds they would
-// overflow a double, whatever the units.
+// Bounds of all input numbers. Moments and forces are products of powers of lengths and moduli; beyond these bounds they could overflow a
+// double, whatever the units.
 inline constexpr double kLargestNumber = 1e50;
 inline constexpr const char* kNumberBounds = "must be finite, 1e50 at most";
 inline constexpr const char* kPositiveBounds = "must be from 1e-50 to 1e50";
@@ -24,8 +24,8 @@ struct Asperities {
     std::vector<double> x, y, z, radius;
     std::vector<double> kappa1, kappa2;  // principal curvatures, kappa1 >= kappa2 > 0 [1/length]
     std::vector<double> angle;           // direction of the kappa2 axis (the long axis of the contact ellipse) from x, in (-pi/2, pi/2]
-    std::vector<double> biharmonic;  // nabla^4 z at the summit [1/length^3], on a surface with a lay that of a round profile which flattens
-                                     // like the elongated summit; empty unless a law needs it
+    std::vector<double> biharmonic;      // nabla^4 z at the summit [1/length^3]; with a lay that of the round profile equivalent to an
+                                         // elongated summit; empty unless a law needs it
     std::size_t size() const { return x.size(); }
 };
 
@@ -34,7 +34,7 @@ struct AsperityColumn {
     const char* name;
     std::vector<double> Asperities::*values;
     bool required;     // otherwise it may be empty
-    int length_power;  // of its unit; the angle is in radian
+    int length_power;  // power of the length in its unit; the angle is in radians
     const char* meaning;
 };
 inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
@@ -48,9 +48,9 @@ inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
     {"biharmonic", &Asperities::biharmonic, false, -3, "biharmonic of the height at the summit, nabla^4 z"},
 }};
 
-// Checks asperities given by the user: throws Error(bad_input) unless there is at least one, all arrays that are not empty have
-// the same length (kappa1, kappa2 and angle together), all values are finite, radii positive, kappa1 >= kappa2 > 0 and no two lie at
-// the same (x, y). `name(i)` names asperity i in messages.
+// Checks asperities given by the user. Throws Error(bad_input) unless there is at least one asperity, all non-empty arrays have the same
+// length (kappa1, kappa2 and angle are given together), all values are finite, all radii are positive, kappa1 >= kappa2 > 0, and no two
+// asperities have the same (x, y). `name(i)` returns the name of asperity i for messages.
 void validate(const Asperities& asperities, const std::function<std::string(std::size_t)>& name);
 
 }  // namespace rsc

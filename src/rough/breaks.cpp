@@ -3,7 +3,7 @@
 namespace rsc {
 namespace {
 
-// Points along one axis through (i, j) of a map, counted from there.
+// Heights along one axis of a map; index 0 is the point (i, j).
 struct Profile {
     const HeightMap& map;
     int i, j;
@@ -32,9 +32,9 @@ double median_bend(const HeightMap& map, bool along_x) {
     return *middle;
 }
 
-// What breaks at point 0 of the profile.
+// Kind of the break at point 0 of the profile, if there is one.
 std::optional<Breaks::Kind> kind_of(const Profile& p, double least) {
-    constexpr double foremost = 1.3;  // a pit's second difference is twice that of the points beside it, a step's has a like one beside it
+    constexpr double foremost = 1.3;  // a pit's second difference is twice its neighbours'; at a step a neighbour's has the same size
     const double bend = p.bend(0), before = p.bend(-1), after = p.bend(1);
     if (!(std::abs(bend) > least)) return {};
     if (bend > foremost * std::max(-before, -after)) return Breaks::pit;
@@ -48,7 +48,7 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
     Breaks breaks;
     const int nx = map.nx, ny = map.ny;
     if (nx < 3 || ny < 3) return breaks;
-    constexpr double rounding = 3;  // a second difference of rounded heights is off by two steps
+    constexpr double rounding = 3;  // rounding changes a second difference by up to two steps
     const double least_x = std::max(kBreak * median_bend(map, true), rounding * height_step),
                  least_y = std::max(kBreak * median_bend(map, false), rounding * height_step);
     std::vector<Breaks::Place> marked;
@@ -57,7 +57,7 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
         Breaks::Found& found = breaks.found[kind];
         if (++found.points == 1 || size > found.size) found.largest = {i, j}, found.size = size;
     };
-    // Whether the point beside it is a pit or a spike, which then bends this one.
+    // True if a neighbour is a pit or spike (`kind`), which causes the second difference at this point.
     const auto bent_by = [](const Profile& p, Breaks::Kind kind, double least) {
         const auto beside = [&](int k) {
             return p.has(k) && kind_of({p.map, p.i + (p.along_x ? k : 0), p.j + (p.along_x ? 0 : k), p.along_x}, least) == kind;
@@ -111,7 +111,7 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
 }
 
 void raise_pits(HeightMap& map, const Breaks& breaks) {
-    // Lagrange's polynomial through as many points on either side, at the middle one.
+    // Weights of the Lagrange polynomial through 1, 2 or 3 points on either side, evaluated at the middle.
     constexpr double weights[3][3] = {{1.0 / 2, 0, 0}, {4.0 / 6, -1.0 / 6, 0}, {15.0 / 20, -6.0 / 20, 1.0 / 20}};
     const auto row_by_row = [](const Breaks::Place& a, const Breaks::Place& b) { return a.j != b.j ? a.j < b.j : a.i < b.i; };
     for (const bool along_x : {true, false}) {

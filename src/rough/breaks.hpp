@@ -1,4 +1,4 @@
-// Places where a map is not smooth from point to point: pits, spikes, steps. Polynomials through the points around them overshoot.
+// Breaks: places where a map is not smooth on the scale of its grid (pits, spikes, steps). Interpolating polynomials overshoot there.
 #pragma once
 
 #include "rough/surface.hpp"
@@ -14,24 +14,23 @@ struct Breaks {
     struct Found {
         long points = 0;
         Place largest;
-        double size = 0;  // of the largest: depth, height or jump [length]
+        double size = 0;  // depth, height or jump of the largest [length]
     };
     std::array<Found, kKinds> found;  // by Kind
     std::vector<Place> pits;
-    // Columns x rows of steps that run through most of the map, as the seams between stitched windows do; -1: none.
+    // Column and row of a step that runs through most of the map, such as a seam between stitched windows; -1: none.
     int seam_column = -1, seam_row = -1;
-    std::vector<std::uint8_t> clear;  // at j*nx + i, up to kMostClear: points to the nearest spike or step; empty: none anywhere
+    std::vector<std::uint8_t> clear;  // distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty: none
     static constexpr int kMostClear = 6;
 };
 
-// Second differences along x or along y of more than kBreak times their median are breaks. A pit is one point wide and has the largest second
-// difference around, upwards; so has a spike, downwards, along both axes; all others are steps. Second differences of less than some
-// steps of rounding (height_step; 0: not rounded) are none.
+// A point is a break if its second difference along x or y exceeds kBreak times the median. A pit has a positive second difference larger
+// than those of both neighbours, a spike a negative one along both axes; all other breaks are steps. Second differences below a few
+// multiples of the rounding step `height_step` (0: heights are not rounded) are ignored.
 Breaks find_breaks(const HeightMap& map, double height_step);
 inline constexpr double kBreak = 12;
 
-// Raises pits to the polynomial through the points around them. Nothing touches their bottoms, and the summits beside them are then those
-// of the surrounding surface.
+// Raises pits to the polynomial through their neighbours. Their bottoms never touch, and they would distort the summits beside them.
 void raise_pits(HeightMap& map, const Breaks& breaks);
 
 }  // namespace rsc

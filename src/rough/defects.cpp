@@ -10,7 +10,7 @@ namespace {
 class HoleProblem {
 public:
     explicit HoleProblem(const HeightMap& map) : map_(map) {
-        // Relative weights: the larger is 1.
+        // Weights, scaled so that the larger is 1.
         const double least = std::min(map.dx, map.dy);
         wx_ = (least / map.dx) * (least / map.dx);
         wy_ = (least / map.dy) * (least / map.dy);
@@ -27,7 +27,7 @@ public:
         const std::size_t n = points_.size();
         left_.resize(n, -1), below_.resize(n, -1), right_.resize(n, -1), above_.resize(n, -1);
         diagonal_.resize(n), source_.resize(n), solution_.resize(n);
-        // A common level is subtracted, so that large offsets cost no digits.
+        // The mean level is subtracted, so that a large offset does not cause cancellation.
         double sum = 0, weight = 0;
         const auto visit = [&](std::size_t k, int i, int j, double w, int& neighbour) {
             if (i < 0 || j < 0 || i >= map.nx || j >= map.ny) return;
@@ -114,7 +114,7 @@ private:
         }
     }
 
-    // Points are numbered row by row: left and below come before.
+    // Points are numbered row by row, so the left and lower neighbours have lower numbers.
     void precondition(const std::vector<double>& r, std::vector<double>& y) const {
         for (std::size_t k = 0; k < r.size(); ++k) y[k] = (r[k] + wx_ * value(y, left_[k]) + wy_ * value(y, below_[k])) * inverse_[k];
         for (std::size_t k = r.size(); k-- > 0;) y[k] += (wx_ * value(y, right_[k]) + wy_ * value(y, above_[k])) * inverse_[k];
@@ -123,7 +123,7 @@ private:
     const HeightMap& map_;
     double wx_ = 1, wy_ = 1, level_ = 0;
     std::vector<Point> points_;
-    std::vector<int> left_, below_, right_, above_;  // neighbours that are missing, or -1
+    std::vector<int> left_, below_, right_, above_;  // indices of missing neighbours, or -1
     std::vector<double> diagonal_, present_, source_, solution_, inverse_;
 };
 
@@ -150,7 +150,7 @@ std::vector<std::uint8_t> fill_missing(HeightMap& map) {
 
 void drop_near_filled(Asperities& a, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled, double distance) {
     if (filled.empty()) return;
-    // Columns to the nearest filled point of the same row; a large number where there is none.
+    // Distance in columns to the nearest filled point of the same row; kNone if there is none.
     constexpr int kNone = 1 << 30;
     const auto nx = static_cast<std::size_t>(map.nx);
     std::vector<int> along(filled.size(), kNone);
@@ -211,7 +211,7 @@ double equal_share(const HeightMap& map, double same) {
     return pairs > 0 ? static_cast<double>(equal) / static_cast<double>(pairs) : 0.0;
 }
 
-// The plane that fits a map best in the least-squares sense, about its middle.
+// Least-squares plane of a map, in coordinates from its middle.
 struct Plane {
     double mean = 0, along_x = 0, along_y = 0;
     explicit Plane(const HeightMap& map) : mid_x(0.5 * (map.nx - 1)), mid_y(0.5 * (map.ny - 1)) {
@@ -232,8 +232,8 @@ struct Plane {
 }  // namespace
 
 double height_step(const HeightMap& map) {
-    constexpr double few = 0.02;       // equal neighbours; fewer change nothing
-    constexpr double rounding = 1e-6;  // of the step: heights are decimal numbers in a file
+    constexpr double few = 0.02;       // share of equal neighbours; with a smaller one rounding does not matter
+    constexpr double rounding = 1e-6;  // relative to the step: files store heights as decimal numbers
     double least = 0;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 1; i < map.nx; ++i) {
@@ -263,15 +263,15 @@ void smooth_rounded(HeightMap& map, double step) {
         forward.reset(fftw_plan_r2r_2d(map.ny, map.nx, series.get(), series.get(), FFTW_REDFT10, FFTW_REDFT10, FFTW_ESTIMATE));
         back.reset(fftw_plan_r2r_2d(map.ny, map.nx, series.get(), series.get(), FFTW_REDFT01, FFTW_REDFT01, FFTW_ESTIMATE));
     }
-    if (!forward || !back) throw Error(Failure::internal, "a map without its rounding: FFTW made no plan");
-    const Plane plane(map);  // its cosine series would hide the rounding
+    if (!forward || !back) throw Error(Failure::internal, "smoothing of a rounded map: FFTW made no plan");
+    const Plane plane(map);  // subtracted, because its cosine series would hide the rounding
     for (std::size_t j = 0; j < ny; ++j)
         for (std::size_t i = 0; i < nx; ++i) {
             const int column = static_cast<int>(i), row = static_cast<int>(j);
             series[j * nx + i] = map(column, row) - plane(column, row);
         }
     fftw_execute(forward.get());
-    // Mean power on rings of a wave number each, and that of the rounding, which is the same on all.
+    // Mean power on rings of one wavenumber each; the power of the rounding is the same on all rings.
     const double points = static_cast<double>(nx * ny), shorter = static_cast<double>(std::min(nx, ny));
     const auto ring = [&](std::size_t i, std::size_t j) {
         return static_cast<std::size_t>(std::lround(
@@ -280,14 +280,14 @@ void smooth_rounded(HeightMap& map, double step) {
     std::vector<double> power(ring(nx, ny) + 1), modes(power.size()), gain(power.size(), 0.0);
     for (std::size_t j = 0; j < ny; ++j)
         for (std::size_t i = 0; i < nx; ++i) power[ring(i, j)] += series[j * nx + i] * series[j * nx + i], ++modes[ring(i, j)];
-    constexpr double safety = 1.5;  // the rounding's power on a ring scatters
+    constexpr double safety = 1.5;  // the power of the rounding on one ring scatters
     const double rounding = safety * 4 * points * step * step / 12;
-    constexpr std::size_t beside = 2;  // rings of either side that the mean is taken over, too
+    constexpr std::size_t beside = 2;  // neighbouring rings on either side included in the mean
     for (std::size_t k = 0; k < power.size(); ++k) {
         double sum = 0, count = 0;
         for (std::size_t l = k - std::min(k, beside); l <= std::min(k + beside, power.size() - 1); ++l) sum += power[l], count += modes[l];
         gain[k] = std::max(0.0, 1 - rounding * count / std::max(sum, 1e-300));
-        if (k > 0 && gain[k] == 0) break;  // shorter waves are the rounding's
+        if (k > 0 && gain[k] == 0) break;  // all shorter waves are rounding noise
     }
     for (std::size_t j = 0; j < ny; ++j)
         for (std::size_t i = 0; i < nx; ++i) series[j * nx + i] *= gain[ring(i, j)] / (4 * points);

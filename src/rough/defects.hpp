@@ -9,22 +9,21 @@ namespace rsc {
 // Number of points whose height is NaN.
 long count_missing(const HeightMap& map);
 
-// Gives every missing point the height at which it is the mean of its four neighbours, weighted by 1/dx^2 and 1/dy^2 (beyond an
-// edge there is no neighbour): the harmonic function with the heights around as its values at the border, by conjugate gradients to
-// 1e-12. Returns the points filled, 1 at j*nx + i, or nothing if none was missing. Throws Error(bad_input) if all are missing.
+// Fills missing points with the discrete harmonic function of the heights around them: every filled point is the mean of its neighbours
+// (four inside the map, fewer at its edges), weighted by 1/dx^2 and 1/dy^2. Solved by conjugate gradients to 1e-12. Returns a mask of the
+// filled points, 1 at j*nx + i, or an empty vector if no point is missing. Throws Error(bad_input) if all are missing.
 std::vector<std::uint8_t> fill_missing(HeightMap& map);
 
-// Removes the asperities closer than `distance` to a filled point, whose curvatures depend on the filling, and corrects the count and its
-// means.
+// Removes asperities closer than `distance` to a filled point, because their curvatures depend on the filling, and updates the count.
 void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled,
                       double distance);
 
-// The step of which all differences of neighbouring heights are multiples, if many neighbours are equal; otherwise
-// 0. Missing points (NaN) are left out. Call it before a form is subtracted.
+// Rounding step of the heights: all differences of neighbouring heights are multiples of it. 0 unless many neighbours have equal heights.
+// Missing points (NaN) are ignored. To be called before a form is subtracted.
 double height_step(const HeightMap& map);
 
-// Takes the rounding out of a map whose heights are rounded to multiples of `step` (Wiener's filter on its cosine series): rounding adds a power of
-// step^2/12 spread evenly over all waves; waves that have little more are damped, and those shorter than the first that has no more are dropped.
+// Removes the rounding noise from a map whose heights are multiples of `step`, by a Wiener filter on its cosine series. Rounding adds white
+// noise of variance step^2/12. Waves of little more power are damped; the first ring without more power and all shorter waves are removed.
 void smooth_rounded(HeightMap& map, double step);
 
 }  // namespace rsc

@@ -8,7 +8,7 @@
 namespace rsc {
 namespace {
 
-// The summits that one thread found in its rows: `found` or `refined`, depending on the detail.
+// Summits found by one thread in its rows: `found` or `refined`, depending on the detail.
 struct Part {
     Asperities found;
     long saddles = 0;
@@ -17,7 +17,7 @@ struct Part {
 
 void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-// The means are summed over all, so that they do not depend on the number of parts.
+// The means are summed over all summits in order, so that they do not depend on the number of parts.
 SummitCount counted(const Asperities& all, long saddles, long repeated) {
     double sum_g = 0, sum_a = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -28,7 +28,7 @@ SummitCount counted(const Asperities& all, long saddles, long repeated) {
     return {static_cast<long>(all.size()), saddles, repeated, sum_g / n, sum_a / n};
 }
 
-// The parts in order as one.
+// Concatenates the parts in order.
 Asperities join(std::vector<Part>& parts, SummitCount* count) {
     Asperities all = std::move(parts[0].found);
     long saddles = parts[0].saddles;
@@ -40,7 +40,7 @@ Asperities join(std::vector<Part>& parts, SummitCount* count) {
     return all;
 }
 
-// 1 where the summits' long axes have one direction, 0 where they have it by chance.
+// Degree of alignment of the summits' long axes: 1 if aligned, 0 if no more than by chance.
 double lay_share(const Asperities& summits) {
     std::complex<double> directed = 0;
     double all = 0;
@@ -49,7 +49,7 @@ double lay_share(const Asperities& summits) {
         directed += std::polar(elongation, 2 * summits.angle[i]);
         all += elongation;
     }
-    // Some ten summits of an isotropic surface reach the first by chance; surfaces whose correlation lengths are as 1:1.6 reach the second.
+    // Ten summits of an isotropic surface may reach `none` by chance; surfaces with correlation lengths in the ratio 1:1.6 reach `whole`.
     constexpr double none = 0.3, whole = 0.75;
     constexpr std::size_t fewest = 10;
     return all > 0 && summits.size() >= fewest ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
@@ -60,8 +60,8 @@ Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic,
     for (std::size_t t = 1; t < parts.size(); ++t) all.append(parts[t].refined);
     const long repeated = drop_repeated(all, nx, ny, periodic);
     if (count) *count = counted(all.found, all.saddles, repeated);
-    // On a surface with a lay the quartic of an elongated summit goes on along its long axis. Summits are elongated by chance on isotropic surfaces,
-    // too, in all directions; there the plain biharmonic is nearer to boundary elements (the study of input/trust).
+    // With a lay, the quartic term continues along the long axis of an elongated summit. On isotropic surfaces summits are elongated by
+    // chance in all directions; there the plain biharmonic agrees better with boundary elements (study in input/trust).
     const double share = lay_share(all.found);
     for (std::size_t i = 0; i < all.elongated.size(); ++i) all.found.biharmonic[i] += share * (all.elongated[i] - all.found.biharmonic[i]);
     return std::move(all.found);
@@ -85,8 +85,8 @@ void share_rows(int rows, int threads, const std::function<void(int, int, int)>&
         if (e) std::rethrow_exception(e);
 }
 
-// Makes the rows first - margin ... last - 1 + margin on the way and calls visit(j, z, stride) for the rows j = first ... last - 1,
-// z being the row: margin rows lie at either side of it, stride apart.
+// Calls visit(j, z, stride) for the rows j = first ... last - 1 while synthesising rows first - margin ... last - 1 + margin. z points to
+// row j; margin rows lie on either side of it, stride apart.
 template <class Visit>
 void visit_while_making(const RowSource& source, int margin, int rows_held, int first, int last, Visit visit) {
     const int n = source.n();
@@ -94,7 +94,7 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
     const std::unique_ptr<double[], HeightMap::Free> window(
         allocate_doubles(static_cast<std::size_t>(rows_held * stride), "rows of a synthetic surface"));
     RowSource::Scratch scratch(source);
-    int held = 0;               // rows in the window, of which the first is row next - held
+    int held = 0;               // rows in the window; the first is row next - held
     int next = first - margin;  // the row to make next
     while (next <= last - 1 + margin) {
         stopping_point();
@@ -147,7 +147,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     int fine = n;
-    // RowSource refuses an n that is not allowed.
+    // An invalid n is rejected by RowSource.
     if (refined && n >= 2 && n % 2 == 0 && 2 * shortest_wave(spectrum) <= n)
         while (fine < 4 * shortest_wave(spectrum) * (1 - 1e-12)) fine += n;
     const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
@@ -160,7 +160,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
         const std::vector<Stencil> stencils{Stencil::band_limited(fine / shortest_wave(spectrum))};
         share_rows(fine, threads, [&](int t, int first, int last) {
             SummitClimber climber(stencils, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature, above);
-            // Twice the rows kept from one filling of the window to the next: moving them costs little then.
+            // The window is at least twice as long as the 2 margin rows kept from one filling to the next, so that moving these is cheap.
             const int held = 4 * climber.margin() + RowSource::kBlock;
             visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
                 climber.climb(

@@ -1,4 +1,4 @@
-// Finding asperities: the summits of a height map, or of its difference from a body above it (paper, section 3).
+// Detection of asperities: the summits of a height map, or of the gap between it and a body above (paper, section 3).
 #pragma once
 
 #include "rough/asperities.hpp"
@@ -7,64 +7,60 @@
 
 namespace rsc {
 
-// The face of the body above a surface, which is subtracted before summits are looked for: only the difference decides
-// what touches.
+// Face of the body above a surface. It is subtracted before summits are detected, because contact depends only on the difference.
 class BodyAbove {
 public:
-    // Height, derivatives and nabla^4 at a place.
+    // Height, derivatives and nabla^4 at one point.
     struct Form {
         double height = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, biharmonic = 0;
     };
     virtual ~BodyAbove() = default;
-    // Heights at the places (x0 + k dx, y), k = 0 ... n-1; Infinity where there is none. The face does not repeat, whatever the surface does,
-    // unless periodic().
+    // Heights at the points (x0 + k dx, y), k = 0 ... n-1; Infinity where the body has no face.
     virtual void row(int n, double x0, double dx, double y, double* height) const = 0;
     virtual Form at(double x, double y) const = 0;
     virtual bool periodic() const = 0;
 };
 
-// How a summit is located.
+// Method by which a summit is located.
 enum class Detail {
-    grid,     // the grid point and second differences (the paper): enough for Hertz asperities
-    subgrid,  // the summit between the points, its derivatives by long stencils, the biharmonic with them
+    grid,     // grid point and second differences, as in the paper; enough for Hertz asperities
+    subgrid,  // summit between the grid points; derivatives and biharmonic by long stencils
 };
 
 // Counts of a search for summits.
 struct SummitCount {
     long summits = 0;         // asperities kept
-    long saddles = 0;         // grid maxima that are no summits: saddles by their curvatures, or none in reach; not kept
-    long repeated = 0;        // Detail::subgrid: grid maxima that lead to a summit which another one leads to; not kept
+    long saddles = 0;         // grid maxima not kept: saddles by their curvatures, or no summit in reach
+    long repeated = 0;        // Detail::subgrid: grid maxima not kept because another one leads to the same summit
     double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
     double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
 };
 
-// Summits: grid points strictly above their 8 neighbours. Curvatures from second differences. Periodic maps wrap around,
-// others give interior points only. Order: row by row (y, then x). x, y are those of the grid point; radius = 1/kappa_g or
-// 1/kappa_a. Neither the result nor the means depend on `threads`, to the last bit.
+// Detail::grid: summits are grid points strictly above their 8 neighbours, with curvatures from second differences. Maps that are not
+// periodic have no summits at their edges. Summits are ordered by row (y, then x); radius = 1/kappa_g or 1/kappa_a. The result is
+// independent of `threads`, bit for bit.
 //
-// Detail::subgrid: the summits of the surface that Newton's method reaches from those points and from those whose second differences
-// indicate one within a step, in the order of these points; periodic x, y lie in the map. points_per_wave >= 4 says that the map
-// holds no wave shorter than so many grid steps (Error(bad_input) for less): errors are then some 1e-8 of the derivatives' rms
-// values, and a summit is the same on every grid that finds it; one beside a higher one may be missed (one in 170 with 4 points in
-// lambda_s, one in some thousands with 8). 0: not known, for measured maps; Lagrange polynomials through
-// kMeasuredReach points on either side, whose rms errors on self-affine surfaces with 4, 6, 8, 16 points in the shortest wave are
-// 1e-3, 2e-5, 8e-7, 5e-10 of the curvatures' and 6e-3, 2e-4, 2e-5, 5e-8 of the biharmonic's rms values at summits; noise in the heights comes
-// on top. Near the border of a map that is not periodic, and near breaks (whose pits were raised), they go through fewer points.
+// Detail::subgrid: Newton's method climbs to the summits from those grid points, and from points whose second differences indicate a summit
+// within one step. Summits are ordered by these points; x, y of periodic maps lie in the map. points_per_wave >= 4 states that the map
+// holds no wave shorter than this many grid steps (Error(bad_input) for less). Errors are then about 1e-8 of the rms values of the
+// derivatives, and a summit has the same values on every grid on which it is found; a summit beside a higher one may be missed (one in 170
+// with 4 points in lambda_s, one in some thousands with 8). 0 means unknown, for measured maps: Lagrange polynomials through kMeasuredReach
+// points on either side. On self-affine surfaces with 4, 6, 8, 16 points in the shortest wave their rms errors at summits are 1e-3, 2e-5,
+// 8e-7, 5e-10 of the rms curvature and 6e-3, 2e-4, 2e-5, 5e-8 of the rms biharmonic, plus the effect of noise in the heights. Fewer points
+// are used near the border of a map that is not periodic and near breaks (pits have been raised before).
 //
-// With a body above (Detail::subgrid only) the summits are those of the difference, map less its face: x, y is their place, z the height of
-// the surface there, curvatures and biharmonic are the difference's. On a surface with a lay the biharmonic is that of
-// the round profile that flattens like the elongated summit (Asperities::biharmonic). Under one that does not repeat, on a periodic map, those within
-// the map.
+// With a body above (Detail::subgrid only), the summits are those of the map minus its face. x, y and z are the place and the surface
+// height there; curvatures and biharmonic are those of the difference. If the map is periodic and the body is not, only summits within the
+// map are returned. With a lay, the biharmonic is the one described at Asperities::biharmonic.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
                            Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr,
                            const Breaks* breaks = nullptr);
 inline constexpr int kMeasuredReach = 6;
 
-// The asperities of a synthetic surface, found while it is being made: the same as find_asperities(synthesize(...)), bit
-// for bit, in less time, and in half the memory of the surface, which is never stored. Errors as synthesize().
-// Detail::subgrid on fewer than 4 points in lambda_s works on the next multiple of n that has them: the surface is the same on
-// both. `differences` (optional) receives the moments that finite differences on the n x n grid give, exact sums over the modes:
-// those of grid_moments(synthesize(...)).
+// Asperities of a synthetic surface, detected during synthesis without storing the surface: faster than find_asperities(synthesize(...)),
+// in half the memory, with bitwise the same result. Throws as synthesize(). With fewer than 4 points in lambda_s, Detail::subgrid uses the
+// smallest multiple of n that has 4; the surface is the same. `differences` (optional) receives the moments by finite differences on the n
+// x n grid, as grid_moments(synthesize(...)), computed as exact sums over the modes.
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count = nullptr, Moments* sampled = nullptr, int threads = 1,
                            Detail detail = Detail::grid, Moments* differences = nullptr, const BodyAbove* above = nullptr);

@@ -1,13 +1,13 @@
-// Run-time choice of instruction set, for everything that has one. RSC_DISPATCH: one body in source, compiled for the baseline and for
-// AVX2; the better one that the machine has is called. There AVX2 goes without FMA on purpose: products and sums are not contracted, so
-// both give the same bits.
+// Run-time choice of the instruction set. RSC_DISPATCH compiles one function body for the baseline and for AVX2 and calls the best version
+// that the machine supports. AVX2 is used without FMA on purpose: products and sums are not contracted, so both versions give the same
+// bits.
 #pragma once
 
 #define RSC_ALWAYS_INLINE [[gnu::always_inline]] inline
 
 namespace rsc {
 
-// The instruction sets that hot loops are compiled for, and the best one that this machine has.
+// Instruction sets for which hot loops are compiled, and the best one that this machine supports.
 enum class InstructionSet { baseline, avx2, avx512 };  // avx2 with FMA; avx512 with F, DQ and VL
 
 inline InstructionSet instruction_set() {

@@ -8,7 +8,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(Failure::bad_input, "form: " + what); }
 
-// Normal equations of at most six unknowns, summed row by row: short partial sums lose little to rounding.
+// Normal equations of at most six unknowns, summed row by row: short partial sums keep rounding errors small.
 template <int kUnknowns>
 struct Normal {
     std::array<std::array<double, kUnknowns>, kUnknowns> a{};
@@ -26,9 +26,9 @@ struct Normal {
             b[i] += other.b[i];
         }
     }
-    // By Cholesky factorisation. A vanishing pivot belongs to a coefficient that the points do not determine.
+    // Solves by Cholesky factorisation. A vanishing pivot means that the points do not determine the coefficient.
     std::array<double, kUnknowns> solve(const char* form) const {
-        constexpr double kSingular = 1e-11;  // of the diagonal before elimination; full maps have 0.1 and more
+        constexpr double kSingular = 1e-11;  // relative to the diagonal before elimination; maps without missing points have at least 0.1
         std::array<std::array<double, kUnknowns>, kUnknowns> l{};
         std::array<double, kUnknowns> x{};
         for (int j = 0; j < kUnknowns; ++j)
@@ -36,7 +36,7 @@ struct Normal {
                 double sum = a[j][i];
                 for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
                 if (i == j && !(sum > kSingular * a[j][j]))
-                    refuse("the points that are present do not determine a " + std::string(form) + ": too few of them, or all on one line");
+                    refuse("the points of the map do not determine a" + std::string(form) + ": too few of them, or all on one line");
                 l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
             }
         for (int i = 0; i < kUnknowns; ++i) {
@@ -52,7 +52,7 @@ struct Normal {
     }
 };
 
-// Coordinates from the middle of the map; `scale` times u and v, |u|, |v| <= 1, is a length.
+// Scaled coordinates u, v from the middle of the map, |u|, |v| <= 1; `scale` times u or v is a length.
 struct Frame {
     double mid_x, mid_y, step_u, step_v, scale;
     explicit Frame(const HeightMap& map) : mid_x(0.5 * (map.nx - 1)), mid_y(0.5 * (map.ny - 1)) {
@@ -65,7 +65,7 @@ struct Frame {
     double v(int j) const { return (j - mid_y) * step_v; }
 };
 
-// Fits value(i, j) over the points present with the functions basis(u, v).
+// Fits value(i, j) at all points that are not missing by the functions basis(u, v).
 template <int kUnknowns, class Basis, class Value>
 std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, const char* form, Basis basis, Value value) {
     Normal<kUnknowns> all;
@@ -80,7 +80,8 @@ std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, cons
     return all.solve(form);
 }
 
-// Subtracts `level` and a polynomial of first (3) or second (6 unknowns) degree. The second round removes rounding errors of large forms.
+// Subtracts `level` and a polynomial of first degree (3 unknowns) or second degree (6). The second round removes rounding errors of large
+// forms.
 template <int kUnknowns>
 std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form, double level) {
     const auto basis = [](double u, double v) {
@@ -91,7 +92,7 @@ std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, co
     };
     std::array<double, 6> total{};
     for (int round = 0; round < 2; ++round) {
-        const double below = round == 0 ? level : 0;  // a large level costs the fit no digits
+        const double below = round == 0 ? level : 0;  // subtracted first, so that a large level does not cause cancellation
         const auto c = fit<kUnknowns>(map, frame, form, basis, [&](int i, int j) { return map(i, j) - below; });
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) {
@@ -105,8 +106,8 @@ std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, co
     return total;
 }
 
-// The sphere through (0, 0, level) with gradient (p, q) there and curvature 1/radius = bend/sqrt(1 + p^2 + q^2): its height w above
-// `level` solves w + bend w^2/2 + g = 0, g = bend (x^2 + y^2)/2 - p x - q y. bend = 0 is a plane: nothing is singular there.
+// The sphere through (0, 0, level) with gradient (p, q) there and curvature 1/radius = bend/sqrt(1 + p^2 + q^2): its height w above `level`
+// solves w + bend w^2/2 + g = 0, g = bend (x^2 + y^2)/2 - p x - q y. bend = 0 is a plane and not singular.
 struct Sphere {
     double level = 0, p = 0, q = 0, bend = 0;
     // NaN outside the sphere.
@@ -139,7 +140,7 @@ double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double lev
     return sum / static_cast<double>(points);
 }
 
-// Of the heights above `level`.
+// Fits a sphere to the heights above `level`.
 Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     const double a = frame.scale;
     const auto start = fit<4>(
@@ -150,16 +151,16 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
         [&](int i, int j) { return map(i, j) - level; });
     Sphere s{start[0], start[1] / a, start[2] / a, -2 * start[3] / (a * a)};
     double left = left_by(s, map, frame, level);
-    // A paraboloid may be steeper than any sphere as wide as the map.
+    // The fitted paraboloid may be more strongly curved than any sphere as wide as the map.
     for (int k = 0; k < 60 && std::isnan(left); ++k) {
         s.bend *= 0.8;
         left = left_by(s, map, frame, level);
     }
     constexpr int kMostSteps = 200;
-    constexpr double kArrived = 1e-13;  // of the form's extent
+    constexpr double kArrived = 1e-13;  // relative to the extent of the form
     for (int step = 0; step < kMostSteps; ++step) {
         if (std::isnan(left)) break;
-        // Unknowns in the scale of the map: level, a p, a q, a^2 bend are all heights.
+        // Unknowns are scaled to heights: level, a p, a q, a^2 bend.
         const auto change = fit<4>(
             map, frame, "sphere",
             [&](double u, double v) {
@@ -186,7 +187,7 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     refuse("no sphere as wide as the map fits it; use detrend = 'quadratic'");
 }
 
-// Mean over the points present.
+// Mean of the heights that are not missing.
 double mean_present(const HeightMap& map, long& points) {
     double total = 0;
     points = 0;
@@ -235,7 +236,7 @@ Form detrend(HeightMap& map, Detrend how) {
             for (int i = 0; i < map.nx; ++i) map.row(j)[i] = (map(i, j) - level) - s(frame.u(i) * a, frame.v(j) * a);
         form.level += s.level;
         form.slope_x = s.p, form.slope_y = s.q;
-        // w + bend w^2/2 + g = 0, differentiated twice in the middle.
+        // From w + bend w^2/2 + g = 0, differentiated twice in the middle.
         form.zxx = -s.bend * (1 + s.p * s.p), form.zxy = -s.bend * s.p * s.q, form.zyy = -s.bend * (1 + s.q * s.q);
         form.radius = s.bend != 0 ? std::sqrt(1 + s.p * s.p + s.q * s.q) / s.bend : HUGE_VAL;
     }
@@ -255,8 +256,8 @@ Form detrend(HeightMap& map, Detrend how) {
 
 namespace {
 
-// Transmission of the waves of a transform of n points: half waves on n steps (cosine transform), or whole ones, counted in the
-// order of FFTW's half-complex format (r0, r1, ..., i2, i1). It is a product of a function of kx and one of ky.
+// Transmission of the waves of a transform of n points along one axis: half waves on n steps (cosine transform), or whole waves if
+// periodic, in the order of FFTW's half-complex format (r0, r1, ..., i2, i1). The filter is a product of a function of kx and one of ky.
 std::vector<double> transmissions(int n, double step, double cutoff, bool periodic) {
     std::vector<double> t(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) {

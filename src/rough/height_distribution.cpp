@@ -8,15 +8,15 @@
 namespace rsc {
 namespace {
 
-// The function is tabulated at normal scores from -kEnd to kEnd; beyond, for one point in 10^9, it is extended linearly.
+// Heights are tabulated at normal scores from -kEnd to kEnd and extrapolated linearly beyond (one point in 10^9).
 constexpr double kEnd = 6, kStep = 0.005;
 constexpr int kValues = 2 * static_cast<int>(kEnd / kStep) + 1;
 constexpr double kMostKurtosis = 100;
 
 double score(int i) { return -kEnd + i * kStep; }
 
-// x = u/delta + shift of a normal variable u, as Johnson's SU (sinh) or SB (logistic function) has it; both are skewed to the right for
-// shift > 0, and become the lognormal distribution as it grows.
+// Johnson's SU (sinh) or SB (logistic) function of x = u/delta + shift, u being a normal variable. Both are skewed to the right for shift >
+// 0 and approach the lognormal distribution as the shift grows.
 struct Johnson {
     bool bounded = false;
     double delta = 1, shift = 0;
@@ -27,7 +27,7 @@ struct Shape {
     double mean = 0, deviation = 1, skewness = 0, kurtosis = 3;
 };
 
-// By the trapezoidal rule, which converges exponentially under the normal density.
+// Moments by the trapezoidal rule, which converges exponentially under the normal density.
 Shape shape_of(const std::function<double(double)>& of) {
     constexpr double end = 10, step = 0.025;
     constexpr int most = static_cast<int>(end / step);
@@ -47,7 +47,7 @@ Shape shape_of(const std::function<double(double)>& of) {
     return {mean, std::sqrt(m2), m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
 }
 
-// Root of a function between `low` and `high`; if it has the same sign at both, the end with the smaller value.
+// Root of a function between `low` and `high`; if the function has the same sign at both, the end with the smaller absolute value.
 double root(const std::function<double(double)>& f, double low, double high) {
     const double at_low = f(low), at_high = f(high);
     if (at_low * at_high >= 0) return std::abs(at_low) < std::abs(at_high) ? low : high;
@@ -57,7 +57,7 @@ double root(const std::function<double(double)>& f, double low, double high) {
     return 0.5 * (a + b);
 }
 
-// The shift that gives a distribution of this delta the skewness; at most kMostShift, where it is lognormal.
+// The shift for which a distribution of this delta has the skewness; at most kMostShift, the lognormal limit.
 constexpr double kMostShift = 30;
 Johnson skewed(bool bounded, double delta, double skewness) {
     Johnson j{bounded, delta, 0};
@@ -66,7 +66,7 @@ Johnson skewed(bool bounded, double delta, double skewness) {
     return j;
 }
 
-// The delta of the lognormal distribution of a skewness > 0: (w - 1)(w + 2)^2 = skewness^2 with w = exp(1/delta^2).
+// Delta of the lognormal distribution with a skewness > 0: (w - 1)(w + 2)^2 = skewness^2 with w = exp(1/delta^2).
 double lognormal_delta(double skewness) {
     const double w = root([&](double x) { return (x - 1) * (x + 2) * (x + 2) - skewness * skewness; }, 1, 2 + skewness * skewness);
     return 1 / std::sqrt(std::log(w));
@@ -74,7 +74,7 @@ double lognormal_delta(double skewness) {
 
 [[noreturn]] void refuse(double skewness, double kurtosis, const std::string& bound) {
     throw Error(Failure::bad_input, "surface: kurtosis = " + std::to_string(kurtosis) + " with skewness = " + std::to_string(skewness) +
-                                        ": there is no height distribution with them; " + bound);
+                                        ": no height distribution has these values; " + bound);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ HeightDistribution HeightDistribution::of_moments(double skewness, double kurtos
     const Shape shape = shape_of(found);
     constexpr double near = 1e-3;
     if (!(std::abs(shape.skewness - s) <= near && std::abs(shape.kurtosis - kurtosis) <= near * kurtosis))
-        refuse(skewness, kurtosis, "they are too close to the bound kurtosis = skewness^2 + 1 = " + std::to_string(least));
+        refuse(skewness, kurtosis, "the kurtosis is too close to its bound skewness^2 + 1 = " + std::to_string(least));
     std::vector<double> values(kValues);
     for (int i = 0; i < kValues; ++i) {
         const double value = (found(score(i)) - shape.mean) / shape.deviation;

@@ -1,4 +1,4 @@
-// Distributions of heights that are not Gaussian.
+// Non-Gaussian height distributions.
 #pragma once
 
 #include "std.hpp"
@@ -9,11 +9,11 @@ namespace rsc {
 class HeightDistribution {
 public:
     // The member of Johnson's system (Biometrika 36, 1949) with this skewness and kurtosis: SU, SB or, between them, the lognormal one.
-    // Throws Error(bad_input) naming the bound unless skewness^2 + 1 < kurtosis <= 100, or when they are so close to the bound that nearly
-    // all heights would have one of two values.
+    // Throws Error(bad_input) with the bound unless skewness^2 + 1 < kurtosis <= 100, and if the kurtosis is so close to the lower bound
+    // that nearly all heights would take one of two values.
     static HeightDistribution of_moments(double skewness, double kurtosis);
 
-    // From heights at increasing normal scores, linear between them and extrapolated linearly. Throws Error(bad_input) unless heights increase.
+    // Interpolates heights at increasing normal scores linearly and extrapolates linearly. Throws Error(bad_input) unless heights increase.
     static HeightDistribution of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights);
 
     double operator()(double normal) const;
@@ -23,8 +23,7 @@ private:
     std::vector<double> values_;  // at equally spaced normal scores
 };
 
-// The heights of a sample, in its unit and in any order, at these normal scores: the height below which the share
-// erfc(-score/sqrt 2)/2 of the sample lies.
+// Quantiles of a sample of heights (in any order) at normal scores: a share of erfc(-score/sqrt 2)/2 of the sample lies below each.
 std::vector<double> quantiles(std::vector<double> heights, const std::vector<double>& scores);
 
 }  // namespace rsc

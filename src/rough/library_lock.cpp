@@ -2,17 +2,17 @@
 
 #include <pthread.h>
 
-extern "C" void fftw_make_planner_thread_safe();  // of libfftw3_threads; fftw3.h declares more than this needs
+extern "C" void fftw_make_planner_thread_safe();  // of libfftw3_threads
 extern "C" void fftwf_make_planner_thread_safe();
 
 namespace rsc {
 namespace {
 
-// Not std::recursive_mutex: the child of a fork could not unlock one.
+// Not a std::recursive_mutex, because the child of a fork could not unlock it.
 std::mutex mutex;
 thread_local int depth = 0;
 
-// Makes programs safe that plan transforms themselves, without rsc's lock.
+// Protects programs that create FFTW plans themselves without rsc's lock.
 [[maybe_unused]] const bool planner_is_safe = (fftw_make_planner_thread_safe(), fftwf_make_planner_thread_safe(), true);
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The lock of libraries that are not thread-safe, and plans of FFTW.
+// Lock for libraries that are not thread-safe, and FFTW plans.
 #pragma once
 
 #include "std.hpp"
@@ -7,9 +7,9 @@
 
 namespace rsc {
 
-// The one lock for NetCDF with HDF5 and for the planner of FFTW, which are not thread-safe. rsc holds it while it calls them; rsc_lock
-// (rsc.h) gives it to programs that use these libraries, too.
-// It is recursive. A fork waits until no other thread holds it, so that the libraries are in a consistent state in the child.
+// One lock for NetCDF with HDF5 and for the FFTW planner, which are not thread-safe. rsc holds it during calls to them; programs that also
+// use these libraries lock it by rsc_lock (rsc.h). It is recursive. A fork waits until no other thread holds it, so that the libraries are
+// in a consistent state in the child.
 class LibraryLock {
 public:
     LibraryLock();
@@ -19,11 +19,10 @@ public:
 
 LibraryLock& library_lock();
 
-// Plans are made and destroyed under library_lock(), always with FFTW_ESTIMATE: measured plans, and the bits of results, differ from run to
-// run.
+// Plans are created and destroyed under library_lock(), always with FFTW_ESTIMATE: with measured plans results would differ between runs.
 
-// The lock, to be held while plans are made. FFTW ends the program if it is out of memory: some memory is allocated for a test first. Throws
-// std::bad_alloc.
+// Returns the lock to be held while plans are created. Throws std::bad_alloc if a test allocation fails, because FFTW would terminate the
+// program when it is out of memory.
 inline std::unique_lock<LibraryLock> fftw_planning() {
     constexpr std::size_t most = std::size_t{8} << 20;  // tables of the longest transforms included
     std::unique_lock lock(library_lock());
@@ -40,10 +39,10 @@ struct FftwPlanDestroyer {
     }
 };
 
-// Owns a plan; executing it from several threads at once, each on its own arrays, is safe (fftw_execute_dft and its kin).
+// Owns a plan. Several threads may execute it at once, each on its own arrays (fftw_execute_dft and similar).
 using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwPlanDestroyer>;
 
-// The same in single precision.
+// Owns a single-precision plan.
 struct FftwfPlanDestroyer {
     void operator()(fftwf_plan plan) const noexcept {
         const std::lock_guard lock(library_lock());

@@ -17,7 +17,7 @@ void refuse_missing(const HeightMap& map, long missing) {
                                    missing, static_cast<double>(map.nx) * map.ny, i, j));
 }
 
-// In 60 bins from -5 to 5 Sq; the few heights beyond are left out.
+// Histogram of the heights in 60 bins from -5 to 5 Sq; the few heights beyond are ignored.
 void count_heights(const HeightMap& map, Measured& m) {
     constexpr int kBins = 60;
     constexpr double kReach = 5;
@@ -40,7 +40,7 @@ std::string told_change(const Roughness& before, const Roughness& after, const c
                   before.slope, after.slope, before.curvature, after.curvature, l);
 }
 
-// Pits, spikes and steps, with their places.
+// Reports pits, spikes and steps with their places.
 void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lines) {
     const auto at = [&](const Breaks::Found& found) {
         return format("%.4g %s at x = %.6g, y = %.6g", found.size, l, m.x0 + found.largest.i * m.dx, m.y0 + found.largest.j * m.dy);
@@ -48,15 +48,16 @@ void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lin
     const auto& [pits, spikes, steps] = m.breaks.found;
     if (pits.points > 0)
         lines.push_back(format("pits or grooves one point wide: %ld points, the deepest ", pits.points) + at(pits) +
-                        "; elements see them, the summits beside them are those of the surface around");
+                        "; boundary elements include them, the summits beside them are those of the surrounding surface");
     if (spikes.points > 0)
         lines.push_back(format("warning: spikes one point wide: %ld, the highest ", spikes.points) + at(spikes) +
-                        ": they touch first, and nothing is known of their shape");
+                        ": they touch first, but their shape is not resolved");
     if (steps.points > 0) {
-        std::string line = format("warning: steps: %ld points where heights jump, the largest by ", steps.points) + at(steps);
+        std::string line = format("warning: steps: heights jump at %ld points, most by ", steps.points) + at(steps);
         if (m.breaks.seam_column >= 0)
-            line += format("; most of the map jumps at x = %.6g, as at a seam", m.x0 + m.breaks.seam_column * m.dx);
-        if (m.breaks.seam_row >= 0) line += format("; most of the map jumps at y = %.6g, as at a seam", m.y0 + m.breaks.seam_row * m.dy);
+            line += format("; a jump along x = %.6g runs through most of the map, like a seam", m.x0 + m.breaks.seam_column * m.dx);
+        if (m.breaks.seam_row >= 0)
+            line += format("; a jump along y = %.6g runs through most of the map, like a seam", m.y0 + m.breaks.seam_row * m.dy);
         lines.push_back(line);
     }
 }
@@ -75,7 +76,7 @@ double Measured::points_per_wave() const { return shortest_wave / std::max(dx, d
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
     m.nx = map.nx, m.ny = map.ny, m.dx = map.dx, m.dy = map.dy, m.x0 = map.x0, m.y0 = map.y0;
-    // Beyond this, sums of terms over dx^2 and dy^2 lose one of the two directions to rounding.
+    // Beyond this ratio, rounding removes the smaller of the terms in 1/dx^2 and 1/dy^2 from their sum.
     constexpr double most_unlike = 1e4;
     if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
         throw Error(Failure::bad_input, format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx, map.dy, most_unlike));
@@ -107,7 +108,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.texture = measure_texture(map);
     count_heights(map, m);
     m.spectrum = measure_spectrum(map);
-    // Grooves without an end are stretched no further than synthesis is.
+    // The aspect ratio is limited for endless grooves, as it is in synthesis.
     const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
     const MeasuredSpectrum stretched = aspect > 1 ? measure_spectrum(map, aspect, slopes.direction) : MeasuredSpectrum();
     m.shortest_wave = 2 * std::max(m.dx, m.dy);
@@ -128,11 +129,11 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     lines.push_back(
         format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny, m.dx, m.dy, l, m.nx * m.dx, m.ny * m.dy, l));
     if (m.outlier_times > 0)
-        lines.push_back(
-            format("outliers: %ld points farther than %.4g %s (%.3g standard deviations) from the median of the 5 x 5 around them",
-                   m.outliers.count, m.outliers.threshold, l, m.outlier_times));
+        lines.push_back(format(
+            "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) from the median of the 5 x 5 points around them",
+            m.outliers.count, m.outliers.threshold, l, m.outlier_times));
     if (m.missing > 0)
-        lines.push_back(format("missing points%s: %ld (%.3g %%) filled; summits nearer to them than the shortest wave are left out",
+        lines.push_back(format("missing points%s: %ld (%.3g %%) filled; summits closer to them than the shortest wave are ignored",
                                m.outliers.count > 0 ? " and outliers" : "", m.missing, 100 * m.missing_share));
     std::string form = std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
@@ -146,7 +147,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                            m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
     if (m.height_step > 0)
         lines.push_back(
-            format("heights are rounded to multiples of %.4g %s: asperities are summits of the map without its rounding (filter of Wiener)",
+            format("heights are rounded to multiples of %.4g %s: asperities are detected after a Wiener filter has removed the rounding",
                    m.height_step, l));
     tell_breaks(m, l, lines);
     if (m.fit) {
@@ -161,16 +162,16 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     }
     if (m.points_per_wave() < kFewPointsPerWave)
         lines.push_back(format(
-            "warning: fewer than %.0f points in the shortest wave: the grid, or noise at the pixel, determines the slopes, curvatures and "
-            "summits; surface%%filter_cutoff removes such waves",
+            "warning: fewer than %.0f points in the shortest wave: slopes, curvatures and summits are determined by the grid or by pixel "
+            "noise; surface%%filter_cutoff removes such waves",
             kFewPointsPerWave));
     const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
     if (directional)
         lines.push_back(format("texture: lay at %.0f degrees from x, Sal %.4g %s, Str %s%.2f", m.spectrum.lay(), m.texture.sal, l,
                                m.texture.str_bounded ? "at most " : "", m.texture.str));
     if (directional || !gaussian)
-        lines.push_back(std::string("the map ") + (directional ? "has a direction" : "") + (directional && !gaussian ? " and " : "") +
-                        (gaussian ? "" : "has heights that are not Gaussian") + ": to keep that in synthetic surfaces, use " +
+        lines.push_back(std::string("the map ") + (directional ? "has a lay" : "") + (directional && !gaussian ? " and " : "") +
+                        (gaussian ? "" : "has heights that are not Gaussian") + "; to reproduce this in synthetic surfaces, set " +
                         (directional ? "surface%twins = 'directional'" : "") + (directional && !gaussian ? ", " : "") +
                         (gaussian ? "" : "surface%twin_heights = 'measured'"));
     return lines;

@@ -1,4 +1,4 @@
-// From a measured map to a rough surface: missing points, form, filter, and the properties of the result (physics, section 11).
+// Preparation of a measured map: missing points, form, filter, and the properties of the result (physics, section 11).
 #pragma once
 
 #include "rough/breaks.hpp"
@@ -17,7 +17,7 @@ struct MeasureOptions {
     Missing missing = Missing::refuse;
     Detrend detrend = Detrend::plane;
     double filter_cutoff = 0;  // 0: no filter [length]
-    double outliers = 0;       // rough/outliers.hpp; 0: none are looked for
+    double outliers = 0;       // threshold of remove_outliers(); 0: outliers are not removed
 };
 
 // Roughness before and after each step.
@@ -28,7 +28,7 @@ struct Roughness {
 };
 Roughness roughness(const HeightMap& map);
 
-// The treatment of a measured map, and its properties afterwards.
+// Processing of a measured map, and the properties of the result.
 struct Measured {
     int nx = 0, ny = 0;
     double dx = 0, dy = 0, x0 = 0, y0 = 0;
@@ -43,28 +43,28 @@ struct Measured {
     HeightParameters parameters;
     double isotropy = 1;
     Texture texture;
-    double height_step = 0;          // heights were rounded to multiples of it (rough/rounding.hpp); 0: not, or filtered since [length]
+    double height_step = 0;          // rounding step of the heights [length]; 0: not rounded, or filtered afterwards
     Breaks breaks;                   // pits, spikes and steps
     std::vector<double> height_pdf;  // density of the heights about their mean, in an even number of bins around it [1/length]
     double height_bin = 0;           // their width [length]
     MeasuredSpectrum spectrum;
-    std::optional<SelfAffineFit> fit;  // none for a map too small or too flat for one
-    double shortest_wave = 0;          // where the spectrum averaged over directions ends, or twice the grid step [length]
-    bool gaussian() const;             // skewness within 0.3 of 0, kurtosis within 0.6 of 3: as samples of Gaussian surfaces have them
+    std::optional<SelfAffineFit> fit;  // absent if the map is too small or too flat
+    double shortest_wave = 0;          // upper end of the direction-averaged spectrum, or twice the grid step [length]
+    bool gaussian() const;             // skewness within 0.3 of 0 and kurtosis within 0.6 of 3, the scatter of Gaussian samples
     double points_per_wave() const;    // grid steps in the shortest wave
 };
 
 // Lower bound of the ratio of rms slopes of isotropic maps, including those of few waves.
 inline constexpr double kIsotropic = 0.8;
 
-// With fewer points in the shortest wave curvatures are determined by the grid, or by noise.
+// With fewer points in the shortest wave, curvatures are determined by the grid or by noise.
 inline constexpr double kFewPointsPerWave = 4;
 
-// Subtracts the form fitted to the points present, fills the missing ones with the harmonic function of the heights around them, and filters, in
-// place. Throws Error(bad_input) if points are missing with Missing::refuse (the message names the first), or all are missing.
+// Subtracts the fitted form, fills missing points (fill_missing) and filters, in place. Throws Error(bad_input) if all points are missing,
+// or if any is missing with Missing::refuse (the message states the first).
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
-// The treatment and the properties of a map as lines of text; `length_unit` follows every length.
+// Processing and properties of a map as lines of text; lengths are followed by `length_unit`.
 std::vector<std::string> report(const Measured& measured, const std::string& length_unit);
 
 }  // namespace rsc

@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-constexpr long kFewest = 8;  // rings that a fit needs
+constexpr long kFewest = 8;  // smallest number of rings for a fit
 
 std::vector<double> hann(int n, bool none) {
     std::vector<double> w(static_cast<std::size_t>(n), 1.0);
@@ -15,7 +15,7 @@ std::vector<double> hann(int n, bool none) {
     return w;
 }
 
-// Sums of 1, x, y, x^2, xy, y^2 with weights over the points before index i, so that a line through any range of points is cheap.
+// Cumulative weighted sums of 1, x, y, x^2, xy, y^2, from which a line through any range of points is fitted at constant cost.
 class Sums {
 public:
     struct Six {
@@ -37,7 +37,7 @@ private:
 
 struct Line {
     double height = 0, slope = 0;                                    // y = height + slope x
-    double left = 0;                                                 // sum of squares of what is left
+    double left = 0;                                                 // weighted sum of squared residuals
     double height_variance = 0, slope_variance = 0, covariance = 0;  // in units of the variance of y
 };
 
@@ -59,8 +59,8 @@ Line line_through(const Sums::Six& s) {
     return line;
 }
 
-// The power law begins at point `low` and ends before point `high`; points before `low` lie on a plateau of its height or are left
-// to a line of their own, as are the points from `high` on.
+// The power law covers the points from `low` to `high` - 1. Points before `low` form a plateau at its height or have a separate line;
+// points from `high` on have a separate line.
 struct Cut {
     std::size_t low = 0, high = 0;
     bool plateau = false;
@@ -76,7 +76,7 @@ public:
     Line power_law(const Cut& c) const {
         Sums::Six s = sums_.between(c.low, c.high);
         if (c.plateau && c.low > 0) {
-            // The points of the plateau count as if they lay at kl.
+            // The points of the plateau are fitted as if they were at kl.
             const Sums::Six p = sums_.between(0, c.low);
             const double x = x_[c.low];
             s = {s.n + p.n, s.x + p.n * x, s.y + p.y, s.xx + p.n * x * x, s.xy + x * p.y, s.yy + p.yy};
@@ -102,11 +102,11 @@ public:
         }
         return l;
     }
-    // Bayesian information criterion, which penalises the parameters of a break. Infinite if the cut is no self-affine band.
+    // Bayesian information criterion, which penalises additional parameters. Infinite if the band of the cut is not self-affine.
     double cost(const Cut& c) const {
         constexpr double kSteepest = -2 * (1 + 1.5), kFlattest = -2 * (1 - 0.5);
         const double slope = power_law(c).slope;
-        constexpr double kLeastPower = 0.01;  // of the mean square height: what is less is noise, however straight
+        constexpr double kLeastPower = 0.01;  // of the mean square height; a band with less is regarded as noise
         if (slope < kSteepest || slope > kFlattest) return HUGE_VAL;
         if (power_[c.high] - power_[c.low] < kLeastPower * power_.back()) return HUGE_VAL;
         const auto n = static_cast<double>(x_.size());
@@ -115,8 +115,8 @@ public:
         if (c.high < x_.size()) parameters += 3;
         return n * std::log(left(c).mean() + kScatter) + 2 * parameters * std::log(n);
     }
-    static constexpr double kScatter = 1e-6;    // squared: no spectrum is known better than to 0.1 %
-    static constexpr std::size_t kBlurred = 2;  // rings that a Hann window couples to one
+    static constexpr double kScatter = 1e-6;    // (0.1 %)^2: no spectrum is known more accurately
+    static constexpr std::size_t kBlurred = 2;  // rings that a Hann window couples with a break
 
 private:
     const std::vector<double>& x_;
@@ -128,14 +128,15 @@ private:
 
 namespace {
 
-// Power of modes by ring and angle.
+// Accumulates the power of modes by ring and angle.
 class Plane {
 public:
     explicit Plane(std::size_t rings) : group_(rings + 1), power_{}, count_{} {
-        // Rings one by one, then a tenth wider each: first_ are those where a group begins.
+        // Rings are grouped: single rings first, then groups as wide as a tenth of their wavenumber. first_ holds the first ring of every
+        // group.
         for (std::size_t r = 1; r <= rings;) {
             const std::size_t next = std::min(rings + 1, r + std::max<std::size_t>(1, r / 10));
-            // The last ring is alone, so that the table ends where the spectrum does.
+            // The last ring is a group of its own, so that the table ends with the spectrum.
             const std::size_t end = r < rings && next == rings + 1 ? rings : next;
             for (std::size_t i = r; i < end; ++i) group_[i] = first_.size();
             first_.push_back(r), last_.push_back(end - 1);
@@ -155,7 +156,7 @@ public:
             const double middle = std::sqrt(static_cast<double>(first_[g]) * static_cast<double>(last_[g]));
             s.plane_wavenumber.push_back(middle * ring);
             for (std::size_t a = 0; a < kAngles; ++a) {
-                // Two modes along the half circle of middle*pi modes.
+                // Angles spanned by two modes; the half circle has middle*pi modes.
                 auto wide = static_cast<std::size_t>(kAngles / (std::numbers::pi * middle));
                 double power = 0, count = 0;
                 for (; count == 0 && wide < kAngles; ++wide) {
@@ -208,7 +209,7 @@ double SelfAffineFit::around(double k) const {
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
     const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
     const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
-    // With the window a constant becomes a wave as long as the map: the windowed mean is subtracted first.
+    // The windowed mean is subtracted, because the window turns a constant into a wave as long as the map.
     double sum = 0, weights = 0, squares = 0;
     for (int j = 0; j < ny; ++j) {
         double row = 0, row_w = 0, row_s = 0;
@@ -236,7 +237,7 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     fftw_execute(plan.get());
 
     const double step_x = 2 * std::numbers::pi / map.Lx(), step_y = 2 * std::numbers::pi / map.Ly(), ring = std::min(step_x, step_y);
-    // Waves of all directions with a stretched wavenumber up to this are on the grid.
+    // Up to this stretched wavenumber the grid holds waves of all directions.
     const double stretch = std::sqrt(aspect), nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
     const double along = std::cos(direction), across = std::sin(direction);
     const auto rings = static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
@@ -248,23 +249,23 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
             const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * across), (ky * along - kx * across) / stretch) / ring;
             if (!(q < static_cast<double>(rings) + 0.5)) continue;
             const auto r = static_cast<std::size_t>(q + 0.5);
-            const double copies = i == 0 || 2 * i == nx ? 1 : 2;  // the other half plane is the mirror image
+            const double copies = i == 0 || 2 * i == nx ? 1 : 2;  // counts the mirror image in the other half plane
             const double of_mode = copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
             power[r] += of_mode;
             count[r] += copies;
             if (aspect == 1) plane.add(r, kx, ky, of_mode, copies);
         }
     }
-    // Parseval: the squares of the modes sum up to nx ny times those of the windowed heights.
+    // By Parseval's theorem the squared modes add up to nx ny times the sum of the squared windowed heights.
     const double scale = 1 / (static_cast<double>(nx) * ny * squares * step_x * step_y);
     MeasuredSpectrum s;
-    // (sum w^2)^2/(n sum w^4) of a Hann window is 0.514 in each direction. Of the modes in a ring one mode wide 0.27 are independent, twice
-    // what is taken here: with this share the hurst of 100 known spectra came out nearer, as it also makes up for the window's blur.
+    // For a Hann window (sum w^2)^2/(n sum w^4) = 0.514 in each direction, so a share 0.27 of the modes in a ring is independent. Half of
+    // that is used: it also compensates for the blur by the window and gave more accurate Hurst exponents for 100 known spectra.
     constexpr double kHann = 0.514;
     s.independent = map.periodic ? 0.5 : 0.5 * kHann * kHann;
     s.coupled = map.periodic ? 1 : 1 / kHann;
     for (std::size_t r = 1; r <= rings; ++r) {
-        if (count[r] == 0) continue;  // a narrow map has rings without modes
+        if (count[r] == 0) continue;  // rings of a narrow map may have no modes
         s.wavenumber.push_back(static_cast<double>(r) * ring);
         s.psd.push_back(scale * power[r] / count[r]);
         s.modes.push_back(count[r]);
@@ -285,25 +286,26 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
             const double independent = spectrum.independent * spectrum.modes[i];
             k.push_back(spectrum.wavenumber[i]);
             x.push_back(std::log(spectrum.wavenumber[i]));
-            // The logarithm of a mean of M squared amplitudes is expected 1/(2M) below that of their expectation.
+            // Bias correction: the logarithm of a mean of M squared amplitudes lies on average 1/(2M) below the logarithm of the
+            // expectation.
             y.push_back(std::log(spectrum.psd[i]) + 0.5 / independent);
             weight.push_back(independent);
             weights += independent;
         }
     for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
-    constexpr std::size_t kShortest = 4;  // rings of a power law
+    constexpr std::size_t kShortest = 4;  // smallest number of rings of a power law
     const std::size_t n = x.size();
     if (n < kFewest)
         throw Error(Failure::bad_input, "the map is too small for a spectrum: it has " + std::to_string(n) + " rings of modes");
     const BandSearch search(x, y, weight);
     Cut best{0, n, false};
-    double least = HUGE_VAL;  // one power law over the whole is among the cuts tried; if nothing fits, it stays
+    double least = HUGE_VAL;  // default: one power law over all rings
     const auto try_cut = [&](const Cut& c) {
         if (c.high < c.low + kShortest || c.high > n) return;
-        if (c.plateau && c.low == 0) return;  // the same as none
+        if (c.plateau && c.low == 0) return;  // same as no plateau
         if (const double cost = search.cost(c); cost < least) least = cost, best = c;
     };
-    // Breaks on some 60 places a decade first, then one by one around the best.
+    // Coarse search with about 60 places per decade, then a fine search around the best cut.
     std::vector<std::size_t> places;
     for (double place = 0; static_cast<std::size_t>(place) <= n; place = std::max(place + 1, place * 1.04))
         places.push_back(static_cast<std::size_t>(place));
@@ -320,7 +322,7 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
             try_cut({best.low, high, around.plateau});
     }
 
-    // The rings at the breaks are blurred: the line is fitted without them.
+    // The line is fitted without the blurred rings at the breaks.
     const double half_ring = 0.5 * spectrum.wavenumber[0];
     Cut inner = best;
     if (best.high < n && inner.high > inner.low + kShortest) --inner.high;
@@ -333,7 +335,7 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     const double variance = spectrum.coupled * std::max(line.left / std::max(points - 2, 1.0), BandSearch::kScatter);
     fit.hurst = {-0.5 * line.slope - 1, 0.5 * std::sqrt(variance * line.slope_variance)};
 
-    // Distance that a break may move before the residual grows by one variance.
+    // Half the range over which a break can move before the residual grows by one variance.
     const auto reach = [&](auto moved, std::size_t at) {
         const double limit = search.left(best).square + variance;
         const auto allowed = [&](std::size_t to) {
@@ -356,16 +358,16 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     if (!fit.ks_seen) {
         fit.ks = {k[n - 1], half_ring};
     } else {
-        // Half of the line, from the last ring that has it.
+        // ks is where the spectrum falls to half of the fitted line.
         std::size_t last = best.high - 1;
         const double half = std::log(2.0);
-        const auto above = [&](std::size_t i) { return y[i] - (line.height + line.slope * x[i]) + half; };  // > 0: above half of the line
+        const auto above = [&](std::size_t i) { return y[i] - (line.height + line.slope * x[i]) + half; };  // > 0 if above half of the line
         const std::size_t limit = std::min(n - 1, best.high + 3);
         while (last < limit && above(last + 1) > 0) ++last;
         while (last > best.low && above(last) <= 0) --last;
         double ks = k[best.high - 1];
         if (last < limit && above(last) > 0 && above(last + 1) <= 0) {
-            const double share_last = std::exp(above(last)), share_next = std::exp(above(last + 1));  // in halves of the line
+            const double share_last = std::exp(above(last)), share_next = std::exp(above(last + 1));  // relative to half of the line
             ks = k[last] + (k[last + 1] - k[last]) * std::clamp((share_last - 1) / (share_last - share_next), 0.0, 1.0);
         }
         fit.ks = {ks, reach([&](std::size_t high) { return Cut{best.low, high, best.plateau}; }, best.high)};
@@ -401,7 +403,7 @@ Isotropy isotropy(const HeightMap& map) {
     for (int j = 0; j + 1 < map.ny; ++j) {
         double row_xx = 0, row_xy = 0, row_yy = 0;
         for (int i = 0; i + 1 < map.nx; ++i) {
-            // Gradient in the middle of four points.
+            // Gradient at the centre of four points.
             const double a = map(i, j), b = map(i + 1, j), c = map(i, j + 1), d = map(i + 1, j + 1);
             const double zx = 0.5 * (b - a + d - c) / map.dx, zy = 0.5 * (c - a + d - b) / map.dy;
             row_xx += zx * zx, row_xy += zx * zy, row_yy += zy * zy;

@@ -1,4 +1,4 @@
-// Spectrum and height distribution of a height map: the numbers from which similar synthetic surfaces are made.
+// Spectrum and height parameters of a height map, from which similar synthetic surfaces can be made.
 #pragma once
 
 #include "rough/surface.hpp"
@@ -10,59 +10,60 @@ struct Fitted {
     double value = 0, error = 0;
 };
 
-// The self-affine spectrum that fits: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau (physics, section 2).
+// Fitted self-affine spectrum: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau (physics, section 2).
 struct SelfAffineFit {
     Fitted Phi0;    // [length^4]
     Fitted kl, ks;  // [1/length]
     Fitted hurst;   // Hurst exponent; above 1 for slopes steeper than -4, below 0 for slopes flatter than -2
     bool plateau = false;
-    bool ks_seen = false;  // the power law ends before the grid's shortest wave
-    // The surface's lay: the wavenumber is hypot(sqrt(aspect) k along, k across/sqrt(aspect)), so that Phi is a function of it alone.
-    double aspect = 1, direction = 0;  // ratio of the correlation lengths along and across the lay; the lay from the x axis [rad]
+    bool ks_seen = false;  // true if the power law ends before the grid's shortest wave
+    // Lay of the surface. Phi depends only on the stretched wavenumber hypot(sqrt(aspect) k_along, k_across/sqrt(aspect)).
+    double aspect = 1, direction = 0;  // ratio of the correlation lengths along and across the lay; angle of the lay from the x axis [rad]
     double operator()(double k) const;
-    double around(double k) const;  // mean over all directions at wavenumber k of the surface itself
+    double around(double k) const;  // mean over all directions at the unstretched wavenumber k
 };
 
-// Power spectral density over the wavenumber k = 2 pi/lambda, averaged over rings: the integral of Phi 2 pi k dk is the mean square
-// height. Rings are one step 2 pi/max(Lx, Ly) wide, from that step to the shorter Nyquist wavenumber of both directions.
+// Power spectral density over the wavenumber k = 2 pi/lambda, averaged over rings: the integral of Phi 2 pi k dk is the mean square height.
+// Rings are 2 pi/max(Lx, Ly) wide and reach from that wavenumber to the smaller Nyquist wavenumber of the two directions.
 struct MeasuredSpectrum {
     std::vector<double> wavenumber;  // middle of the rings [1/length]
     std::vector<double> psd;         // [length^4]
-    std::vector<double> modes;       // Fourier modes in the ring, mirror images included
-    double independent = 0.5;        // share of independent amplitudes among them: half are mirror images, a window couples neighbours
-    double coupled = 1;              // rings that tell the same, because the window couples them
-    // The same by direction: at fewer rings, wider ones where there are many, and at kAngles angles, 0, 2.5, ... degrees from the x axis towards
-    // the y axis (the other half plane is the mirror image). Near the origin a value is a mean over as many angles as the window blurs into
-    // one: two modes along the circle.
+    std::vector<double> modes;       // number of Fourier modes in the ring, including mirror images
+    double independent = 0.5;        // share of independent amplitudes among them, reduced by mirror images and by the window
+    double coupled = 1;              // number of neighbouring rings coupled by the window
+    // Spectrum by direction, on fewer rings (wider ones at large wavenumbers) and at kAngles angles 0, 2.5, ... degrees from the x axis
+    // towards the y axis; the other half plane is the mirror image. Near the origin values are averaged over the angle that two modes span,
+    // the resolution of the window.
     static constexpr std::size_t kAngles = 72;
     std::vector<double> plane_wavenumber;  // [1/length]
     std::vector<double> plane_psd;         // [ring][angle], [length^4]
-    // The direction of the lay: at right angles to the direction with the most power, from the x axis, 0 to 180 [degree].
+    // Direction of the lay from the x axis, 0 to 180 [degree]: perpendicular to the direction of the largest power.
     double lay() const;
 };
 
-// A map that is not periodic is multiplied by a Hann window, whose loss of power is restored. No point may be missing.
-// Throws Error(no_memory).
-// With a lay the rings are ellipses of the stretched wavenumber of SelfAffineFit; plane_psd is then empty.
+// Measures the spectrum. A map that is not periodic is multiplied by a Hann window and the loss of power is corrected. No point may be
+// missing. With aspect != 1 the rings are ellipses of constant stretched wavenumber (SelfAffineFit) and plane_psd is empty. Throws
+// Error(no_memory).
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect = 1, double direction = 0);
 
-// Least squares in the logarithms, a ring weighing as many modes as it has: a line of slope -2(1+hurst), -0.5 <= hurst <= 1.5, between kl
-// and ks that holds a hundredth of the mean square height or more; below kl a constant at its height (plateau) or a line of its own (none); beyond ks another (noise, the window's leakage). Whether
-// there is a kl or ks above the map's own, and which, is decided by the least residual with Bayes' penalty for each parameter; rings next to a
-// break, which the window blurs, do not count. ks is then moved to where the spectrum falls to half of the line. Errors: of Phi0 and hurst by
-// the residuals' scatter; of kl and ks by how far they may move before the residual grows by one variance, half a ring at least.
-// At least 8 rings with psd > 0 are needed: Error(bad_input), unless can_fit.
+// Least-squares fit in logarithms, each ring weighted by its number of modes: a line of slope -2(1+hurst), -0.5 <= hurst <= 1.5, between kl
+// and ks that contains at least a hundredth of the mean square height; below kl a constant at its height (plateau) or a separate line;
+// beyond ks another line (noise, leakage of the window). kl and ks, and whether they exist within the spectrum, minimise the Bayesian
+// information criterion; rings next to a break are ignored because the window blurs them. ks is then moved to where the spectrum falls to
+// half of the line. The errors of Phi0 and hurst follow from the scatter of the residuals, those of kl and ks from the shift that increases
+// the residual by one variance, at least half a ring. Throws Error(bad_input) for fewer than 8 rings with psd > 0, where can_fit() is
+// false.
 SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum);
 bool can_fit(const MeasuredSpectrum& spectrum);
 
-// ISO 25178-2: rms height Sq about the mean, skewness Ssk, kurtosis Sku (NaN of a flat map), rms gradient Sdq (first differences of neighbours).
+// ISO 25178-2: rms height Sq about the mean, skewness Ssk and kurtosis Sku (NaN for a flat map), rms gradient Sdq (first differences).
 struct HeightParameters {
     double sq = 0, ssk = 0, sku = 0, sdq = 0;
 };
 HeightParameters height_parameters(const HeightMap& map);
 
-// The ratio of the rms slopes along the directions in which they are smallest and largest, 1 for an isotropic surface, towards 0 for
-// grooves, and the direction of the smallest, from the x axis [rad]. From first differences.
+// Ratio of the smallest to the largest rms slope over all directions (1 for an isotropic surface, near 0 for grooves) and the direction of
+// the smallest from the x axis [rad], by first differences.
 struct Isotropy {
     double ratio = 1, direction = 0;
 };

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kNoiseBatch = 32;
 
-// The noise of kNoiseBatch consecutive modes, in three loops that vectorise. Philox is written out over the batch (Random123's is
-// one counter at a time); the constants are Random123's, and so are the bits.
+// Noise of kNoiseBatch consecutive modes, in three loops that vectorise. Philox is written out over the batch, because Random123 processes
+// one counter at a time; constants and results are those of Random123.
 RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::int32_t ky_first, double* re, double* im) {
     const auto seed = static_cast<std::uint64_t>(key.seed);
     const auto realization = static_cast<std::uint64_t>(key.realization);
@@ -35,12 +35,12 @@ RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::in
     }
     alignas(64) double radius[kNoiseBatch];
     for (int i = 0; i < kNoiseBatch; ++i) {
-        // 52 random bits behind the exponent of 1: a uniform number in [1, 2).
+        // 52 random bits with the exponent of 1 form a uniform number in [1, 2).
         const std::uint64_t b1 = w0[i] | (static_cast<std::uint64_t>(w1[i] & 0xfffffu) << 32) | 0x3ff0000000000000ULL;
         const std::uint64_t b2 = w2[i] | (static_cast<std::uint64_t>(w3[i] & 0xfffffu) << 32) | 0x3ff0000000000000ULL;
         const double u1 = 2.0 - std::bit_cast<double>(b1);  // (0, 1]
         const double u2 = std::bit_cast<double>(b2) - 1.0;  // [0, 1)
-        // Box and Muller with -ln u1 in place of -2 ln u1: the two components have variance 1/2 each.
+        // Box-Muller transform with -ln u1 in place of -2 ln u1, so that each component has variance 1/2.
         radius[i] = -vector_math::log_positive(u1);
         vector_math::cos_sin_turns(u2, re[i], im[i]);
     }
@@ -83,7 +83,7 @@ namespace {
 constexpr int kBatch = Differences::kBatch;
 constexpr int kLanes = 8;  // partial sums, fixed so that the sum has the same bits on every machine
 
-// Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < kBatch; (kx, ky) is nowhere (0, 0).
+// Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < kBatch; (0, 0) must not be among them.
 RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, const Stretch& stretched, int kx, int ky_first, double* amplitude) {
     const double x2 = stretched.xx * kx * kx, xy = 2 * stretched.xy * kx, yy = stretched.yy;
     const double log_ql2 = vector_math::log_positive(s.L_lambda_l * s.L_lambda_l);
@@ -96,7 +96,7 @@ RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, const Stretch& stretche
 
 struct Lanes {
     double e[kLanes] = {}, y1[kLanes] = {}, y2[kLanes] = {}, y3[kLanes] = {}, y4[kLanes] = {}, a[kLanes] = {};
-    double d2[kLanes] = {}, d4[kLanes] = {};  // with the squares of the differences in the place of ky^2
+    double d2[kLanes] = {}, d4[kLanes] = {};  // sums with the squared finite differences in place of ky^2
 };
 
 // Adds up the energies of a batch of coefficients and their moments in ky, lane by lane.
@@ -135,7 +135,7 @@ double sum(const double* lanes) {
     return total;
 }
 
-// The modes (kx, first..last) into coefficient[0..last-first].
+// Draws the modes (kx, first..last) into coefficient[0..last-first].
 void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key, const Differences& differences, int kx, int first,
               int last, std::complex<double>* coefficient, Lanes& lanes) {
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
@@ -186,11 +186,11 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
     Lanes lanes;
     const int first = std::max(kx > 0 ? 0 : 1, bottom);
     draw_run(spectrum, limits, key, differences, kx, first, top, column + first, lanes);
-    const double nyquist_energy = 2.0 * std::norm(column[n / 2]);  // of the mode (0, n/2), if there is one
+    const double nyquist_energy = 2.0 * std::norm(column[n / 2]);  // of the mode (0, n/2), if present
     if (kx > 0) {
         draw_run(spectrum, limits, key, differences, kx, bottom, std::min(top, -1), column + n + bottom, lanes);
     } else {
-        // The column kx = 0 is its own mirror image. The mode at n/2 and its mirror image share one place.
+        // The column kx = 0 contains its own mirror image. The mode at n/2 and its mirror image share one element.
         for (int ky = 1; ky < std::min(top + 1, n / 2); ++ky) column[n - ky] = std::conj(column[ky]);
         column[n / 2] += std::conj(column[n / 2]);
     }
@@ -207,7 +207,7 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
     const double dx2 = *differences.from(kx), d2 = sum(lanes.d2), d4 = sum(lanes.d4);
     sums.m2_differences = dx2 * e + d2;
     sums.m4_differences = isotropic ? 2.0 * (dx2 * dx2 * e + d4 + 3.0 * dx2 * d2) / 3.0 : 0.75 * (dx2 * dx2 * e + d4 + 2 * dx2 * d2);
-    // Of a mode at the grid's Nyquist limit the points see the real part alone.
+    // At grid points only the real part of a mode at the Nyquist limit is visible.
     const auto correct = [&](double more, double k2) {
         sums.grid += more;
         sums.m2_differences += 0.5 * more * k2;
@@ -217,7 +217,7 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
     if (kx == n / 2) {
         column[0] += std::conj(column[0]);
         correct(std::norm(column[0]) - sums.m0, dx2);
-        sums.grid = std::norm(column[0]);  // the column holds no other mode
+        sums.grid = std::norm(column[0]);  // the only mode in the column
     }
     return sums;
 }

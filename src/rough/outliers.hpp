@@ -1,4 +1,4 @@
-// Outliers of a measured map: single points, or small groups, far from all around them, as dust and lost light make them.
+// Outliers of a measured map: single points or small groups of points far from their neighbours, caused by dust or lost light.
 #pragma once
 
 #include "rough/surface.hpp"
@@ -10,9 +10,8 @@ struct Outliers {
     double threshold = 0;  // [length]
 };
 
-// Makes the height of every outlier NaN. An outlier is farther from the median of the 5 x 5 points around it than `times` the standard
-// deviation of these distances, which is taken from their median (1.4826 of it, as for Gaussian ones), so that the outliers have no part in it.
-// Points that are missing are left out, neighbours too.
+// Sets outliers to NaN. An outlier differs from the median of the 5 x 5 points around it by more than `times` the standard deviation of
+// these differences, estimated robustly as 1.4826 times their median. Missing points and neighbours are ignored.
 Outliers remove_outliers(HeightMap& map, double times);
 
 }  // namespace rsc

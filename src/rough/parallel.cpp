@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kMost = 1024;
 
 std::atomic<bool> used{false}, forked{false};
-thread_local int alive = 1;  // threads that libgomp holds ready for regions of this thread: those of the last one
+thread_local int alive = 1;  // size of the thread pool that libgomp keeps for this thread: that of its last region
 
 void* wait_for(void* mutex) {
     auto* const all_there = static_cast<pthread_mutex_t*>(mutex);
@@ -18,8 +18,8 @@ void* wait_for(void* mutex) {
     return nullptr;
 }
 
-// Number of threads, at most `more`, that the system starts at the same time. Not std::thread, which frees memory in the new thread: for that the
-// system reserves 64 MB of addresses, and keeps them.
+// Number of threads, at most `more`, that can be started at the same time. Not std::thread: it frees memory in the new thread, for which
+// the system reserves 64 MB of address space permanently.
 int can_start(int more) {
     std::array<pthread_t, kMost> started;
     pthread_mutex_t all_there = PTHREAD_MUTEX_INITIALIZER;
@@ -35,7 +35,7 @@ int can_start(int more) {
 
 std::size_t most_threads(int wanted) {
     const int n = wanted > 0 ? wanted : omp_get_max_threads();
-    // Threads far beyond the processors only wait for each other: a thousand on two of them take minutes for seconds of work.
+    // Far more threads than processors only wait for each other: with a thousand threads on two processors, seconds of work take minutes.
     const int most = std::min(static_cast<int>(kMost), 16 + 2 * omp_get_num_procs());
     return static_cast<std::size_t>(std::clamp(n, 1, most));
 }
@@ -47,17 +47,17 @@ int omp_team(std::size_t work, int wanted) {
     if (!used.exchange(true)) pthread_atfork(nullptr, nullptr, [] { forked = true; });
     if (team > alive) {
         const int more = can_start(team - alive);
-        // If not all could be started, one less leaves memory for the others to work with.
+        // If the limit was reached, one thread fewer leaves memory for the others.
         alive = std::max(1, more == team - alive ? team : alive + more - 1);
         return alive;
     }
-    return alive = team;  // libgomp lets the others go
+    return alive = team;  // libgomp ends the others
 }
 
 namespace {
 
 thread_local Watch* watch = nullptr;
-thread_local Watch* of_another = nullptr;  // thread
+thread_local Watch* of_another = nullptr;  // watch of another thread
 thread_local std::chrono::steady_clock::time_point asked;
 
 }  // namespace

@@ -1,8 +1,6 @@
 // Number of OpenMP threads of a parallel region: no more than the system starts.
 //
-// libgomp ends the program where the machine refuses to start a thread, and crashes where tens of thousands are asked for. Every parallel
-// region of rsc therefore says num_threads(omp_team(...)), which tries first by threads of its own.
-// What a region answers depends on no number of threads.
+// Number of OpenMP threads, and stopping of long loops.
 #pragma once
 
 #include "std.hpp"
@@ -11,22 +9,22 @@ namespace rsc {
 
 // Number of OpenMP threads of a parallel region: no more than the system starts.
 //
-// libgomp ends the program if a thread cannot be started, and crashes with tens of thousands of threads. Every parallel
-// region of rsc therefore says num_threads(omp_team(...)), which tries first, by threads of the C++ library, whose refusal is an
-// exception. Results of a region do not depend on the number of threads.
+// libgomp ends the program if a thread cannot be started, and crashes with tens of thousands of threads. Every parallel region of rsc
+// therefore has num_threads(omp_team(...)), which first tests how many threads can be started. Results do not depend on the number of
+// threads.
 
-// `work`: number of pieces of work, kEveryThread if there are many; 0 or 1: one thread. `wanted`: requested threads; 0: omp_get_max_threads().
-// Returns 1 inside a parallel region, and in a process that was forked from one that had used threads: libgomp's do not live there, and waiting
-// for them would not end.
+// `work`: number of work items, kEveryThread if there are many; 0 or 1: one thread. `wanted`: requested threads; 0: omp_get_max_threads().
+// Returns 1 inside a parallel region, and in a process forked from one that had used threads: libgomp's threads do not exist there, and it
+// would wait for them forever.
 inline constexpr std::size_t kEveryThread = static_cast<std::size_t>(-1);  // more work than threads
 int omp_team(std::size_t work, int wanted = 0);
 
-// Threads that a campaign or a study may start: `wanted`, or with 0 what the machine offers this process.
+// Number of threads that a campaign or study may start: `wanted`, or all that OpenMP offers if 0.
 std::size_t most_threads(int wanted);
 
-// Long loops check now and then whether they are to be stopped.
+// Long loops check regularly whether they must stop.
 
-// While it lives, stopping_point() on this thread calls `ask`, at most every 50 ms. To stop the work `ask` throws.
+// During its lifetime, stopping_point() on this thread calls `ask` at most every 50 ms; `ask` throws to stop the work.
 class Watch {
 public:
     explicit Watch(std::function<void()> ask);
@@ -34,8 +32,8 @@ public:
     Watch& operator=(const Watch&) = delete;
     ~Watch();
 
-    static Watch* here();  // that of this thread, or null
-    // While it lives, stopping_point() on this thread throws once the thread of the watch has been stopped.
+    static Watch* here();  // the watch of this thread, or null
+    // During its lifetime, stopping_point() on this thread throws once the watch has stopped its own thread.
     class Shared {
     public:
         explicit Shared(Watch* watch);
@@ -54,10 +52,10 @@ private:
     friend void stopping_point();
 };
 
-// A place where work may be left by an exception: outside of parallel regions, and where nothing is half done.
+// Point at which an exception may end the work: outside parallel regions, with all data in a consistent state.
 void stopping_point();
 
-// A stopping point in a loop that OpenMP shares out among threads, which no exception may leave:
+// Stopping point in a parallel OpenMP loop, which no exception may leave:
 //
 //     LoopStop stop;
 //     #pragma omp parallel for
@@ -65,8 +63,8 @@ void stopping_point();
 //     stop.tell();
 class LoopStop {
 public:
-    bool now() noexcept;  // whether what is left of the loop shall be left out; the thread that has the watch asks
-    void tell() const;    // throws what the stopping point threw, if it did
+    bool now() noexcept;  // true if the remaining iterations are to be skipped
+    void tell() const;    // rethrows the exception of the stopping point, if any
 
 private:
     std::atomic<bool> stopped_{false};

@@ -10,7 +10,7 @@ constexpr int kTaps = Stencil::kTaps;
 constexpr int kOrders = Stencil::kOrders;
 constexpr int kLanes = 8;  // partial sums, fixed so that a sum has the same bits on every machine
 
-// derivative[p][q]: orders p in x and q in y (indices into Stencil::kOrder) from the points at `corner`, `points` a side.
+// derivative[p][q]: orders p in x and q in y (indices into Stencil::kOrder) from a square of `points` x `points` heights at `corner`.
 RSC_ALWAYS_INLINE void contract_body(const double* corner, int points, int orders, const double (*wx)[kTaps], const double (*wy)[kTaps],
                                      double (*derivative)[kOrders]) {
     for (int q = 0; q < orders; ++q) {
@@ -38,7 +38,7 @@ RSC_DISPATCH(contract, contract_body,
 
 struct Step {
     double x = 0, y = 0;
-    bool peak = false;  // Newton's step, and the surface is curved down in all directions
+    bool peak = false;  // the step is Newton's, and the surface is concave
 };
 
 Step step_to_summit(const PointDifferences& d) {
@@ -54,7 +54,7 @@ Step step_to_summit(const PointDifferences& d) {
     return s;
 }
 
-// From second differences about the middle point: saves an evaluation or two.
+// First step from second differences about the middle point; saves one or two evaluations.
 Step first_step(const Patch& patch) {
     constexpr int m = Patch::kMargin;
     return step_to_summit(differences(patch.z[m - 1], patch.z[m], patch.z[m + 1], m - 1, m, m + 1));
@@ -63,10 +63,10 @@ Step first_step(const Patch& patch) {
 }  // namespace
 
 std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel, const PatchAbove& less) {
-    constexpr int kMostSteps = 40;  // three or four are usual; more where the way goes along a ridge
-    // The last step is applied to the position and the height alone; the derivatives stay where they were taken.
-    constexpr double kNear = 1e-4;     // a step so short that the next evaluation is the last: it ends within kNear^2
-    constexpr double kArrived = 1e-7;  // after the last evaluation a step must be no longer than this
+    constexpr int kMostSteps = 40;  // three or four are usual; more along a ridge
+    // The last step changes position and height only; the derivatives are those of the last evaluation.
+    constexpr double kNear = 1e-4;     // after a shorter step the next evaluation is the last, with an error of kNear^2
+    constexpr double kArrived = 1e-7;  // longest accepted step after the last evaluation
     const Step start = less.above ? Step{} : first_step(patch);
     double x = start.peak ? start.x : 0, y = start.peak ? start.y : 0;
     bool last = false;
@@ -91,7 +91,7 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         const Step s = step_to_summit({d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]});
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
-            // The height that is still missing to the top is half of gradient times step.
+            // The remaining height to the top is half of gradient times step.
             return RefinedSummit{
                 x + s.x, y + s.y, d[0][0] + 0.5 * (d[1][0] * s.x + d[0][1] * s.y), d[2][0], d[1][1], d[0][2], d[4][0], d[3][1], d[2][2],
                 d[1][3], d[0][4]};
@@ -99,7 +99,7 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         last = s.peak && length <= kNear;
         x += s.x;
         y += s.y;
-        if (!s.peak && length == 0) return {};  // stationary, and no peak
+        if (!s.peak && length == 0) return {};  // stationary, but no peak
     }
     return {};
 }

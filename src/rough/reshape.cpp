@@ -12,10 +12,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Grid points in the shortest wave during the iteration: enough for the waves that changed heights add beyond the band.
+// Grid points in the shortest wave during the iteration: enough for the shorter waves that the changed heights introduce.
 constexpr double kPointsPerWave = 2.5;
 constexpr int kMostRounds = 60;
-// Tolerances: half of those documented for one surface.
+// Tolerances, half of the documented ones.
 constexpr double kNearSkewness = 0.01, kNearKurtosis = 0.025;
 
 class Reshaping {
@@ -59,7 +59,7 @@ public:
             mirror();
             heights();
             got = shape();
-            if (spectrum_.heights) {  // no moments to aim at: until the heights change no more
+            if (spectrum_.heights) {  // no target moments: iterate until the heights no longer change
                 best = got;
                 if (std::abs(got.skewness - ask.skewness) + std::abs(got.kurtosis - ask.kurtosis) < 1e-4) break;
                 ask = got;
@@ -69,7 +69,7 @@ public:
             const double distance = std::max(std::abs(ds) / kNearSkewness, std::abs(dk) / kNearKurtosis);
             if (distance < best_distance) best_distance = distance, best = got, kept_ = phase_;
             if (distance <= 1) break;
-            // Within Johnson's system, with a margin from distributions of two values.
+            // Kept within Johnson's system, away from distributions of two values.
             ask.skewness = std::clamp(ask.skewness + 0.5 * ds, -6.0, 6.0);
             ask.kurtosis = std::clamp(ask.kurtosis + 0.5 * dk, 1.2 * ask.skewness * ask.skewness + 1.3, 90.0);
         }
@@ -85,7 +85,7 @@ private:
     void clear() { std::fill(modes(), modes() + static_cast<std::ptrdiff_t>(row_) * m_, Complex()); }
     void heights() { fftw_execute(to_heights_.get()); }
 
-    // Visits the modes of the half plane: the caller's coefficient and its place here.
+    // Visits the modes of the half plane: the caller's coefficient and the corresponding element of data_.
     template <class Visit>
     void for_modes(Visit visit) {
         for (int kx = 0; kx <= band_.highest_kx; ++kx) {
@@ -95,7 +95,7 @@ private:
                       modes()[static_cast<std::ptrdiff_t>(ky < 0 ? ky + m_ : ky) * row_ + kx]);
         }
     }
-    // The column kx = 0 is its own mirror image.
+    // The column kx = 0 contains its own mirror image.
     void mirror() {
         for (int ky = 1; ky <= band_.highest_ky; ++ky)
             modes()[static_cast<std::ptrdiff_t>(m_ - ky) * row_] = std::conj(modes()[static_cast<std::ptrdiff_t>(ky) * row_]);
@@ -117,14 +117,14 @@ private:
     }
 
     HeightShape shape() {
-        double m2 = 0, m3 = 0, m4 = 0;  // the mean is 0: there is no mode (0, 0)
+        double m2 = 0, m3 = 0, m4 = 0;  // the mean is 0, because there is no mode (0, 0)
         for_heights([&](double z) { m2 += z * z, m3 += z * z * z, m4 += z * z * z * z; });
         const double n = static_cast<double>(points_);
         m2 /= n, m3 /= n, m4 /= n;
         return {m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
     }
 
-    // Every height becomes the one of its rank in the distribution. Ranks are taken from a histogram, straight within its bins.
+    // Replaces every height by the height of its rank in the distribution. Ranks are interpolated linearly in a histogram.
     void rank(const HeightDistribution& wanted) {
         constexpr int bins = 8192;
         double low = 1e300, high = -1e300;
@@ -154,7 +154,7 @@ private:
     Complex* columns_;
     std::ptrdiff_t stride_;
     int n_, m_;
-    int row_;  // complex numbers in a row
+    int row_;  // number of complex values in a row
     std::size_t points_;
     std::unique_ptr<double[], HeightMap::Free> data_;
     FftwPlan to_heights_, to_modes_;

@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kEdgeTolerance = 1e-12;  // of q2: a cutoff such as 0.1*240 still holds the modes that lie on it
+constexpr double kEdgeTolerance = 1e-12;  // relative to q2: a rounded cutoff such as 0.1*240 includes the modes on it
 constexpr double kMostModes = 46340.0;    // largest L / lambda_s: integer wavevectors and their squares stay in 32 bits
 
 constexpr double kMostAspect = 100;
@@ -15,13 +15,13 @@ constexpr double kMostAspect = 100;
     throw Error(Failure::bad_input, "surface: " + what + ", not " + std::to_string(value));
 }
 
-// (zeta^e - 1)/e = integral of t^(e-1) from 1 to zeta; the logarithm at e = 0, and accurate beside it.
+// (zeta^e - 1)/e, the integral of t^(e-1) from 1 to zeta; accurate also near e = 0, where it is the logarithm.
 double power_integral(double log_zeta, double e) {
     const double x = e * log_zeta;
     return x == 0.0 ? log_zeta : log_zeta * std::expm1(x) / x;
 }
 
-// (1 - xi^q)/q: the plateau's part.
+// (1 - xi^q)/q: contribution of the plateau.
 double plateau_integral(double xi, double q) { return (1.0 - std::pow(xi, q)) / q; }
 
 }  // namespace
@@ -32,18 +32,18 @@ SpectrumTable::SpectrumTable(std::vector<double> wavenumber, std::vector<double>
     };
     if (k_.size() != psd_.size() || k_.size() < 2)
         throw Error(Failure::bad_input, "spectrum: " + std::to_string(k_.size()) + " wavenumbers and " + std::to_string(psd_.size()) +
-                                            " values; as many of each were expected, two at least");
+                                            " values; equal numbers of them were expected, at least two");
     bool some = false;
     for (std::size_t i = 0; i < k_.size(); ++i) {
         if (!usable_positive(k_[i])) wrong(i, std::string("the wavenumber ") + kPositiveBounds);
-        if (i > 0 && !(k_[i] > k_[i - 1])) wrong(i, "wavenumbers must rise");
+        if (i > 0 && !(k_[i] > k_[i - 1])) wrong(i, "wavenumbers must increase");
         if (!(psd_[i] >= 0 && usable(psd_[i]))) wrong(i, "the power spectral density must be finite and not negative");
         some = some || (i > 0 && psd_[i] > 0 && psd_[i - 1] > 0);
         largest_ = std::max(largest_, psd_[i]);
         log_k_.push_back(std::log(k_[i]));
         log_psd_.push_back(psd_[i] > 0 ? std::log(psd_[i]) : 0.0);
     }
-    if (!some) throw Error(Failure::bad_input, "spectrum: it is zero everywhere");
+    if (!some) throw Error(Failure::bad_input, "spectrum: the power spectral density is zero everywhere");
 }
 
 double SpectrumTable::operator()(double k) const {
@@ -70,16 +70,17 @@ double SpectrumTable::sigma() const { return std::sqrt(2 * std::numbers::pi * in
 PlaneSpectrum::PlaneSpectrum(std::vector<double> wavenumber, std::size_t angles, std::vector<double> psd)
     : k_(std::move(wavenumber)), psd_(std::move(psd)), angles_(angles) {
     if (k_.size() < 2 || angles_ < 2 || psd_.size() != k_.size() * angles_)
-        throw Error(Failure::bad_input, "spectrum by direction: two rings and two angles at least, and a value for each, were expected");
+        throw Error(Failure::bad_input,
+                    "spectrum by direction: at least two rings and two angles, and one value for each pair, were expected");
     for (std::size_t i = 0; i < k_.size(); ++i)
         if (!usable_positive(k_[i]) || (i > 0 && !(k_[i] > k_[i - 1])))
-            throw Error(Failure::bad_input, "spectrum by direction: wavenumbers must be positive and rise");
+            throw Error(Failure::bad_input, "spectrum by direction: wavenumbers must be positive and increase");
     for (const double value : psd_) {
         if (!(value >= 0 && usable(value)))
             throw Error(Failure::bad_input, "spectrum by direction: the power spectral density must be finite and not negative");
         largest_ = std::max(largest_, value);
     }
-    if (!(largest_ > 0)) throw Error(Failure::bad_input, "spectrum by direction: it is zero everywhere");
+    if (!(largest_ > 0)) throw Error(Failure::bad_input, "spectrum by direction: the power spectral density is zero everywhere");
 }
 
 double PlaneSpectrum::along(std::size_t ring, double turn) const {
@@ -100,7 +101,7 @@ double PlaneSpectrum::operator()(double kx, double ky) const {
 }
 
 double PlaneSpectrum::integral(int p, int q) const {
-    constexpr int parts = 8;  // of the step between two angles
+    constexpr int parts = 8;  // subdivisions of the step between two angles
     const double step = std::numbers::pi / (parts * static_cast<double>(angles_));
     double sum = 0;
     for (std::size_t a = 0; a < parts * angles_; ++a) {
@@ -151,7 +152,7 @@ double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
 
 namespace {
 
-// Throws unless some mode of the square lies in the band. The modes of a power law are without gaps: one at either end of a column is enough.
+// Throws unless some mode of the square lies in the band. A power law has no gaps, so the two ends of each column are tested.
 void require_modes(const Spectrum& s, const std::string& otherwise) {
     const Band b = band(s);
     for (int kx = 0; kx <= b.highest_kx; ++kx) {
@@ -178,7 +179,7 @@ void validate(const Spectrum& s) {
         if (!(s.L_lambda_s <= kMostModes))
             refuse("L times the largest wavenumber of the spectrum over 2 pi must be at most 46340", s.L_lambda_s);
         if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
-        require_modes(s, "no mode of the square lies in the spectrum; its largest wavenumber times L over 2 pi is");
+        require_modes(s, "no mode of the square lies within the spectrum; its largest wavenumber times L over 2 pi must be larger");
         return;
     }
     if (!(s.hurst >= 0.0 && s.hurst <= 1.0)) refuse("hurst must lie between 0 and 1", s.hurst);
@@ -187,7 +188,8 @@ void validate(const Spectrum& s) {
     if (!(s.plateau ? s.L_lambda_s >= s.L_lambda_l : s.L_lambda_s > s.L_lambda_l))
         refuse("L_lambda_s must be greater than L_lambda_l = " + std::to_string(s.L_lambda_l), s.L_lambda_s);
     if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
-    require_modes(s, "no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) + " and L_lambda_s; widen the band");
+    require_modes(s, "no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) +
+                         " and L_lambda_s; choose a larger L_lambda_s");
 }
 
 Stretch stretch(const Spectrum& s) {
@@ -227,9 +229,9 @@ double relative_psd(const Spectrum& s, double kx, double ky) {
     return std::pow(q2 / (s.L_lambda_l * s.L_lambda_l), -(1.0 + s.hurst));
 }
 
-// With k = A k', k' of an isotropic surface: kx = a.k', ky = b.k', and <(a.k')^4> = m4 |a|^4, <(k1' k2')^2> = m4/3.
+// k = A k' with k' of an isotropic surface, i.e. kx = a.k' and ky = b.k'; <(a.k')^4> = m4 |a|^4 and <(k1' k2')^2> = m4/3.
 MomentTensor directional_moments(double m2, double m4, double aspect, double direction) {
-    if (aspect == 1) direction = 0;  // exactly the same along x and y
+    if (aspect == 1) direction = 0;  // makes the moments along x and y exactly equal
     const double angle = direction * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
     const double aa = c * c / aspect + s * s * aspect, bb = s * s / aspect + c * c * aspect, ab = c * s * (1 / aspect - aspect);
     return {m2 * aa, m2 * ab, m2 * bb, m4 * aa * aa, m4 * aa * ab, m4 / 3 * (aa * bb + 2 * ab * ab), m4 * bb * ab, m4 * bb * bb};
@@ -237,7 +239,7 @@ MomentTensor directional_moments(double m2, double m4, double aspect, double dir
 
 namespace {
 
-// m_p = T(p) times the integral of K^(p+1) Phi(K) over K, T(p) = integral of cos^p over the circle; in units of kl.
+// m_p = T(p) times the integral of K^(p+1) Phi(K) over K, where T(p) is the integral of cos^p over the circle; in units of kl.
 Moments isotropic_moments(const Spectrum& s) {
     if (s.table) {
         const double scale = s.sigma * s.sigma / (2.0 * s.table->integral(1));

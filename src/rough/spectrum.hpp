@@ -5,22 +5,22 @@
 
 namespace rsc {
 
-// Skewness and kurtosis of heights, by default of Gaussian ones.
+// Skewness and kurtosis of heights; the defaults are Gaussian.
 struct HeightShape {
     double skewness = 0, kurtosis = 3;
 };
 
-// A power spectral density that is known at some wavenumbers: linear in logarithms between them, zero outside, and zero between two of
-// which one has none.
+// A tabulated power spectral density: interpolated linearly in logarithms, zero outside the table and beside entries that are zero.
 class SpectrumTable {
 public:
-    // wavenumber [1/length], psd [length^4], in any consistent unit. Throws Error(bad_input) naming the entry unless there are two
-    // or more of each, finite, wavenumbers positive and rising, psd not negative and somewhere positive between two entries that are.
+    // wavenumber [1/length], psd [length^4], in any consistent unit. Throws Error(bad_input) with the number of the entry unless there are
+    // two or more of each, all are finite, wavenumbers are positive and increase, psd is not negative, and two adjacent entries are
+    // positive.
     SpectrumTable(std::vector<double> wavenumber, std::vector<double> psd);
     double operator()(double k) const;
     double lowest() const { return k_.front(); }
     double highest() const { return k_.back(); }
-    double largest() const { return largest_; }  // psd
+    double largest() const { return largest_; }  // largest psd
     // Integral of k^power Phi(k) dk, exact for the interpolated table.
     double integral(double power) const;
     double sigma() const;  // rms height: the square root of the integral of 2 pi k Phi
@@ -30,24 +30,24 @@ private:
     double largest_ = 0;
 };
 
-// A power spectral density that depends on the direction, known at rings of wavenumbers and at equally spaced angles: linear in logarithms
-// between rings, linear between angles, zero below the first ring and above the last.
+// A power spectral density by direction, tabulated on rings of wavenumbers and at equally spaced angles. It is interpolated linearly in
+// logarithms between rings and linearly between angles, and is zero below the first ring and above the last.
 class PlaneSpectrum {
 public:
-    // wavenumber [1/length]; psd [length^4], [ring][angle] at the angles 0, 180/angles, ... degrees from the x axis towards the y axis, the
-    // other half plane being the mirror image. Throws Error(bad_input) unless wavenumbers are positive and rise, densities are finite and not
-    // negative, there are two rings and two angles or more, and something is positive.
+    // wavenumber [1/length]; psd [length^4], [ring][angle] at the angles 0, 180/angles, ... degrees from the x axis towards the y axis,
+    // with the other half plane as the mirror image. Throws Error(bad_input) unless wavenumbers are positive and increase, densities are
+    // finite and not negative, there are at least two rings and two angles, and some density is positive.
     PlaneSpectrum(std::vector<double> wavenumber, std::size_t angles, std::vector<double> psd);
     double operator()(double kx, double ky) const;
     double lowest() const { return k_.front(); }
     double highest() const { return k_.back(); }
-    double largest() const { return largest_; }  // psd
+    double largest() const { return largest_; }  // largest psd
     // Integral of kx^p ky^q Phi over the plane, p + q even.
     double integral(int p, int q) const;
     double sigma() const;  // rms height
 
 private:
-    double along(std::size_t ring, double turn) const;  // at an angle in steps of the table
+    double along(std::size_t ring, double turn) const;  // psd of a ring at an angle in steps of the table
     std::vector<double> k_, psd_;
     std::size_t angles_;
     double largest_ = 0;
@@ -61,33 +61,34 @@ struct Spectrum {
     double L_lambda_s = 512.0;  // L / lambda_s: upper cutoff ks = 2 pi / lambda_s
     bool plateau = false;       // PSD = Phi0 between 2 pi / L and kl (otherwise 0 there)
     double sigma = 0.01;        // rms height [length]
-    // Anisotropy (Peklenik): the ratio of the correlation lengths along and across `direction`. Wave vectors are stretched before the
-    // spectrum is read: Phi(sqrt(aspect k1^2 + k2^2/aspect)), k1 along the direction, k2 across it. 1: isotropic.
+    // Anisotropy (Peklenik): ratio of the correlation lengths along and across `direction`; 1: isotropic. The spectrum is Phi(sqrt(aspect
+    // k1^2 + k2^2/aspect)) with k1 along the direction and k2 across it.
     double aspect = 1.0;
-    double direction = 0.0;  // of the long correlation length, from the x axis towards the y axis [degree]
-    // Heights that are not Gaussian, by skewness and kurtosis, or by their distribution if there is one (rough/reshape.hpp).
+    double direction = 0.0;  // direction of the long correlation length, from the x axis towards the y axis [degree]
+    // Non-Gaussian heights, by skewness and kurtosis, or by their distribution if it is set (rough/reshape.hpp).
     HeightShape shape = {};
     std::shared_ptr<const HeightDistribution> heights = nullptr;
     bool gaussian() const { return !heights && shape.skewness == 0 && shape.kurtosis == 3; }
-    // If set, the spectrum, scaled to sigma; hurst and plateau are then not used, and the cutoffs are its ends.
+    // If set, the spectrum, scaled to sigma. hurst and plateau are then not used, and the cutoffs are the ends of the table.
     std::shared_ptr<const SpectrumTable> table = nullptr;
-    // The same by direction, instead of the table.
+    // If set, the spectrum by direction, in place of the table.
     std::shared_ptr<const PlaneSpectrum> plane = nullptr;
     bool tabulated() const { return table || plane; }
     bool directional() const { return aspect != 1 || plane; }
 };
 
-// The spectrum of a table on a square of side L.
+// Parameters of a surface with a tabulated spectrum on a square of side L.
 Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma);
 Spectrum tabulated_spectrum(std::shared_ptr<const PlaneSpectrum> plane, double L, double sigma);
 
-// Moments of the surface by direction: m_pq is the integral of kx^p ky^q Phi over the plane, m20 = <(dz/dx)^2>, m11 = <dz/dx dz/dy>, m40 = <(d2z/dx2)^2>, ... [length^(2-p-q)].
+// Moments by direction: m_pq is the integral of kx^p ky^q Phi over the plane, m20 = <(dz/dx)^2>, m11 = <dz/dx dz/dy>, m40 = <(d2z/dx2)^2>,
+// ... [length^(2-p-q)].
 struct MomentTensor {
     double m20 = 0, m11 = 0, m02 = 0;
     double m40 = 0, m31 = 0, m22 = 0, m13 = 0, m04 = 0;
-    // Half the trace <|grad z|^2>: the m2 of an isotropic surface of the same rms slope.
+    // m2 of an isotropic surface of the same rms slope: half of <|grad z|^2>.
     double m2() const { return (m20 + m02) / 2; }
-    // From <(nabla^2 z)^2>, which does not depend on the axes: the m4 of an isotropic surface of the same mean square curvature.
+    // m4 of an isotropic surface of the same mean square curvature <(nabla^2 z)^2>, which does not depend on the axes.
     double m4() const { return 3.0 / 8.0 * (m40 + 2 * m22 + m04); }
     MomentTensor transposed() const { return {m02, m11, m20, m04, m13, m22, m31, m40}; }
 };
@@ -95,8 +96,8 @@ struct MomentTensor {
 // One-dimensional profile moments m0, m2, m4 of an isotropic surface; m_p has the unit length^(2-p).
 struct Moments {
     double m0 = 0, m2 = 0, m4 = 0;
-    MomentTensor tensor;                                  // the same by direction
-    HeightShape heights;                                  // of a surface made with heights that are not Gaussian
+    MomentTensor tensor;                                  // moments by direction
+    HeightShape heights;                                  // of a non-Gaussian surface
     double nayak() const { return m0 * m4 / (m2 * m2); }  // Nayak's alpha
     double rms_slope() const;                             // rms gradient sqrt(2 m2)
     double summit_density() const;                        // D = sqrt(3) m4 / (18 pi m2) [1/length^2]
@@ -104,44 +105,44 @@ struct Moments {
     double mean_radius() const;                           // the paper's r_g = 1/<kappa_g> = 0.737/sqrt(m4) [length]
 };
 
-// The moments of an isotropic surface of moments m2, m4 after stretching and rotation.
+// Moments by direction of an isotropic surface with moments m2, m4 after stretching and rotation.
 MomentTensor directional_moments(double m2, double m4, double aspect, double direction);
 
-// Throws Error(bad_input) naming the member unless L > 0, 0 <= hurst <= 1, 1 <= L_lambda_l <= L_lambda_s (strictly less without
-// the plateau), sigma > 0, aspect from 0.01 to 100, all finite, a distribution
-// of heights has the skewness and kurtosis, and at least one mode lies in the band.
+// Throws Error(bad_input) with the name of the member unless all are finite, L > 0, 0 <= hurst <= 1, 1 <= L_lambda_l <= L_lambda_s
+// (strictly less without the plateau), sigma > 0, 0.01 <= aspect <= 100, a height distribution with the skewness and kurtosis exists, and
+// at least one mode lies in the band.
 void validate(const Spectrum& spectrum);
 
-// Closed forms of the continuous spectrum, a table's included, scaled so that m0 = sigma^2. Of an anisotropic surface m2 and m4 are those
-// of MomentTensor. Throws as validate().
+// Moments of the continuous spectrum (tables included) in closed form, scaled so that m0 = sigma^2. For an anisotropic surface m2 and m4
+// are those of MomentTensor. Throws as validate().
 Moments theoretical_moments(const Spectrum& spectrum);
 
-// The same of the modes a periodic L x L square has (integer wavevectors), scaled so that m0 = sigma^2: the
-// expectation of the sampled moments. A sum over all modes, whose time is proportional to L_lambda_s^2. Throws as validate().
+// Expectation of the sampled moments on a periodic L x L square (integer wavevectors), scaled so that m0 = sigma^2. It is a sum over all
+// modes, which takes a time proportional to L_lambda_s^2. Throws as validate().
 Moments discrete_moments(const Spectrum& spectrum);
 
-// The squared length of integer wavevectors after stretching: q2 = xx kx^2 + 2 xy kx ky + yy ky^2, of determinant 1.
+// Squared length of stretched integer wavevectors: q2 = xx kx^2 + 2 xy kx ky + yy ky^2, with determinant 1.
 struct Stretch {
     double xx = 1, xy = 0, yy = 1;
     double operator()(double kx, double ky) const { return xx * kx * kx + ky * (2 * xy * kx + yy * ky); }
 };
 Stretch stretch(const Spectrum& spectrum);
 
-// The shortest wave in any direction as L/lambda: L_lambda_s, or more of an anisotropic surface.
+// L/lambda of the shortest wave in any direction: L_lambda_s, or more if the surface is anisotropic.
 double shortest_wave(const Spectrum& spectrum);
 
-// Relative PSD (Phi / Phi0; Phi over its largest value of a table) of the mode with integer wavevector (kx, ky); 0 outside the band. A mode
-// exactly at K = kl (or ks) belongs to the surface either way, to a relative 1e-12 of its square.
+// Relative PSD (Phi/Phi0; for a table Phi over its largest value) of the mode with integer wavevector (kx, ky); 0 outside the band. Modes
+// at K = kl or ks, to a relative tolerance of 1e-12 in K^2, belong to the band.
 double relative_psd(const Spectrum& spectrum, double kx, double ky);
 
-// The band in integer wavevectors, the tolerance at its ends included.
+// The band in integer wavevectors, including the tolerance at its ends.
 struct Band {
     Stretch stretched;
     double lowest_q2 = 0;   // smallest stretched q2 of the power law
     double highest_q2 = 0;  // largest stretched q2 of all
     int highest_kx = 0;     // largest kx of all modes
     int highest_ky = 0;     // largest |ky| of all modes
-    // The modes kx, first ... last; first > last if the column has none.
+    // Range of ky of the modes in a column kx; first > last if there are none.
     struct Run {
         int first = 0, last = -1;
     };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kHalf = Stencil::kHalf;
 
-// even[o] and odd[o]: the parts of the weights of the points i >= 0 that are symmetric and antisymmetric in i.
+// Parts of the weights of the points i >= 0 that are symmetric and antisymmetric in i.
 struct Halves {
     alignas(64) double part[2][Stencil::kOrders][kHalf];
 };
@@ -31,7 +31,7 @@ RSC_ALWAYS_INLINE void add_series_body(const double (*centre)[kHalf], int deriva
 RSC_DISPATCH(add_series, add_series_body, (const double (*centre)[kHalf], int derivatives, const double* power, int orders, Halves& halves),
              (centre, derivatives, power, orders, halves))
 
-// Least squares by modified Gram and Schmidt: columns in place become orthonormal, R goes to the upper triangle.
+// Least squares by modified Gram-Schmidt: the columns become orthonormal in place, R is stored in the upper triangle.
 class LeastSquares {
 public:
     LeastSquares(std::vector<std::vector<double>> columns) : q_(std::move(columns)), r_(q_.size(), std::vector<double>(q_.size())) {
@@ -42,7 +42,7 @@ public:
         }
     }
 
-    // The solution; `b` becomes what it leaves.
+    // Returns the solution and replaces `b` by the residual.
     std::vector<double> solve(std::vector<double>& b) const {
         std::vector<double> x(q_.size());
         for (std::size_t j = 0; j < q_.size(); ++j) x[j] = take_out(q_[j], b);
@@ -71,12 +71,12 @@ private:
 
 }  // namespace
 
-// Symmetric stencils answer a wave exp(iks) with w_0 + 2 sum w_i cos(ki), antisymmetric ones with 2i sum w_i sin(ki); wanted is
-// (ik)^q for all 0 < k < cutoff.
+// A wave exp(iks) gives w_0 + 2 sum w_i cos(ki) with a symmetric stencil and 2i sum w_i sin(ki) with an antisymmetric one. The weights are
+// fitted to (ik)^q for 0 < k < cutoff.
 double Stencil::fit(double cutoff) {
     constexpr int kWaves = 160;
-    constexpr double kLongest = 1.0 / 256;  // longest wave of the weight, in 1/cutoff; longer ones count as much
-    constexpr double kExponent = -2.6;      // profile spectrum of H = 0.8
+    constexpr double kLongest = 1.0 / 256;  // wavenumber, relative to the cutoff, below which the weight is constant
+    constexpr double kExponent = -2.6;      // of the profile spectrum for H = 0.8
     // Weights that the band does not determine are kept small, so that rounding errors of the heights are not amplified.
     constexpr double kRidge = 1e-15;
     std::vector<double> k(kWaves), weight(kWaves);
@@ -89,7 +89,7 @@ double Stencil::fit(double cutoff) {
         weight[at] = std::sqrt(square);
         energy += square;
     }
-    double left4 = 0, left5 = 0, size4 = 1;  // what the fits of W_4 and W_5 leave
+    double left4 = 0, left5 = 0, size4 = 1;  // squared residuals of the fits of W_4 and W_5
     for (int odd = 0; odd < 2; ++odd) {
         const int unknowns = reach_ + 1 - odd;
         std::vector<std::vector<double>> columns(static_cast<std::size_t>(unknowns));
@@ -113,12 +113,12 @@ double Stencil::fit(double cutoff) {
             if (q == 5) left5 = LeastSquares::dot(wanted, wanted);
         }
     }
-    return std::sqrt((left4 + 0.25 * left5) / size4);  // Taylor's series at t = 1/2, where the error is largest
+    return std::sqrt((left4 + 0.25 * left5) / size4);  // of the Taylor series at t = 1/2, where the error is largest
 }
 
 Stencil Stencil::band_limited(double points_per_wave) {
     if (!(points_per_wave >= 4 * (1 - 1e-12)))
-        throw Error(Failure::bad_input, "summits between grid points need at least 4 points in the shortest wavelength, not " +
+        throw Error(Failure::bad_input, "summits between grid points require at least 4 points in the shortest wavelength, not " +
                                             std::to_string(points_per_wave));
     constexpr double kWanted = 1e-8;
     for (int reach = 4;; ++reach) {
@@ -130,8 +130,8 @@ Stencil Stencil::band_limited(double points_per_wave) {
     }
 }
 
-// B. Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comp. 51 (1988) 699, at 0 for the
-// points 0, 1, -1, 2, -2, ...
+// Weights at 0 for the points 0, 1, -1, 2, -2, ... by B. Fornberg, Generation of finite difference formulas on arbitrarily spaced grids,
+// Math. Comp. 51 (1988) 699.
 Stencil Stencil::polynomial(int reach) {
     Stencil stencil(reach);
     const int points = 2 * reach + 1;

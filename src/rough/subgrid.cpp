@@ -5,7 +5,7 @@
 namespace rsc {
 namespace {
 
-// Largest distance, in grid steps, of a summit from a start that is no maximum; the top of its paraboloid is within one step.
+// Largest distance of a summit from a start that is not a maximum [grid steps]; the top of the start's paraboloid is within one step.
 constexpr int kShortTravel = 1;
 
 template <class T>
@@ -21,10 +21,10 @@ void keep_marked(std::vector<T>& values, const std::vector<char>& keep) {
     values.resize(kept);
 }
 
-// u in [0, n) of a periodic line of n steps; u is at most a few steps outside.
+// Maps u, at most a few steps outside, to [0, n) on a periodic line of n steps.
 double wrapped(double u, int n) {
     u -= n * std::floor(u / n);
-    return u < n ? u : 0.0;  // rounding may make a tiny negative u a whole n
+    return u < n ? u : 0.0;  // a tiny negative u may be rounded to n
 }
 
 int wrapped(int i, int n) { return (i % n + n) % n; }
@@ -52,7 +52,7 @@ SummitClimber::SummitClimber(const std::vector<Stencil>& stencils, const RowPlac
       y0_(y0),
       curvature_(curvature) {}
 
-// Row j of the surface, z, less the face of the body above. Null where there is no row.
+// Row j of the surface, z, minus the face of the body above; null if there is no row.
 const double* SummitClimber::difference_row(int j, const double* z) {
     if (!z) return nullptr;
     DifferenceRow& row = differences_[wrapped(j, kRows)];
@@ -67,7 +67,7 @@ const double* SummitClimber::difference_row(int j, const double* z) {
     return row.z.data() + beside;
 }
 
-// Largest reach of a stencil at (i, j), limited by the map's border and the next break; 0 on a break.
+// Largest reach of a stencil at (i, j), limited by the border of the map and the nearest break; 0 at a break.
 int SummitClimber::clear_reach(int i, int j) const {
     int reach = stencils_.back().reach();
     if (!place_.periodic) reach = std::min({reach, i, j, place_.nx - 1 - i, ny_ - 1 - j});
@@ -77,7 +77,7 @@ int SummitClimber::clear_reach(int i, int j) const {
     return reach;
 }
 
-// Lets the stencil's middle move only as far as it fits into a map that is not periodic.
+// Restricts the centre of the stencil so that the stencil stays within a map that is not periodic.
 void SummitClimber::keep_within(int i, int j, int reach) {
     if (place_.periodic) return;
     patch_.first_x = std::max(-Patch::kTravel, reach - i);
@@ -86,14 +86,14 @@ void SummitClimber::keep_within(int i, int j, int reach) {
     patch_.last_y = std::min(Patch::kTravel, ny_ - 1 - reach - j);
 }
 
-// The patch around (i, j).
+// Copies the heights around (i, j) to the patch.
 void SummitClimber::cut_out(int i, int, const Rows& row) {
     const int span = margin(), nx = place_.nx;
     for (const int side : {1, -1})
         for (int d = 0; d <= span; ++d) {
             const double* const from = row(side * d);
             double* const to = patch_.z[Patch::kMargin + side * d] + Patch::kMargin;
-            if (!from) {  // beyond the border as on it
+            if (!from) {  // beyond the border, its values are repeated
                 std::copy(to - side * Patch::kStride - span, to - side * Patch::kStride + span + 1, to - span);
             } else if (i >= span && i + span < nx) {
                 std::copy(from + i - span, from + i + span + 1, to - span);
@@ -105,7 +105,7 @@ void SummitClimber::cut_out(int i, int, const Rows& row) {
 
 // True if a grid maximum beside (i, j) leads to the same summit, so that (i, j) need not be a start.
 bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const {
-    constexpr double kSameTop = 0.75;  // grid steps; second differences place a top to some tenths
+    constexpr double kSameTop = 0.75;  // grid steps; second differences locate a top to some tenths
     const int nx = place.nx;
     if (!place.periodic && !goes_on_ && (i < 2 || j < 2 || i + 2 >= nx || j + 2 >= ny_)) return false;
     double z[5][5];  // around (i, j)
@@ -116,7 +116,7 @@ bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const
     struct Top {
         double x, y;
     };
-    const auto top = [&](int l, int k) -> Top {  // of the paraboloid about point (k, l) of z
+    const auto top = [&](int l, int k) -> Top {  // top of the paraboloid about the point in row l, column k
         const PointDifferences d = differences(z[l - 1], z[l], z[l + 1], k - 1, k, k + 1);
         return {k + d.step_x() / d.determinant(), l + d.step_y() / d.determinant()};
     };
@@ -130,14 +130,14 @@ bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const
     return false;
 }
 
-// Height of the point (i + di, j + dj) of the patch about (i, j), less the face of the body above.
+// Height at the point (i + di, j + dj) of the patch about (i, j), minus the face of the body above.
 double SummitClimber::difference(int i, int j, int di, int dj) const {
     const double z = patch_.z[Patch::kMargin + dj][Patch::kMargin + di];
     return above_ ? z - above_->at(place_.x0 + (i + di) * place_.dx, y0_ + (j + dj) * place_.dy).height : z;
 }
 
-// Bending of the surface within a grid step around (i, j): the medians of its second differences along x and along y, added. Pits,
-// grooves and steps have a minority of the points and do not count.
+// Typical second difference around the middle of the patch: the sum of the medians along x and along y. Pits, grooves and steps affect a
+// minority of the points and do not change it.
 double SummitClimber::usual_bend() const {
     constexpr int reach = 3, points = (2 * reach + 1) * (2 * reach + 1), m = Patch::kMargin;
     double along_x[points], along_y[points];
@@ -153,10 +153,10 @@ double SummitClimber::usual_bend() const {
     return along_x[points / 2] + along_y[points / 2];
 }
 
-// True if a summit rises above the highest point around it by no more than a surface with this bending can. A polynomial through a pit,
-// a step or a seam overshoots by some tenths of its depth.
+// True if the summit is no higher above the points around it than the second differences `bend` permit. A polynomial through a pit, step or
+// seam overshoots by some tenths of its depth.
 bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, double bend) const {
-    // A summit half a step from its point both ways rises by bend/8, and its own curvature is up to some times the median.
+    // A summit half a step from its grid point in both directions rises by bend/8, and its curvature may be several times the median.
     constexpr double most = 0.75;
     const int ci = static_cast<int>(std::lround(summit.x)), cj = static_cast<int>(std::lround(summit.y));
     double highest = -std::numeric_limits<double>::infinity();
@@ -165,8 +165,8 @@ bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, dou
     return summit.z <= highest + most * bend;
 }
 
-// The point (i, j), a maximum of the grid, as a summit by second differences. Where one of them is that of a pit or a step, the smallest of
-// those at the point and beside it holds.
+// The grid maximum (i, j) as a summit with second differences. If one of these is that of a pit or a step, the smallest one at the point
+// and its neighbours is used.
 RefinedSummit SummitClimber::of_grid(int i, int j, double bend, bool& broken) const {
     constexpr double usual = 8;
     const auto z = [&](int di, int dj) { return difference(i, j, di, dj); };
@@ -206,18 +206,18 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
         keep_within(i, j, reach);
         const auto s = refine(stencils_[static_cast<std::size_t>(reach - 1)], patch_, travel, less);
         if (s && smooth_around(i, j, *s, bend)) return s;
-        if (!s && clear == longest.reach()) break;  // nothing near breaks it
+        if (!s && clear == longest.reach()) break;  // no break is near
         broken |= s.has_value();
     }
     if (!maximum) return {};
-    const RefinedSummit point = of_grid(i, j, bend, broken);  // a maximum that leads nowhere beside a step is a summit all the same
+    const RefinedSummit point = of_grid(i, j, bend, broken);  // near a break the grid maximum itself is the summit
     if (broken) return point;
     return {};
 }
 
-// The biharmonic of the round profile that flattens like an elongated summit. To first order a contact feels the quartic by its mean over the rim
-// of its ellipse, (3/8)(c_LL r + c_SS/r) + c_LS/8 for axes of the ratio sqrt(r) = long over short and an ellipse of unit area over pi, c_LL, c_LS and
-// c_SS being the quartic's terms along the long and the short axis (physics, section 16).
+// Biharmonic of the round profile that flattens like an elongated summit. To first order, contact depends on the mean of the quartic over
+// the rim of the contact ellipse: (3/8)(c_LL r + c_SS/r) + c_LS/8 for an ellipse of area pi with the axis ratio sqrt(r), long over short.
+// c_LL, c_LS and c_SS are the coefficients of the quartic along the long and short axes (physics, section 16).
 void SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, RefinedSummits& to) const {
     const double dx = place_.dx, dy = place_.dy, z40 = s.zxxxx / (dx * dx * dx * dx), z31 = s.zxxxy / (dx * dx * dx * dy),
                  z22 = s.zxxyy / (dx * dx * dy * dy), z13 = s.zxyyy / (dx * dy * dy * dy), z04 = s.zyyyy / (dy * dy * dy * dy);
@@ -227,7 +227,7 @@ void SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, Re
     const double across = z40 * tt * tt - 4 * z31 * ct * tt + 6 * z22 * cc * tt - 4 * z13 * cc * ct + z04 * cc * cc;
     const double both = (z40 + z04 - 4 * z22) * cc * tt + 2 * (z13 - z31) * ct * (cc - tt) + z22 * (cc * cc + tt * tt);
     const double k1 = a.kappa1.back(), k2 = a.kappa2.back();
-    constexpr double kAxes = 0.636;  // axes of a Hertz contact: (kappa1/kappa2)^0.636 (Brewe and Hamrock 1977)
+    constexpr double kAxes = 0.636;  // exponent of the axis ratio of a Hertz contact, (kappa1/kappa2)^0.636 (Brewe and Hamrock 1977)
     const double r = std::pow(k1 / k2, 2 * kAxes);
     to.found.biharmonic.push_back(z40 + 2 * z22 + z04 - lowered);
     to.elongated.push_back((r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2)) - lowered);
@@ -236,7 +236,7 @@ void SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, Re
 void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
     const Rows seen = above_ ? Rows([&](int d) { return difference_row(j + d, row(d)); }) : row;
     RowPlace place = place_;
-    if (goes_on_) {  // one more point on either side has neighbours, and the row has no seam
+    if (goes_on_) {  // include one more point on either side, without wrapping
         place.periodic = false;
         place.nx += 2;
         find_starts(place, seen(-1) - 1, seen(0) - 1, seen(1) - 1, starts_);
@@ -254,7 +254,7 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
         if (kept) {
             u = i + s->x, v = j + s->y;
             if (goes_on_ && !(u >= 0 && u < place_.nx && v >= 0 && v < ny_))
-                continue;  // it is another of the surface's summits within the map
+                continue;  // outside the map: its periodic image is found within
             if (place_.periodic && !goes_on_) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
             const SecondOrder second{0.5 * s->zxx / dx2, 0.5 * s->zyy / dy2, 0.5 * s->zxy / (place_.dx * place_.dy)};
             BodyAbove::Form under;
@@ -278,8 +278,8 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
 }
 
 long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
-    constexpr double kSame = 1e-3;              // grid steps; one summit is reached to 1e-7, two are never that near
-    constexpr int kReach = Patch::kTravel + 1;  // a start lies no further from its summit
+    constexpr double kSame = 1e-3;              // grid steps; summits are located to 1e-7, and different ones are farther apart
+    constexpr int kReach = Patch::kTravel + 1;  // largest distance of a start from its summit
     const auto apart = [&](double a, double b, int n) {
         const double d = std::abs(a - b);
         return periodic ? std::min(d, n - d) : d;

@@ -1,4 +1,4 @@
-// Summits between the points of the grid, for all laws but 'hertz'.
+// Summits between grid points, for all laws except 'hertz'.
 #pragma once
 
 #include "rough/asperities.hpp"
@@ -8,14 +8,14 @@
 
 namespace rsc {
 
-// Summits found in some rows, in the order of the points they were reached from.
+// Summits found from starts in a range of rows, in the order of the starts.
 struct RefinedSummits {
     Asperities found;
     std::vector<int> row, column;   // of the start
     std::vector<char> maximum;      // the start is a maximum of the grid
-    std::vector<double> u, v;       // place in grid steps, x = x0 + u dx, y = y0 + v dy
+    std::vector<double> u, v;       // position in grid steps, x = x0 + u dx, y = y0 + v dy
     std::vector<double> elongated;  // biharmonic of the round profile that flattens like the elongated summit [1/length^3]
-    std::vector<double> moved;      // from the start, the larger of both directions [grid steps]
+    std::vector<double> moved;      // distance from the start, the larger of both directions [grid steps]
     long saddles = 0;               // grid maxima without a summit in reach
     void append(const RefinedSummits& other);
 };
@@ -23,17 +23,17 @@ struct RefinedSummits {
 // Climbs from grid points to the summits of the surface, row by row.
 class SummitClimber {
 public:
-    // The map's rows as in `place` (its y is not used), ny of them; y0 is the y of row 0. One stencil for a map whose band is known; polynomials
-    // of reach 1, 2, ... for others, of which the longest that reaches over no break and no border is taken.
-    // With a body above: to the summits of the difference.
+    // The map has ny rows as described by `place` (its y is not used); y0 is the y of row 0. `stencils` is one stencil if the band of the
+    // map is known, otherwise polynomials of reach 1, 2, ..., of which the longest that crosses no break or border is used. With a body
+    // above, summits of the difference are sought.
     SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny, double y0, Curvature curvature,
                   const BodyAbove* above = nullptr, const Breaks* breaks = nullptr);
 
-    // Rows on either side of a row that row() must be able to give; a map that is not periodic has none beyond its edges.
+    // Number of rows on either side that climb() may request; a map that is not periodic has none beyond its edges.
     int margin() const { return stencils_.back().reach() + Patch::kTravel; }
 
     using Rows = std::function<const double*(int)>;
-    // Appends the summits reached from row j; row(d) is the row j + d, null where there is none.
+    // Appends the summits reached from row j. row(d) returns row j + d, or null if there is none.
     void climb(int j, const Rows& row, RefinedSummits& to);
 
 private:
@@ -49,7 +49,8 @@ private:
     RefinedSummit of_grid(int i, int j, double bend, bool& broken) const;
     void append_biharmonic(const RefinedSummit& s, double lowered, RefinedSummits& to) const;
 
-    // Rows of the difference, five of them. A periodic surface under a body that does not repeat goes on by kBeside points on either side.
+    // Buffer of five rows of the difference. A periodic surface under a body that is not periodic is continued by kBeside points on either
+    // side.
     static constexpr int kBeside = 2, kRows = 5;
     struct DifferenceRow {
         int j = -1;
@@ -58,7 +59,7 @@ private:
     };
 
     const BodyAbove* above_;
-    bool goes_on_ = false;  // a periodic surface under a body that does not repeat
+    bool goes_on_ = false;  // the surface is periodic, the body above is not
     DifferenceRow differences_[kRows];
     const std::vector<Stencil>& stencils_;
     const Breaks* breaks_;
@@ -70,7 +71,7 @@ private:
     std::vector<Start> starts_;
 };
 
-// Several starts may lead to the same summit: keeps a start that is a maximum, or else the nearest one; returns the number of maxima removed.
+// If several starts lead to the same summit, keeps one that is a maximum, else the nearest one. Returns the number of maxima removed.
 long drop_repeated(RefinedSummits& summits, int nx, int ny, bool periodic);
 
 }  // namespace rsc

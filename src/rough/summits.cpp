@@ -5,13 +5,13 @@
 namespace rsc {
 namespace {
 
-// A summit lies within half a step of some point, and second differences on 4 points in a wave locate its top to some tenths of a step. Of the
-// summits of self-affine surfaces 99.4 % are found so at 4 points, 99.9 % and more at 8; a reach of 0.75 leaves out 1 % more.
+// A summit lies within half a step of some point, and with 4 points per wave second differences locate it to some tenths of a step. This
+// finds 99.4 % of the summits of self-affine surfaces with 4 points per wave and over 99.9 % with 8; with 0.75, 1 % more are missed.
 constexpr double kNearStep = 1.0;
 
-constexpr int kGroup = 8;  // points tested together: one in a hundred is a summit, so most groups end with one test
+constexpr int kGroup = 8;  // points tested together: one in a hundred is a summit, so one test rejects most groups
 
-// Sets flags[g] where the group of points 1 + g*kGroup ... holds one that is above its eight neighbours.
+// Sets flags[g] if a point of the group starting at 1 + g*kGroup is above its eight neighbours.
 RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, const double* above, int groups, std::uint64_t* flags) {
     for (int g = 0; g < groups; ++g) {
         const int first = 1 + g * kGroup;
@@ -29,8 +29,8 @@ RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, co
 RSC_DISPATCH(flag_groups, flag_groups_body, (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
              (below, z, above, groups, flags))
 
-// Bits of flags[k] for the points k = 0 ... points - 1: 1 where the paraboloid of the second differences has its top within kNearStep
-// grid steps, 2 where the point is above its neighbours along both axes.
+// Sets bits of flags[k] for the points k = 0 ... points - 1: 1 if the paraboloid of the second differences has its top within kNearStep
+// grid steps, 2 if the point is above its neighbours along both axes.
 RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, const double* above, int points, std::uint64_t* flags) {
     for (int i = 0; i < points; ++i) {
         const PointDifferences d = differences(below, z, above, i - 1, i, i + 1);
@@ -44,7 +44,7 @@ RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, cons
 RSC_DISPATCH(flag_near, flag_near_body, (const double* below, const double* z, const double* above, int points, std::uint64_t* flags),
              (below, z, above, points, flags))
 
-// Calls keep(l, i, r) for every summit of the row: point i with its neighbours l and r along it.
+// Calls keep(l, i, r) for every summit i of the row, with its neighbours l and r along the row.
 template <class Keep>
 void scan_row(const RowPlace& place, const double* below, const double* z, const double* above, Keep keep) {
     const auto test = [&](int l, int i, int r) {
@@ -82,7 +82,7 @@ bool append_summit(double x, double y, double z, const SecondOrder& second, Curv
     found.z.push_back(z);
     found.radius.push_back(curvature == Curvature::geometric ? 1.0 / std::sqrt(gauss) : -1.0 / (a + b));
     found.kappa1.push_back(kappa1);
-    // Without the cancellation of -(a + b) - sqrt(...); rounding must not turn a circle inside out.
+    // Avoids the cancellation in -(a + b) - sqrt(...); fmin keeps kappa2 <= kappa1 despite rounding.
     found.kappa2.push_back(std::fmin(gauss / kappa1, kappa1));
     const double angle = 0.5 * std::atan2(2.0 * c, a - b);
     found.angle.push_back(angle > -0.5 * std::numbers::pi ? angle : 0.5 * std::numbers::pi);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-// A mean over points of a map: sums over a row are added up, short partial sums lose little to rounding. NaN is left out.
+// Mean over points of a map, without NaN. It adds up the sums of rows, because short partial sums keep rounding errors small.
 class Mean {
 public:
     void add(double value) {
@@ -36,7 +36,7 @@ private:
 }  // namespace
 
 double* allocate_doubles(std::size_t n, const char* purpose) {
-    // The system may allocate more memory than it has, but not more than a pointer can address.
+    // Systems that overcommit memory may accept any size; sizes beyond the address space are rejected here.
     constexpr std::size_t kMost = std::size_t{1} << 44;
     void* p = nullptr;
     if (n < kMost) {
@@ -44,13 +44,13 @@ double* allocate_doubles(std::size_t n, const char* purpose) {
         const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : 64;
         p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
 #if defined(__linux__)
-        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // a hint to the system; if it fails, only time is lost
+        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // a hint, whose failure only costs time
 #endif
     }
     if (!p) {
         const double megabytes = static_cast<double>(n) * sizeof(double) / 1048576.0;
         throw Error(Failure::no_memory,
-                    "no memory for " + std::string(purpose) + ": " + std::to_string(std::llround(megabytes)) + " MB asked for");
+                    "no memory for " + std::string(purpose) + ": " + std::to_string(std::llround(megabytes)) + " MB requested");
     }
     return static_cast<double*>(p);
 }
@@ -126,7 +126,7 @@ HeightMap twice_as_fine(const HeightMap& map) {
     HeightMap fine;
     fine.allocate(2 * map.nx, 2 * map.ny, 2 * map.nx);
     fine.dx = 0.5 * map.dx, fine.dy = 0.5 * map.dy;
-    fine.x0 = map.x0 - 0.25 * map.dx, fine.y0 = map.y0 - 0.25 * map.dy;  // middle of the first of the four cells
+    fine.x0 = map.x0 - 0.25 * map.dx, fine.y0 = map.y0 - 0.25 * map.dy;  // centre of the first of the four cells
     fine.periodic = map.periodic;
     const auto nx = static_cast<std::size_t>(map.nx), ny = static_cast<std::size_t>(map.ny);
     const std::unique_ptr<double[], HeightMap::Free> series(allocate_doubles(nx * ny, "the cosine series of a map"));
@@ -136,7 +136,7 @@ HeightMap twice_as_fine(const HeightMap& map) {
         forward.reset(fftw_plan_r2r_2d(map.ny, map.nx, series.get(), series.get(), FFTW_REDFT10, FFTW_REDFT10, FFTW_ESTIMATE));
         back.reset(fftw_plan_r2r_2d(fine.ny, fine.nx, fine.row(0), fine.row(0), FFTW_REDFT01, FFTW_REDFT01, FFTW_ESTIMATE));
     }
-    if (!forward || !back) throw Error(Failure::internal, "a finer map: FFTW made no plan");
+    if (!forward || !back) throw Error(Failure::internal, "refinement of a map: FFTW made no plan");
     for (std::size_t j = 0; j < ny; ++j) std::copy_n(map.row(static_cast<int>(j)), nx, series.get() + j * nx);
     fftw_execute(forward.get());
     std::fill_n(fine.row(0), 4 * nx * ny, 0.0);

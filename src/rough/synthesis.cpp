@@ -29,12 +29,12 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
     }
     const Band limits = band(spectrum);
     columns_ = limits.highest_kx + 1;
-    // At n/2 the grid sees the real part of a mode alone: a Gaussian mode (n/2, 0) or (0, n/2) is allowed there, others are not.
+    // Only the real part of a mode at n/2 is visible on the grid, so only the Gaussian modes (n/2, 0) and (0, n/2) are allowed there.
     const bool tilted = limits.stretched.xy != 0 || !spectrum.gaussian();
     if (const int most = std::max(limits.highest_kx, limits.highest_ky); most > n / 2 || (tilted && most == n / 2))
-        throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot carry waves of L/lambda = " +
+        throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot represent waves of L/lambda = " +
                                             std::to_string(most) + ": n must be at least " + std::to_string(2 * most + (tilted ? 2 : 0)));
-    column_stride_ = (n + 3) / 4 * 4 + 4;  // rows of 64 bytes, and columns not a power of two apart
+    column_stride_ = (n + 3) / 4 * 4 + 4;  // multiples of 64 bytes, and columns not a power of two apart
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
     columns_data_.reset(allocate_doubles(2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
                                          "the modes of a synthetic surface"));
@@ -86,13 +86,13 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     }
     if (!column_plan || !row_plan_) throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
 
-    // Nothing in the loop throws. The sums go by column and are added in order, whichever thread drew them.
+    // Nothing in the loop throws. Sums are stored by column and added in order, so that they do not depend on the threads.
     std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
     auto& plan = *column_plan;
     const Band limits = band(spectrum);
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
     LoopStop stop;
-    // Thread t takes the columns t, t + threads, ...: the low ones hold more modes than the high ones.
+    // Thread t draws the columns t, t + threads, ..., because low columns hold more modes than high ones.
 #pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
@@ -158,7 +158,7 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
         }
         for (int r = 0; r < block; ++r) {
             double* const row = coefficients + r * row_stride_;
-            std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes there; the last transform has overwritten it
+            std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes here; the previous transform has overwritten the zeros
             fftw_execute_dft_c2r(&plan, fftw(row), out + r * stride);
         }
         j += block;
@@ -181,7 +181,7 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
 #pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
     for (int t = 0; t < threads; ++t) {
         const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / threads); };
-        constexpr int few = 64;  // rows between two stopping points
+        constexpr int few = 64;  // number of rows between two stopping points
         for (int j = bound(t); j < bound(t + 1) && !stop.now(); j += few)
             source.rows(j, std::min(few, bound(t + 1) - j), map.row(j), map.stride, scratch[static_cast<std::size_t>(t)]);
     }

@@ -1,5 +1,5 @@
-// Synthetic surfaces, made in two steps: the modes and the transforms along y of the columns with modes, then the transforms along x, row by
-// row, on demand. This saves half of the transforms of a full two-dimensional one, and rows are used while they are in the cache.
+// Synthesis of surfaces in two steps: drawing the modes and transforming their columns along y, then transforming along x row by row on
+// demand. This avoids half of the work of a two-dimensional transform, and rows are used while they are in the cache.
 #pragma once
 
 #include "rough/library_lock.hpp"
@@ -9,17 +9,17 @@ namespace rsc {
 
 class RowSource {
 public:
-    // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is sound, n even and
-    // shortest_wave() <= n/2, Error(no_memory). `difference_step` is the step of the finite differences of differences(), L/n if 0.
+    // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is valid, n is even and shortest_wave() <=
+    // n/2; Error(no_memory). `difference_step` is the grid step of differences(); 0: L/n.
     RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
               double difference_step = 0);
 
     int n() const { return n_; }
     const Moments& sampled() const { return sampled_; }  // exact sums over the modes drawn
-    // Moments by finite differences on a grid of that step (grid_moments), as exact sums over the modes drawn.
+    // Moments by finite differences with `difference_step` (grid_moments), as exact sums.
     const Moments& differences() const { return differences_; }
 
-    // Memory a thread needs to make rows.
+    // Work space of one thread for rows().
     class Scratch {
     public:
         explicit Scratch(const RowSource& source);
@@ -29,15 +29,15 @@ public:
         std::unique_ptr<double[], HeightMap::Free> coefficients_;
     };
 
-    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows aligned to 64 bytes. The bits of a row do
-    // not depend on the other arguments.
+    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows must be aligned to 64 bytes. The values of a row depend,
+    // bit for bit, only on j.
     void rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const;
 
-    static constexpr int kBlock = 16;  // rows at a time for which rows() is efficient
+    static constexpr int kBlock = 16;  // most efficient `count`
 
 private:
-    // A surface whose long waves lie nearer to the y axis than to the x axis is the one mirrored on the diagonal, transposed: so a direction
-    // of 90 degrees gives the bits of 0 degrees.
+    // A surface with its lay nearer to the y axis than to the x axis is synthesised as its transpose, so that a direction of 90 degrees
+    // gives the same bits as 0 degrees.
     void transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
                    double difference_step);
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -48,17 +48,17 @@ private:
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers
     std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles
     std::unique_ptr<double[], HeightMap::Free> columns_data_;
-    double factor_ = 1;  // from relative amplitudes to lengths
+    double factor_ = 1;  // converts relative amplitudes to lengths
     Moments sampled_, differences_;
-    HeightMap transposed_;  // the rows themselves, where they are columns of another surface; empty otherwise
+    HeightMap transposed_;  // the whole surface if it is synthesised as its transpose; otherwise empty
     FftwPlan row_plan_;
 };
 
-// Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends on (seed, realization,
-// integer wavevector) alone, so that the surface is the same on every grid that holds its modes: shortest_wave() <= n/2, or
-// Error(bad_input). The rms height is sigma: of this surface over its points (sample), or in expectation (ensemble).
-// `sampled` (optional) receives the moments summed exactly over the modes drawn, and the shape of heights that are not Gaussian. The bits do not depend on `threads`.
-// make_asperities() of asperities.hpp finds the summits of the same surface without ever storing it.
+// Surface number `realization` of `seed` on n x n points, n even. The noise of a mode depends only on (seed, realization, integer
+// wavevector), so that the surface is the same on every grid that resolves it: shortest_wave() <= n/2, otherwise Error(bad_input). The rms
+// height is sigma, over the points of this surface (sample) or in expectation (ensemble). `sampled` (optional) receives the moments as
+// exact sums over the modes drawn, and the shape of non-Gaussian heights. Results are independent of `threads`, bit for bit.
+// make_asperities() (detection.hpp) finds the summits of the same surface without storing it.
 HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                      Moments* sampled = nullptr, int threads = 1);
 

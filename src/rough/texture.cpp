@@ -7,8 +7,8 @@
 namespace rsc {
 namespace {
 
-constexpr double kFallen = 0.2;  // of the autocorrelation (ISO 25178-2)
-constexpr int kShown = 60;       // lags kept to either side, at most
+constexpr double kFallen = 0.2;  // threshold of the autocorrelation (ISO 25178-2)
+constexpr int kShown = 60;       // most lags stored to either side
 
 double mean_height(const HeightMap& map) {
     double sum = 0;
@@ -20,7 +20,7 @@ double mean_height(const HeightMap& map) {
     return sum / (static_cast<double>(map.nx) * map.ny);
 }
 
-// The autocorrelation of heights about their mean at lags up to half the map, each over the pairs of points that have it.
+// Autocorrelation of heights about their mean at lags up to half the map, averaged over all pairs of points with the lag.
 class Autocorrelation {
 public:
     explicit Autocorrelation(const HeightMap& map)
@@ -61,7 +61,7 @@ public:
             }
     }
 
-    // At any lag within the map's half, by bilinear interpolation.
+    // Value at any lag up to half the map, by bilinear interpolation.
     double at(double x, double y) const {
         if (x < 0) x = -x, y = -y;
         const double u = x / dx_, v = y / dy_;
@@ -69,7 +69,7 @@ public:
         return std::lerp(std::lerp(of(i, j), of(i + 1, j), u - i), std::lerp(of(i, j + 1), of(i + 1, j + 1), u - i), v - j);
     }
 
-    // The lag at which it first falls to kFallen along a direction; the negative of the longest lag examined, if it does not.
+    // Lag at which the autocorrelation first falls to kFallen along a direction; if it does not, minus the longest lag examined.
     double decay(double angle) const {
         const double c = std::cos(angle), s = std::sin(angle), step = 0.25 * std::min(dx_, dy_);
         const double end =
@@ -113,7 +113,7 @@ void measure_correlation(const HeightMap& map, Texture& t) {
         longest = std::max(longest, std::abs(lag));
     }
     if (std::isfinite(shortest)) t.sal = shortest, t.str = shortest / longest;
-    // Enough of the plane to see the longest lag, in at most kShown steps to either side.
+    // The stored part of the plane contains the longest lag, in at most kShown steps to either side.
     const double shown = std::isfinite(shortest) ? 1.5 * longest : HUGE_VAL;
     t.step_x = std::max(map.dx, std::min(shown, correlation.most_x() * map.dx) / kShown);
     t.step_y = std::max(map.dy, std::min(shown, correlation.most_y() * map.dy) / kShown);
@@ -123,8 +123,8 @@ void measure_correlation(const HeightMap& map, Texture& t) {
         for (int i = -t.reach_x; i <= t.reach_x; ++i) t.autocorrelation.push_back(correlation.at(i * t.step_x, j * t.step_y));
 }
 
-// ISO 13565-2: the flattest secant over 40 % of the material ratio, drawn out to 0 and 100 %, bounds the core; the areas above and below it are
-// those of triangles as wide as the ratios at which the curve leaves the core, whose heights are Spk and Svk.
+// ISO 13565-2: the flattest secant over 40 % of the material ratio, extended to 0 and 100 %, bounds the core. Spk and Svk are the heights
+// of triangles with the areas of the curve above and below the core, as wide as the material ratios outside it.
 void measure_heights(const HeightMap& map, Texture& t) {
     std::vector<double> heights;
     heights.reserve(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny));
@@ -140,7 +140,7 @@ void measure_heights(const HeightMap& map, Texture& t) {
     int first = 0;
     for (int m = 0; m + secant <= steps; ++m)
         if (at(m) - at(m + secant) < at(first) - at(first + secant)) first = m;
-    const double slope = (at(first) - at(first + secant)) / secant;  // a step
+    const double slope = (at(first) - at(first + secant)) / secant;  // per quantile step
     const double upper = at(first) + slope * first, lower = upper - slope * steps;
     t.sk = upper - lower;
     double above = 0, below = 0, wide_above = 0, wide_below = 0;

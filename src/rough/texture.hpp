@@ -1,4 +1,4 @@
-// The texture of a height map: autocorrelation lengths along and across its lay, and the height distribution.
+// Texture of a height map: autocorrelation lengths along and across its lay, and the height distribution.
 #pragma once
 
 #include "rough/surface.hpp"
@@ -7,17 +7,17 @@ namespace rsc {
 
 // Parameters of ISO 25178-2 (2012).
 struct Texture {
-    // Lags at which the autocorrelation first falls to 0.2, over all directions: the shortest (Sal) [length] and the shortest over the
-    // longest (Str): 1 for an isotropic surface, towards 0 for grooves. str_bounded: along some direction it does not fall to 0.2 within half
-    // the map; Str is then at most this. NaN for a flat map.
+    // Sal [length]: shortest lag over all directions at which the autocorrelation falls to 0.2. Str: ratio of the shortest to the longest
+    // such lag, 1 for an isotropic surface, near 0 for grooves. str_bounded: the autocorrelation stays above 0.2 within half the map along
+    // some direction, and `str` is an upper bound. NaN for a flat map.
     double sal = 0, str = 0;
     bool str_bounded = false;
-    // Heights of the core, the reduced peaks and the reduced valleys by the curve of Abbott and Firestone (ISO 13565-2) [length].
+    // Heights of the core, the reduced peaks and the reduced valleys from the Abbott-Firestone curve (ISO 13565-2) [length].
     double sk = 0, spk = 0, svk = 0;
-    // Heights about their mean at normal scores, kScores of them from -5 to 5 in equal steps [length]: the distribution of the heights.
+    // Height distribution: heights about their mean [length] at kScores equally spaced normal scores from -5 to 5.
     static constexpr int kScores = 201;
     std::vector<double> score, height;
-    // Autocorrelation in the middle of its plane: lags -reach ... reach times the steps, row by row.
+    // Autocorrelation at the lags -reach ... reach, times the steps, row by row.
     int reach_x = 0, reach_y = 0;
     double step_x = 0, step_y = 0;  // [length]
     std::vector<double> autocorrelation;

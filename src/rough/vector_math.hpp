@@ -1,6 +1,6 @@
-// Elementary functions without branches or calls, so that a loop over them vectorises, made of IEEE operations alone, so that
-// every compiler and instruction set gives the same bits (as long as products and sums are not contracted). Errors stay below
-// 1 ulp (log, sin, cos) and 2 ulp (exp) in the ranges stated. Polynomials: FreeBSD msun (e_log.c, k_sin.c, k_cos.c).
+// Elementary functions without branches or calls, so that loops over them vectorise. They use IEEE operations only, so that every compiler
+// and instruction set gives the same bits (provided that products and sums are not contracted). Errors stay below 1 ulp (log, sin, cos) and
+// 2 ulp (exp) in the ranges stated. Polynomials: FreeBSD msun (e_log.c, k_sin.c, k_cos.c).
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ inline double log_positive(double x) {
     constexpr std::uint64_t kSqrtHalf = 0x3fe6a09e667f3bcdULL;  // bits of sqrt(1/2)
     constexpr std::uint64_t kMantissa = 0x000fffffffffffffULL;
     const std::uint64_t shifted = std::bit_cast<std::uint64_t>(x) + (0x3ff0000000000000ULL - kSqrtHalf);
-    // The exponent k as a double: its bits are put under 2^52 and 2^52 is taken away again.
+    // The exponent k as a double: its bits become the low bits of 2^52, which is then subtracted.
     const double k = std::bit_cast<double>((shifted >> 52) | 0x4330000000000000ULL) - (4503599627370496.0 + 1023.0);
     const double f = std::bit_cast<double>((shifted & kMantissa) + kSqrtHalf) - 1.0;  // x = 2^k (1 + f)
     const double s = f / (2.0 + f);
@@ -33,7 +33,7 @@ inline double log_positive(double x) {
 
 // exp(x) for -700 < x < 700.
 inline double exp_moderate(double x) {
-    constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer held in the low bits
+    constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds x to an integer, stored in the low bits
     const double shifted = x * 1.44269504088896338700e+00 + kShift;
     const double k = shifted - kShift;
     const double r = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;  // |r| <= ln(2)/2
@@ -86,7 +86,7 @@ inline void cos_sin_turns(double u, double& cosine, double& sine) {
                              z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 +
                                                                     z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))))));
     const std::uint64_t sb = std::bit_cast<std::uint64_t>(s), cb = std::bit_cast<std::uint64_t>(c);
-    const std::uint64_t swap = 0 - (quarter & 1);  // all ones in the odd quarters, where sine and cosine change places
+    const std::uint64_t swap = 0 - (quarter & 1);  // all ones in odd quarters, where sine and cosine are exchanged
     const std::uint64_t re = (cb & ~swap) | (sb & swap);
     const std::uint64_t im = (sb & ~swap) | (cb & swap);
     cosine = std::bit_cast<double>(re ^ (((quarter + 1) & 2) << 62));
