@@ -15,7 +15,7 @@ void count_value(CountHistogram& h, double value, double width) {
     for (double& sum : h.power) sum += power *= value;
 }
 
-// Adds area times the density 2 p / p0^2 on [0, p0], whose cumulative is (p/p0)^2.
+// Adds `area` distributed with the density 2 p / p0^2 on [0, p0], whose cumulative distribution is (p/p0)^2.
 void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
     double below = 0;
     for (std::size_t b = 0; b < h.area.size() && below < 1; ++b) {
@@ -34,7 +34,7 @@ void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
     }
 }
 
-// Adds an area that carries the pressure p everywhere.
+// Adds `area` under the uniform pressure p.
 void add_uniform(AreaHistogram& h, double p, double area, double width) {
     const double position = p / width;
     if (position < static_cast<double>(h.area.size()))
@@ -46,7 +46,7 @@ void add_uniform(AreaHistogram& h, double p, double area, double width) {
     for (double& sum : h.power) sum += power *= p;
 }
 
-// The pressures of pixels, each with its area; the number of contacts is that of independent observations.
+// Adds the pressures of pixels, each with its area. The number of contacts is the number of independent observations.
 void add_pixels(AreaHistogram& h, const Level& level, double width) {
     const LevelPixels& pixels = level.pixels;
     const double area = pixels.dx * pixels.dy;
@@ -85,7 +85,7 @@ std::vector<double> density(const Binned& binned) {
 }  // namespace
 
 PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest) {
-    if (bins < 1) throw Error(Failure::bad_input, "distributions: at least one bin is needed, not " + std::to_string(bins));
+    if (bins < 1) throw Error(Failure::bad_input, "distributions: the number of bins must be at least 1, not " + std::to_string(bins));
     const double pressure = E_star * std::sqrt(sigma * sqrt_m4), area = sigma / sqrt_m4;
     if (!(pressure > 0) || !std::isfinite(pressure) || !(area > 0) || !std::isfinite(area))
         throw Error(Failure::bad_input, "distributions: E*, the rms height and the curvature scale must be positive and finite");
@@ -109,7 +109,7 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         const double p = level.f[k] / area;
         count_value(d.spot_area, area, bins.area_width());
         if (!(p < 0)) count_value(d.mean_pressure, p, bins.mean_pressure_width());
-        if (!std::isnan(level.least_force)) continue;  // adhesion: the pressures within a spot are not Hertz's
+        if (!std::isnan(level.least_force)) continue;  // with adhesion the pressure within a spot is not Hertzian
         if (!level.pixels.index.empty()) continue;
         if (k < level.yields.size() && level.yields[k]) {
             add_uniform(d.pressure, p, area, bins.pressure_width());
@@ -122,7 +122,7 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
     return d;
 }
 
-// Powers of small values keep their digits with a quantum as fine as this, and a million realizations their exact sum.
+// This quantum resolves the powers of small values, and sums over a million realizations remain exact.
 constexpr int kSumBits = 84;
 
 void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one) {
@@ -160,7 +160,7 @@ DistributionMoments moments_of(double count, const std::array<double, 4>& power)
     const double variance = std::max(0.0, m2 - m1 * m1);
     m.mean = m1;
     m.deviation = std::sqrt(variance);
-    if (variance > 1e-12 * m2) {  // below that the differences hold rounding errors only
+    if (variance > 1e-12 * m2) {  // smaller differences are rounding errors
         m.skewness = (m3 - 3 * m1 * m2 + 2 * m1 * m1 * m1) / (variance * m.deviation);
         m.kurtosis = (m4 - 4 * m1 * m3 + 6 * m1 * m1 * m2 - 3 * m1 * m1 * m1 * m1) / (variance * variance);
     }

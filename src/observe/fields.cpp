@@ -8,7 +8,7 @@
 namespace rsc {
 namespace {
 
-// Pressures by the number of the point, row * nx + column.
+// Pressures by point index, row * nx + column.
 using Pressures = std::map<std::int64_t, double>;
 
 // Columns and rows first .. last.
@@ -19,7 +19,7 @@ struct Range {
 
 std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 
-// The points of one direction within [low, high].
+// Indices of the points within [low, high] along one axis.
 Range points_within(double origin, double step, int n, double low, double high) {
     const auto number = [&](double x) { return std::clamp((x - origin) / step, -1.0, static_cast<double>(n)); };
     return {std::max(0, static_cast<int>(std::ceil(number(low)))), std::min(n - 1, static_cast<int>(std::floor(number(high))))};
@@ -64,7 +64,7 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     return all;
 }
 
-// The deflections that pressures cause at the points of a window, row by row.
+// Deflections caused by the pressures at the points of a window, row by row.
 std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, const Pressures& pressures, Range columns, Range rows) {
     std::vector<double> u(at(columns.size()) * at(rows.size()), 0.0);
     if (pressures.empty()) return u;
@@ -95,7 +95,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
     for (const auto& [point, value] : pressures) {
         sources.push_back({static_cast<int>(point % map.nx), static_cast<int>(point / map.nx)});
         p.push_back(value);
-        raised += body.bulge() * value * map.dx * map.dy;  // that the products count in addition
+        raised += body.bulge() * value * map.dx * map.dy;  // uniform offset included in the products, subtracted below
     }
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) where.push_back({i, j});
@@ -105,7 +105,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
     return u;
 }
 
-// Columns and rows of all points under pressure with a margin; of the whole map where there are none.
+// Sets the columns and rows to those of all points under pressure with a margin, or to the whole map if there are none.
 void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, Range& columns, Range& rows) {
     columns = {map.nx, -1}, rows = {map.ny, -1};
     for (const Pressures& pressures : levels)
@@ -137,8 +137,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     if (asked.window) {
         const auto& w = *asked.window;
         columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]), rows = points_within(map.y0, map.dy, map.ny, w[2], w[3]);
-        if (columns.size() < 1 || rows.size() < 1)
-            throw Error(Failure::bad_input, "output%field_window: no point of the surface lies in it");
+        if (columns.size() < 1 || rows.size() < 1) throw Error(Failure::bad_input, "output%field_window contains no point of the surface");
     } else if (!repeats) {
         about_contact(map, pressures, columns, rows);
     }
@@ -170,7 +169,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
                 const std::size_t i = k % f.x.size(), j = k / f.x.size();
                 const double z = map(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
                 gap[k] += level.separation - indenter.clearance(f.x[i], f.y[j], z);
-                gap[k] = p[k] > 0 ? 0 : std::isfinite(gap[k]) ? std::max(gap[k], 0.0) : kNotComputed;  // a map above may end
+                gap[k] = p[k] > 0 ? 0 : std::isfinite(gap[k]) ? std::max(gap[k], 0.0) : kNotComputed;  // NaN outside a map of the indenter
             }
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }

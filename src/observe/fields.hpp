@@ -1,4 +1,4 @@
-// Fields of some levels on the points of the surface (&output fields): pressure, gap, contact and heights in a window.
+// Fields of selected levels on the points of the surface (&output fields): pressure, gap, contact and heights in a window.
 #pragma once
 
 #include "contact/indentation.hpp"
@@ -7,37 +7,37 @@
 
 namespace rsc {
 
-// In the order of the names that output%fields may have.
+// In the order of the names for output%fields.
 enum class Field { pressure, gap, contact, heights };
 inline constexpr std::array kFieldNames = {"pressure", "gap", "contact", "heights"};
 
 struct FieldsAsked {
     bool pressure = false, gap = false, contact = false, heights = false;
     bool any() const { return pressure || gap || contact || heights; }
-    std::optional<std::array<double, 4>> window;  // x0, x1, y0, y1 [length]; none: about the contact
+    std::optional<std::array<double, 4>> window;  // x0, x1, y0, y1 [length]; absent: around the contact
 };
 
-// What is asked for and computed; what is not asked for is empty.
+// The requested fields; others are empty.
 struct Fields {
     std::vector<std::int32_t> step;     // the levels, from 0
     std::vector<double> x, y;           // of the points in the window [length]
-    std::vector<double> pressure, gap;  // [step][y][x] [force/length^2], [length; NaN where nothing is above]
-    std::vector<std::int32_t> contact;  // [step][y][x] 1 where the bodies touch
-    std::vector<double> heights;        // [y][x] of the surface without load [length]
+    std::vector<double> pressure, gap;  // [step][y][x] [force/length^2], [length; NaN where there is no indenter above]
+    std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
+    std::vector<double> heights;        // [y][x] of the undeformed surface [length]
 };
 
-// A level whose fields are wanted. `lowered`: of elements, the points that are lower for good after it.
+// A level whose fields are requested. `lowered`: plastic residual of boundary elements after the level.
 struct FieldLevel {
     std::int32_t step;
     const Level* level;
     ResidualProfile lowered;
 };
 
-// The fields of these levels of one contact. The pressure of elements is theirs; that of an asperity is Hertz's over its spot, or uniform
-// where it yields, on the points in the spot (the nearest one, where none is in it), so that their forces add up to the spot's. The gap is
-// that between the indenter and the surface as the pressures on its points deform it; asperities do not follow every point of the surface,
-// and where it would pass through the indenter their gap is 0. Without a window the fields are about the contact of all levels, with a
-// margin, or, between flats that repeat, on the whole surface. Throws Error(bad_input) for a window that holds no points, no_memory.
+// Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot, uniform if
+// it yields, on the points within the spot (or the nearest point), scaled to the force of the spot. The gap is that between the indenter
+// and the surface deformed by these pressures; for asperities, which do not follow every point of the surface, it is 0 where the surface
+// would penetrate the indenter. Without a window the fields cover the contact of all levels with a margin, or the whole surface of periodic
+// flats. Throws Error(bad_input) if the window contains no points, Error(no_memory).
 Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction, const std::vector<FieldLevel>& levels,
                  const FieldsAsked& asked);
 

@@ -18,13 +18,13 @@ double ks_distance(const Binned& binned, Cdf cdf) {
     return distance;
 }
 
-// The largest shape (alpha + 1)/beta tried: std::tgamma of it must not overflow (lgamma would not, but writes a global variable).
+// Upper bound of the shape (alpha + 1)/beta, so that std::tgamma does not overflow (std::lgamma writes a global variable).
 constexpr double kLargestShape = 150;
 
-// The parameters the scoring works in: log(alpha + 1), log(beta), log(delta / unit); all are unbounded.
+// Unbounded parameters for Fisher scoring: log(alpha + 1), log(beta), log(delta / unit).
 using Parameters = std::array<double, 3>;
 
-// Probability of each bin, and of the overflow behind them.
+// Probabilities of the bins and of the overflow.
 std::vector<double> probabilities(const Parameters& theta, std::size_t bins, double width) {
     const double a = std::exp(theta[0] - theta[1]), beta = std::exp(theta[1]), delta = std::exp(theta[2]);
     std::vector<double> p(bins + 1);
@@ -32,7 +32,7 @@ std::vector<double> probabilities(const Parameters& theta, std::size_t bins, dou
     for (std::size_t b = 0; b <= bins; ++b) {
         const IncompleteGamma high =
             b < bins ? incomplete_gamma(a, std::pow(width * static_cast<double>(b + 1) / delta, beta)) : IncompleteGamma{1, 0};
-        p[b] = low.P < 0.5 ? high.P - low.P : low.Q - high.Q;  // the smaller tail keeps its digits
+        p[b] = low.P < 0.5 ? high.P - low.P : low.Q - high.Q;  // difference of the smaller tails, to avoid cancellation
         low = high;
     }
     return p;
@@ -41,7 +41,7 @@ std::vector<double> probabilities(const Parameters& theta, std::size_t bins, dou
 double log_likelihood(const std::vector<double>& weight, const std::vector<double>& p) {
     double sum = 0;
     for (std::size_t b = 0; b < p.size(); ++b)
-        if (weight[b] > 0) sum += weight[b] * std::log(p[b]);  // -inf or NaN when p vanishes: refused by the caller
+        if (weight[b] > 0) sum += weight[b] * std::log(p[b]);  // -inf or NaN if p vanishes; rejected by the caller
     return sum;
 }
 
@@ -51,7 +51,7 @@ struct Score {
 };
 
 Score score(const Parameters& theta, const std::vector<double>& weight, const std::vector<double>& p, double width) {
-    constexpr double h = 1e-5;  // truncation and rounding of the central difference both near 1e-10
+    constexpr double h = 1e-5;  // truncation and rounding errors of the central difference are both near 1e-10
     const std::size_t bins = weight.size() - 1;
     std::array<std::vector<double>, 3> slope;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -78,7 +78,7 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 bool invert(const Matrix& m, Matrix& inverse) {
     const auto minor = [&m](std::size_t i, std::size_t j) {
         const std::size_t r0 = (i + 1) % 3, r1 = (i + 2) % 3, c0 = (j + 1) % 3, c1 = (j + 2) % 3;
-        return m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];  // cyclic indices carry the sign
+        return m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];  // cyclic indices include the sign
     };
     const double det = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
     if (!(det > 1e-14 * m[0][0] * m[1][1] * m[2][2])) return false;
@@ -92,7 +92,7 @@ double gamma_normalisation(const Parameters& theta) {
     return beta / (std::pow(delta, alpha1) * std::tgamma(alpha1 / beta));
 }
 
-// One step of Fisher scoring, halved until the likelihood does not fall; false when no step does that.
+// Performs one step of Fisher scoring, halved until the likelihood does not decrease. Returns false if no step succeeds.
 bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width, double& size) {
     const Score s = score(theta, weight, p, width);
     Matrix inverse;
@@ -102,7 +102,7 @@ bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, cons
         for (std::size_t j = 0; j < 3; ++j) step[i] += inverse[i][j] * s.gradient[j];
     size = std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])});
     if (!std::isfinite(size)) return false;
-    double factor = std::min(1.0, 1.0 / std::max(size, 1e-300));  // never more than a factor e at once
+    double factor = std::min(1.0, 1.0 / std::max(size, 1e-300));  // limits the change to a factor e
     for (int halving = 0; halving < 40; ++halving, factor /= 2) {
         Parameters trial = theta;
         for (std::size_t i = 0; i < 3; ++i) trial[i] += factor * step[i];
@@ -145,7 +145,7 @@ ScaleFit fit_exponential(double count, double sum, const Binned& binned) {
 }
 
 IncompleteGamma incomplete_gamma(double a, double x) {
-    // NaN instead of exceptions, doubles all through.
+    // Returns NaN instead of exceptions and computes in double precision.
     using Quiet = boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
                                                 boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
                                                 boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
@@ -170,7 +170,7 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
     const auto filled = std::count_if(binned.weight.begin(), binned.weight.end(), [](double w) { return w > 0; });
     if (!(total > 0) || !(mean > 0) || filled < 5 || !(independent >= 10)) return fit;
 
-    // In units of the mean every number below is of order one.
+    // In units of the mean all numbers below are of order one.
     const double width = binned.width / mean;
     std::vector<double> weight;
     for (double w : binned.weight) weight.push_back(w / total);
@@ -187,7 +187,7 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
         if (!improve(theta, p, likelihood, weight, width, size)) break;
         converged = size < 1e-9;
     }
-    if (!converged && !(size < 1e-6)) return fit;  // rounding may stop the search a little before 1e-9
+    if (!converged && !(size < 1e-6)) return fit;  // rounding may stop the iteration before 1e-9
     Matrix covariance;
     if (!invert(score(theta, weight, p, width).information, covariance)) return fit;
     for (auto& row : covariance)
@@ -203,7 +203,7 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
     Parameters physical = theta;
     physical[2] += std::log(mean);
     fit.gamma = gamma_normalisation(physical);
-    std::array<double, 3> slope{};  // of gamma, for the propagation of errors
+    std::array<double, 3> slope{};  // derivatives of gamma, for error propagation
     for (std::size_t i = 0; i < 3; ++i) {
         constexpr double h = 1e-5;
         Parameters up = physical, down = physical;

@@ -7,7 +7,7 @@ namespace rsc {
 int MapGrid::cell(double px, double py) const {
     const double u = (px - x0) / side, v = (py - y0) / side;
     if (!(u >= 0 && u <= nx && v >= 0 && v <= ny)) return -1;
-    // Points of a grid lie on the borders of cells: rounding must not put some of them into the cell before.
+    // Grid points lie on the borders of cells; rounding must not move some of them to the previous cell.
     const double up = 1 + 8 * std::numeric_limits<double>::epsilon();
     const int i = std::min(static_cast<int>(u * up), nx - 1), j = std::min(static_cast<int>(v * up), ny - 1);
     return j * nx + i;
@@ -16,22 +16,22 @@ int MapGrid::cell(double px, double py) const {
 MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     if (!(Lx > 0) || !(Ly > 0) || !std::isfinite(Lx) || !std::isfinite(Ly))
         throw Error(Failure::bad_input, "coarse map: the sides of the surface must be positive and finite");
-    if (cells < 1) throw Error(Failure::bad_input, "coarse map: at least one cell is needed, not " + std::to_string(cells));
+    if (cells < 1) throw Error(Failure::bad_input, "coarse map: the number of cells must be at least 1, not " + std::to_string(cells));
     MapGrid grid{x0, y0, Lx / cells, cells, 0};
-    // A rectangle that is a whole number of cells up to rounding keeps its last row.
+    // If Ly is a whole number of cells up to rounding, the last row is kept.
     const double rows = std::floor(Ly / grid.side * (1 + 8 * std::numeric_limits<double>::epsilon()));
     if (rows < 1)
         throw Error(Failure::bad_input, "coarse map: a cell of side " + std::to_string(grid.side) +
-                                            " is larger than the surface's extent " + std::to_string(Ly) + " along y; take more map_cells");
-    if (rows * cells > 1e8) throw Error(Failure::bad_input, "coarse map: more than 1e8 cells; take fewer map_cells");
+                                            " is larger than the surface's extent " + std::to_string(Ly) + " along y; increase map_cells");
+    if (rows * cells > 1e8) throw Error(Failure::bad_input, "coarse map: more than 1e8 cells; decrease map_cells");
     grid.ny = static_cast<int>(rows);
     return grid;
 }
 
 namespace {
 
-// The cells along one axis that [from, from + length] lies in, and the share of it in each; what sticks out of the map
-// belongs to its last cell. Everything in cells.
+// Calls visit(cell, share) for the cells along one axis that [from, from + length] overlaps, in units of cells. Parts outside the map are
+// added to its last cell.
 template <class Visit>
 void share_out(double from, double length, int cells, Visit visit) {
     const double to = from + length;
@@ -60,7 +60,7 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
             if (const int cell = grid.cell(level.x[k], level.y[k]); cell >= 0) entries.push_back({cell, area, level.f[k]});
         }
     } else {
-        // Each pixel of elements has its share of its contact's area, at the place of its cell of the surface, which begins at its point.
+        // Each pixel has an equal share of the area of its contact. It covers the cell of the surface that begins at its point.
         std::vector<double> share(level.a.size(), 0.0);
         for (const std::int32_t contact : pixels.contact) share[static_cast<std::size_t>(contact)] += 1;
         for (std::size_t c = 0; c < share.size(); ++c) share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
@@ -122,7 +122,7 @@ BezierWeights bezier_weights(int n, double s) {
 
 namespace {
 
-// Calls use(cell, weight) for each cell that the value at a point of the map is made of.
+// Calls use(cell, weight) for each cell that contributes to the interpolated value at a point.
 template <class Use>
 void for_each_weight(const MapGrid& grid, double px, double py, Use use) {
     const BezierWeights wx = bezier_weights(grid.nx, (px - grid.x0) / grid.side - 0.5);
@@ -156,7 +156,7 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
     for (int b = 0; b < bins; ++b) {
         const double r = (b + 0.5) * ring_width_;
         radii_.push_back(r);
-        // A multiple of 4 keeps the symmetry of the square about a tip in its middle.
+        // A multiple of 4 preserves the symmetry of a square with the tip at its centre.
         const int angles = 4 * std::max(16, static_cast<int>(std::ceil(4 * std::numbers::pi * r / grid.side)));
         std::fill(row.begin(), row.end(), 0.0);
         for (int k = 0; k < angles; ++k) {

@@ -12,10 +12,10 @@ void require_finite(const Level& level, std::size_t step) {
     if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
 }
 
-// From a cell's sum over the realizations whose level converged to its mean fraction or pressure.
+// Divisor that turns the sum of a cell over realizations into its mean area fraction or pressure.
 double map_divisor(const MapGrid& grid, std::int32_t converged) { return grid.side * grid.side * std::max(1, converged); }
 
-// Rounded to a double on every machine, also where the compiler would fuse it with the sum that follows.
+// Product rounded to a double; volatile prevents the compiler from fusing it with the following sum.
 double rounded_product(double a, double b) {
     const volatile double product = a * b;
     return product;
@@ -58,7 +58,7 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
     return record;
 }
 
-// Two passes in the order of the realizations.
+// Two passes over the realizations in order.
 LevelStatistics Observations::statistics(const std::function<double(const LevelValues&)>& of) const {
     LevelStatistics s;
     s.mean.assign(steps, kAbsent);
@@ -102,7 +102,7 @@ void Accumulators::add(const RealizationRecord& record) {
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());
     const auto cells = static_cast<std::size_t>(options.map.cells());
-    constexpr int kBits = 64;  // a full cell is this many bits above the quantum: 11 more than a double has
+    constexpr int kBits = 64;  // a full cell is 2^64 quanta, 11 bits more than a double has
     const double cell_area = options.map.side * options.map.side, area_quantum = quantum_of(cell_area, kBits),
                  force_quantum = quantum_of(options.pdf.pressure_max * cell_area, kBits);
     for (std::size_t s = 0; s < steps; ++s) {
@@ -118,7 +118,7 @@ void Accumulators::add(const RealizationRecord& record) {
 void Accumulators::append(const Accumulators& later) {
     if (later.steps != steps || later.map_area.size() != map_area.size() || later.distributions.size() != distributions.size() ||
         (!realization.empty() && !later.realization.empty() && later.realization.front() <= realization.back()))
-        throw Error(Failure::internal, "sums of realizations that do not follow each other cannot be added");
+        throw Error(Failure::internal, "sums can only be added in the order of their realizations");
     realization.insert(realization.end(), later.realization.begin(), later.realization.end());
     surface.insert(surface.end(), later.surface.begin(), later.surface.end());
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());

@@ -1,9 +1,8 @@
-// The record of one realization, and the sums over realizations (paper, section 5).
+// Record of one realization, and sums over realizations (paper, section 5).
 //
-// observe() reduces one realization to a RealizationRecord: plain numbers and vectors without references, which a checkpoint holds as they
-// are. Accumulators::add() takes records in the order of their realizations, whatever thread, rank or interrupted run made them; sums over
-// realizations are exact (ExactSum), so that those of two campaigns can be added, too. finish() turns the sums into means, radial
-// means and fits.
+// observe() reduces one realization to a RealizationRecord of plain numbers and vectors, which can be written to a checkpoint.
+// Accumulators::add() adds records in the order of their realizations, independent of the thread, rank or run that computed them; sums are
+// exact (ExactSum), so that the sums of two campaigns can be merged. finish() computes means, radial means and fits.
 #pragma once
 
 #include "contact/level.hpp"
@@ -17,16 +16,16 @@ struct ObserveOptions {
     double tip_x = 0, tip_y = 0;  // centre of the radial means [length]
     MapGrid map;
     int radial_bins = 50;
-    std::vector<double> pdf_levels;  // separations whose nearest level gives the distributions [length]
+    std::vector<double> pdf_levels;  // separations at whose nearest levels distributions are computed [length]
     PdfBins pdf;
 };
 
-// The surface of a realization; NaN is absent (asperities read from a file have no m2, say).
+// Surface of a realization. NaN means absent (for example m2 of asperities read from a file).
 struct SurfaceStatistics {
     double sigma = kAbsent;             // rms height [length]
     double m2 = kAbsent, m4 = kAbsent;  // profile moments from the modes drawn (synthetic) or the grid (measured)
-    MomentTensor tensor{kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent};  // the same by direction
-    double skewness = kAbsent, kurtosis = kAbsent;                                                // of made heights that are not Gaussian
+    MomentTensor tensor{kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent};  // by direction
+    double skewness = kAbsent, kurtosis = kAbsent;                                                // of non-Gaussian synthetic heights
     double m2_grid = kAbsent, m4_grid = kAbsent;                                                  // from finite differences
     double mean_kappa_g = kAbsent, mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
     std::int64_t summits = 0, saddles = 0;
@@ -36,20 +35,20 @@ struct RealizationRecord {
     std::int64_t realization = 1;
     SurfaceStatistics surface;
     std::vector<LevelValues> levels;
-    std::vector<MapLevel> maps;                // one a level; empty where it did not converge, as are distributions
-    std::vector<Distributions> distributions;  // one a pdf level
+    std::vector<MapLevel> maps;                // one per level; empty if it did not converge, as are distributions
+    std::vector<Distributions> distributions;  // one per pdf level
 };
 
-// Observes the levels of one realization. Throws Error(internal) if a level holds a value that is not finite.
+// Reduces the levels of one realization to a record. Throws Error(internal) if a level holds a value that is not finite.
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
                           const std::vector<Level>& levels);
 
-// The level whose separation is nearest to the wanted one; of two equally near the first. -1 if there is none.
+// Index of the level with the separation nearest to the given one, the first of two equally near; -1 if there are no levels.
 std::int32_t nearest_level(const std::vector<Level>& levels, double separation);
 
 struct Observations;
 
-// Sums over realizations. Copyable and plain: a campaign writes it to its checkpoint as it is.
+// Sums over realizations, written to the checkpoint of a campaign.
 struct Accumulators {
     ObserveOptions options;
     std::size_t steps = 0;
@@ -61,17 +60,16 @@ struct Accumulators {
 
     Accumulators() = default;
     Accumulators(const ObserveOptions& options, std::size_t steps);
-    // Records come in increasing order of their realization; another order throws Error(internal), as does another number of
-    // levels.
+    // Records must be added by increasing realization and with the same number of levels; otherwise throws Error(internal).
     void add(const RealizationRecord& record);
-    // Appends the sums over later realizations of the same case: they are then, bit for bit, those of adding all records one by one.
+    // Appends the sums over later realizations of the same case. The result is the same, bit for bit, as adding all records one by one.
     void append(const Accumulators& later);
-    std::vector<std::int32_t> converged() const;  // realizations whose level converged, for each step
+    std::vector<std::int32_t> converged() const;  // number of realizations that converged, for each step
     Observations finish() const;
 };
 
-// A level's quantity over the M realizations that converged and have it, a value a step: mean (NaN where there is none), deviation of the
-// sample (divisor M - 1; NaN for one) and standard error of the mean, deviation/sqrt(M).
+// Statistics of a quantity over the M realizations that converged and have it, for each step: mean (NaN if M = 0), sample standard
+// deviation (divisor M - 1; NaN if M = 1) and standard error of the mean, deviation/sqrt(M).
 struct LevelStatistics {
     std::vector<double> mean, deviation, error;
     std::vector<std::int32_t> count;  // M
@@ -96,7 +94,7 @@ struct Observations {
     LevelStatistics statistics(const std::function<double(const LevelValues&)>& of) const;
 };
 
-// The sums over realizations that gave these means of a map, from what finish() leaves of them: exactly the same.
+// Restores the exact sums of a map from the means and rests computed by finish().
 std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged, const std::vector<double>& means,
                                const std::vector<double>& rests);
 
