@@ -8,8 +8,8 @@
 
 namespace rsc {
 
-// Enumerations with the spellings of their values, in their order. Those of the contact stand in contact/indentation.hpp.
-// Properties of the measured map that surfaces with source = 'spectrum' keep.
+// Enumerations with the spellings of their values, in their order. Those of the contact are in contact/indentation.hpp.
+// Twins, TwinHeights: properties of the measured map that surfaces with source = 'spectrum' reproduce.
 enum class Twins { radial, directional };
 inline constexpr std::array kTwinsNames = {"radial", "directional"};
 enum class TwinHeights { gaussian, measured };
@@ -51,11 +51,11 @@ struct Case {
     struct Surface {
         Source source = Source::synthetic;
         std::string file;
-        std::optional<double> L;  // default 1.0; for what is read: from the file unless set
+        std::optional<double> L;  // default: 1.0 if synthetic, otherwise from the file
         int n = 2048;
         double hurst = 0.8, L_lambda_l = 24.0, L_lambda_s = 512.0;
         bool plateau = false;
-        std::optional<double> sigma;  // default 0.01 for synthetic; otherwise of what was read unless set
+        std::optional<double> sigma;  // default: 0.01 if synthetic, otherwise the rms of the data read
         double aspect = 1.0, direction = 0.0, skewness = 0.0, kurtosis = 3.0;
         Twins twins = Twins::radial;
         TwinHeights twin_heights = TwinHeights::gaussian;
@@ -66,8 +66,8 @@ struct Case {
         std::string channel;
         std::string height_unit;          // of a text map; empty: run%length_unit
         std::optional<double> pixel;      // of a text matrix: step between its points [length]
-        std::optional<double> window[4];  // x0, x1, y0, y1: what is taken of a map read; default: all
-        double outliers = 0;              // 0: none are looked for
+        std::optional<double> window[4];  // x0, x1, y0, y1: part of the map to use; default: all
+        double outliers = 0;              // 0: no search
     } surface;
     struct AsperityKeys {
         Curvature curvature = Curvature::geometric;
@@ -109,7 +109,7 @@ struct Case {
     } elements;
     struct Compare {
         CompareWhat what = CompareWhat::automatic;
-        std::vector<double> levels;  // in `unit` of the indentation; empty: `what` says
+        std::vector<double> levels;  // in `unit` of the indentation; empty: `what` applies
         bool listed() const { return !levels.empty(); }
     } compare;
     struct Output {
@@ -129,13 +129,13 @@ struct Case {
     static constexpr double kInfinity = __builtin_huge_val();
 };
 
-// The model that solves this case: the one asked for by solver%model, or the choice of 'auto' and its reason.
+// The model that solves this case: solver%model, or the choice of 'auto' with its reason.
 struct ModelChoice {
     Model model;           // asperities or elements
     const char* why = "";  // of `auto`, for the screen
 };
 ModelChoice model_of(const Case& settings);
-// Whether body 1 relaxes: shares that are all 0 leave it elastic.
+// True if body 1 relaxes, i.e. a share is positive.
 bool relaxes(const Case& settings);
 inline bool by_elements(const Case& settings) { return model_of(settings).model == Model::elements; }
 

@@ -5,7 +5,7 @@ namespace {
 
 constexpr int kEnd = -1;
 
-// Locale-free character classes: the text of a case means the same everywhere.
+// Character classes that do not depend on the locale.
 bool is_digit(int c) { return c >= '0' && c <= '9'; }
 bool is_letter(int c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_name(int c) { return is_letter(c) || is_digit(c) || c == '_' || c == '%'; }
@@ -116,8 +116,7 @@ private:
                 i += 3;
                 continue;
             }
-            if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$')
-                return;  // a comment to the end, or a group that was complained about
+            if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$') return;  // a comment to the end, or a group already reported
             fault(i,
                   "'" + excerpt(i) + "' after the last group would be ignored: write keys between &name and '/', and comments after '!'");
             return;
@@ -163,7 +162,7 @@ private:
             back(c);
         }
     }
-    // Before the next value, when the last one ended its line: a comma counts only if none came before.
+    // Before the next value, if the previous one ended its line: a comma counts only if none preceded.
     void finish_separator() {
         for (;;) {
             int c = skip_blanks();
@@ -188,7 +187,7 @@ private:
     // --- a group ----------------------------------------------------------------------------------------------------------
     void body(Group& group) {
         context_ = alone_ ? "" : "&" + group.name + ": ";
-        bool lost = false;  // a fault was reported and no good assignment seen since
+        bool lost = false;  // a fault was reported and no valid assignment followed yet
         for (;;) {
             skip_separator();
             if (!complete_ && at_eol_) finish_separator();
@@ -230,8 +229,8 @@ private:
         context_.clear();
     }
 
-    // key[(subscript)] = values. On a fault nothing is added and reading goes on after the word; one message for a run of such
-    // words.
+    // key[(subscript)] = values. On a fault nothing is added and reading continues after the word; consecutive faults give one
+    // message.
     void assignment(Group& group, std::size_t start, bool quiet) {
         Assignment a;
         a.at = position(start);
@@ -312,7 +311,7 @@ private:
     // --- values -----------------------------------------------------------------------------------------------------------
     // Up to the next key, the end of the group or the end of the text.
     void values(Assignment& a) {
-        std::size_t doubtful = 0;  // offset of a null that the Fortran standard would not see
+        std::size_t doubtful = 0;  // offset of a null value for gfortran but not for the Fortran standard
         bool doubt = false;
         skip_blanks();
         bool after_line = false;
@@ -369,7 +368,7 @@ private:
         if (a.items.size() <= kMostItems) a.items.push_back(std::move(item));
     }
 
-    // A value, with its repeat count; false when the text ended inside of it.
+    // A value with its repeat count; false if the text ends within it.
     bool item(Assignment& a, std::size_t start) {
         Item item;
         item.at = position(start);
@@ -393,7 +392,7 @@ private:
             while (!is_separator(peek())) ++at_;
             item.text = std::string(text_.substr(word, at_ - word));
             item.commented = peek() == '!';
-            // After Infinity or NaN gfortran looks ahead over line ends for the '=' of a key so named.
+            // After Infinity or NaN gfortran searches, also on later lines, for the '=' of a key with that name.
             if (is_infinity_or_nan(item.text) && (peek() == ' ' || is_line_end(peek())))
                 while (peek() == ' ' || is_line_end(peek())) ++at_;
         }
@@ -420,7 +419,7 @@ private:
         at_ = i + 1;
     }
 
-    // Line ends inside quotes vanish, a doubled quote is one.
+    // Line ends within quotes are dropped, a doubled quote stands for one.
     bool quoted(Item& item) {
         item.quoted = true;
         const int quote = next();
@@ -459,11 +458,11 @@ private:
     std::size_t at_ = 0;
     bool at_eol_ = false, comma_ = false, complete_ = false;
     bool alone_ = false;   // assignments without a group around them
-    std::string context_;  // "&group: " while inside of one
+    std::string context_;  // "&group: " within a group
     Document document_;
 };
 
-// Edits (insert, delete, replace, swap neighbours) that make one word of the other.
+// Number of edits (insert, delete, replace, swap neighbours) between two words.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;

@@ -1,7 +1,7 @@
-// Fortran namelist text, parsed without knowing any key: groups of assignments, each with its subscript and its list of values.
-// Separators, repeat counts, null values and comments are taken as gfortran's runtime takes them.
+// Parser of Fortran namelist text, independent of the keys: groups of assignments, each with its subscript and its list of values.
+// Separators, repeat counts, null values and comments are interpreted as by gfortran's runtime.
 //
-// Existing readers are parts of Fortran runtimes: they need the keys declared beforehand, and stop at the first error without its place.
+// Existing parsers are parts of Fortran runtimes: they need the keys declared beforehand, and stop at the first error without its position.
 #pragma once
 
 #include "std.hpp"
@@ -19,9 +19,9 @@ struct Fault {
     std::string text;
 };
 
-// One value of a list, or a null value (which keeps the default), `repeat` times over.
+// One value of a list, or a null value (which keeps the default), repeated `repeat` times.
 struct Item {
-    std::string text;  // as written; quotes removed and doubled ones undone when `quoted`
+    std::string text;  // as written; if `quoted`, without the quotes and with doubled ones replaced by one
     bool null = false;
     bool quoted = false;
     bool counted = false;    // a repeat count was written
@@ -31,7 +31,7 @@ struct Item {
     Position at;
 };
 
-// (first), (first:last) or (first:last:step); what was left out is empty.
+// (first), (first:last) or (first:last:step); omitted parts are empty.
 struct Subscript {
     std::optional<long> first, last;
     long step = 1;
@@ -54,7 +54,7 @@ struct Group {
 
 struct Document {
     std::vector<Group> groups;
-    std::vector<Fault> faults;    // errors that gfortran reports, too, and unknown groups
+    std::vector<Fault> faults;    // errors that gfortran also reports, and unknown groups
     std::vector<Fault> warnings;  // text that gfortran reads differently from the Fortran standard
 };
 
@@ -63,7 +63,7 @@ inline constexpr long kLargestRepeat = 200'000'000;                // gfortran's
 inline constexpr std::size_t kMostItems = 100'000;                 // in one assignment
 inline constexpr std::size_t kMostFaults = 100;                    // reported at once
 
-// Parses a whole text: groups of the given (lower case) names, text outside of them is ignored. Never throws on bad text:
+// Parses a whole text: groups of the given (lower case) names; text outside of groups is ignored. Never throws on invalid text:
 // faults are collected.
 Document parse(std::string_view text, const std::vector<std::string_view>& known_groups);
 

@@ -12,11 +12,11 @@ std::size_t skip_digits(std::string_view word, std::size_t i) {
     return i;
 }
 
-// Infinity or zero: what a number too large or too small for a double is. `digits` has no sign and an exponent marked by e.
+// Infinity or zero, for a number too large or too small for a double. `digits` has no sign and an exponent marked by e.
 double out_of_range(std::string_view digits) {
     const std::size_t e = digits.find('e');
     const std::string_view mantissa = digits.substr(0, e);
-    double exponent = 0;  // saturates far beyond what a double can hold
+    double exponent = 0;  // saturates far beyond the range of a double
     bool negative = false;
     if (e != std::string_view::npos)
         for (const char c : digits.substr(e + 1)) {

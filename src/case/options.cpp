@@ -129,7 +129,7 @@ Options parse_options(int argc, const char* const* argv) {
 }
 
 std::string usage_text() {
-    return "usage: rsc [options] < case.nml      run a case; rsc [options] case.nml is the same, and so is a result: its case runs again\n"
+    return "usage: rsc [options] < case.nml      run a case; also: rsc [options] case.nml, or a result file, to run its case again\n"
            "  -o, --output FILE                write the result to FILE instead of &output file\n"
            "  -s, --set 'group%key=value'      override one key, the value in namelist syntax; repeatable\n"
            "      --check                      read and check the case, print it with every default, run nothing\n"
@@ -144,7 +144,7 @@ std::string usage_text() {
            "  -h, --help                       print this text\n"
            "      --man                        print the manual page: rsc --man | man -l -\n"
            "      --version                    print the version\n"
-           "Exit status: 0 done, 1 ran and failed, 2 refused before running, 130/143 stopped by a signal.\n";
+           "Exit status: 0 success, 1 failed while running, 2 refused before running, 130/143 stopped by a signal.\n";
 }
 
 std::string version_text() { return "rsc " RSC_VERSION "\n"; }

@@ -17,7 +17,7 @@ struct Options {
     std::string describe_what;  // "", "group" or "group%key"
     bool list = false;
     std::optional<int> member;       // 1-based
-    std::vector<std::string> merge;  // results of parts of a campaign, to be put together into `output`
+    std::vector<std::string> merge;  // results of parts of a campaign, to be merged into `output`
     bool resume = false;
     Progress progress = Progress::automatic;
     bool quiet = false;
@@ -26,7 +26,7 @@ struct Options {
     bool version = false;
 };
 
-// Throws Error(bad_input) for a wrong command line. Options after --help and --version are not read.
+// Throws Error(bad_input) for an invalid command line. Options after --help and --version are not read.
 Options parse_options(int argc, const char* const* argv);
 
 std::string usage_text();

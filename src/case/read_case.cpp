@@ -8,7 +8,7 @@ namespace {
 using namelist::Fault;
 using namelist::Position;
 
-// The place where a key, or an element of it, was given; line 0 when it was not.
+// The position where a key, or an element of it, was given; line 0 if it was not.
 Position place(const Ledger& ledger, const Problem& problem) {
     for (const Key* key : problem.keys) {
         const Ledger::Entry* entry = ledger.find(*key);
@@ -21,7 +21,7 @@ Position place(const Ledger& ledger, const Problem& problem) {
     return {};
 }
 
-// A key whose value could not be read still has its default: problems with that are not reported.
+// True if the value of a key of the problem could not be read. That key still has its default, so that the problem is not reported.
 bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) {
         const Ledger::Entry* entry = ledger.find(*key);
@@ -29,7 +29,7 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     });
 }
 
-// True if the study varies a key that the problem names. Each member is checked as a whole later, so the problem is reported there;
+// True if the study varies a key of the problem. Each member is checked later, so the problem is reported there;
 // the case itself is not run.
 bool varied(const Study& study, const Problem& problem) {
     return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
@@ -57,15 +57,15 @@ std::string limited_text(std::istream& in, const std::string& name) {
     return text;
 }
 
-// Keys that only a synthetic surface has, in a case that reads its surface from a file, and those that a list of levels replaces: they have
-// no effect, and are refused. At their defaults they are accepted, because the effective namelist holds every key.
+// Refuses keys without effect: those of a synthetic surface if the surface is read from a file, and those replaced by a list of levels.
+// Their defaults are accepted, because the effective namelist contains every key.
 void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     static const Case defaults;
     const auto given = [&](const char* name, const char* group = "surface") -> const Ledger::Entry* {
         const Ledger::Entry* entry = reading.ledger.find(*find_key(group, name));
         return entry && !entry->given.empty() && !entry->faulty ? entry : nullptr;
     };
-    // A namelist that gives all of these is one that rsc printed.
+    // A namelist with all of these keys was printed by rsc.
     const std::array replaced = {"start", "stop", "steps", "spacing"};
     const bool printed = std::all_of(replaced.begin(), replaced.end(), [&](const char* name) { return given(name, "indentation"); });
     for (const std::string name : replaced) {
@@ -157,7 +157,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
             faults.push_back({place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
     if (reading.study && faults.empty() && set_faults.empty()) faults = check_study(settings, *reading.study);
 
-    if (!faults.empty() || !set_faults.empty())  // otherwise whoever reads the file tells
+    if (!faults.empty() || !set_faults.empty())  // other errors are reported when the file is read
         for (const char* const group : {"surface", "indenter"}) {
             const Ledger::Entry* const entry = reading.ledger.find(*find_key(group, "file"));
             const std::string& file = group == std::string_view("surface") ? settings.surface.file : settings.indenter.file;
@@ -203,7 +203,7 @@ ReadCase read_case(const Options& options) {
     if (options.case_path.empty()) return read_case(std::cin, "<stdin>", options);
     std::ifstream in(options.case_path, std::ios::binary);
     if (!in) throw Error(Failure::bad_input, options.case_path + ": cannot be opened");
-    // A directory can be opened and then cannot be read.
+    // A directory can be opened, but not read.
     if (in.peek() == std::ifstream::traits_type::eof() && in.bad()) throw Error(Failure::bad_input, options.case_path + ": cannot be read");
     in.clear();
     return read_case(in, options.case_path, options);

@@ -107,8 +107,8 @@ std::vector<Key> make_registry() {
               RSC_FIRST(solids.R)),
         scalar(
             "solids", "hardness", real, "force/length^2", kPositiveOrInfinite,
-            "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + size_effect/r), and of the pressure on an element, H0; levels then depend on "
-            "those before them",
+            "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + size_effect/r), and of the pressure on an element, H0; each level then "
+            "depends on the levels before it",
             RSC_SLOT(solids.hardness)),
         scalar("solids", "size_effect", real, "length", kNotNegative,
                "characteristic length of the indentation size effect on the hardness of asperities", RSC_SLOT(solids.size_effect)),
@@ -119,12 +119,11 @@ std::vector<Key> make_registry() {
                "coefficient of friction mu; if above 0, the result has the tangential force at each level (one realization only)",
                RSC_SLOT(solids.friction)),
         scalar("solids", "adhesion", real, "force/length", kNotNegative,
-               "work of adhesion w: above 0 bodies stick, forces may be negative, and levels depend on those before them",
+               "work of adhesion w; above 0 forces may be negative, and each level depends on the levels before it",
                RSC_SLOT(solids.adhesion)),
-        scalar(
-            "solids", "adhesion_range", real, "length", kNotNegative,
-            "range z0 of the attraction, constant traction w/z0 across gaps below z0 (Dugdale); 0: that of the contact's edge alone (JKR)",
-            RSC_SLOT(solids.adhesion_range)),
+        scalar("solids", "adhesion_range", real, "length", kNotNegative,
+               "range z0 of the attraction, a constant traction w/z0 across gaps below z0 (Dugdale); 0: attraction of zero range (JKR)",
+               RSC_SLOT(solids.adhesion_range)),
         within(kPositive, list("solids", "layer_thickness", kMostLayers, "length", "none",
                                "thicknesses of layers on body 1, top first; E(1) and nu(1) then belong to the body below them",
                                RSC_SLOT(solids.layer_thickness))),
@@ -133,12 +132,14 @@ std::vector<Key> make_registry() {
         within(above(-1, 0.5),
                list("solids", "layer_nu", kMostLayers, "1", "none", "Poisson's ratios of the layers", RSC_SLOT(solids.layer_nu))),
 
-        within(between(0, 1),
-               list("solids", "relaxation_share", kMostRelaxations, "1", "none",
-                    "shares g_k of E(1) that body 1 loses in time, E(1) (1 - sum g_k (1 - exp(-t/tau_k))); their sum is 1 at most",
-                    RSC_SLOT(solids.relaxation_share))),
-        within(kPositive, list("solids", "relaxation_time", kMostRelaxations, "time", "none",
-                               "the times tau_k in which it does so, one a share", RSC_SLOT(solids.relaxation_time))),
+        within(
+            between(0, 1),
+            list(
+                "solids", "relaxation_share", kMostRelaxations, "1", "none",
+                "shares g_k of E(1) that body 1 loses by relaxation, E(t) = E(1) (1 - sum g_k (1 - exp(-t/tau_k))); their sum is at most 1",
+                RSC_SLOT(solids.relaxation_share))),
+        within(kPositive, list("solids", "relaxation_time", kMostRelaxations, "time", "none", "relaxation times tau_k, one for each share",
+                               RSC_SLOT(solids.relaxation_time))),
 
         one_of(
             "surface", "source", names(kSourceNames),
@@ -150,7 +151,7 @@ std::vector<Key> make_registry() {
             "realization k is then the k-th file in alphabetical order",
             RSC_SLOT(surface.file)),
         optional("surface", "L", 1, kPositive,
-                 "1.0; taken from the file for what is read; for a spectrum 2 pi over its smallest wavenumber",
+                 "1.0; for heights and asperities from the file; for a spectrum 2 pi over its smallest wavenumber",
                  "side of the surface (x extent of a map)", RSC_SLOT(surface.L)),
         scalar("surface", "n", integer, "1", between(2, 32768), "points along a side, even", RSC_SLOT(surface.n)),
         scalar("surface", "hurst", real, "1", between(0, 1), "Hurst exponent H", RSC_SLOT(surface.hurst)),
@@ -158,15 +159,15 @@ std::vector<Key> make_registry() {
                RSC_SLOT(surface.L_lambda_l)),
         scalar("surface", "L_lambda_s", real, "1", between(1, 32768), "L / lambda_s: the shortest wavelength",
                RSC_SLOT(surface.L_lambda_s)),
-        scalar("surface", "plateau", logical, "", kAny, "constant spectrum between the wavelengths L and lambda_l instead of none there",
+        scalar("surface", "plateau", logical, "", kAny, "constant spectrum between the wavelengths L and lambda_l instead of zero",
                RSC_SLOT(surface.plateau)),
         optional(
-            "surface", "sigma", 1, kPositive, "0.01; the rms of what was read, or of the spectrum",
-            "rms height of a random surface; for heights and asperities the length unit of unit = 'sigma' and delta0 (default for several files: that of the first)",
+            "surface", "sigma", 1, kPositive, "0.01; for data from a file the rms height of the data or of the spectrum",
+            "rms height of a random surface; for heights and asperities only the unit of length for unit = 'sigma' and delta0 (default for several files: that of the first)",
             RSC_SLOT(surface.sigma)),
         scalar(
             "surface", "aspect", real, "1", between(0.01, 100),
-            "ratio of the correlation lengths of a random surface along and across `direction`: it is stretched by sqrt(aspect) along and compressed across it",
+            "ratio of the correlation lengths of a random surface along and across `direction`: the surface is stretched by sqrt(aspect) along it and compressed across it",
             RSC_SLOT(surface.aspect)),
         scalar("surface", "direction", real, "degree", between(-360, 360),
                "direction of the long correlation length, from the x axis towards the y axis", RSC_SLOT(surface.direction)),
@@ -197,14 +198,14 @@ std::vector<Key> make_registry() {
              RSC_SLOT(surface.channel)),
         text("surface", "height_unit", 64, "unit of the heights in a text file, as UDUNITS spells it; run%length_unit if empty",
              RSC_SLOT(surface.height_unit)),
-        optional("surface", "pixel", 1, kPositive, "L gives it", "distance between neighbouring points of a text matrix, instead of L",
+        optional("surface", "pixel", 1, kPositive, "from L", "distance between neighbouring points of a text matrix, instead of L",
                  RSC_SLOT(surface.pixel)),
         optional("surface", "window", 4, kAny, "the whole map",
                  "x0, x1, y0, y1: use only this part of a height map, in the coordinates of the map", RSC_FIRST(surface.window)),
         scalar(
             "surface", "outliers", real, "1", between(0, kNoLimit),
-            "fill points of a height map like missing ones that differ from the median of the 5 x 5 points around them by more than this "
-            "number of standard deviations of these differences (estimated from their median); 0: none; 6 removes spikes and keeps roughness",
+            "points of a height map that differ from the median of the 5 x 5 points around them by more than this number of standard "
+            "deviations (estimated from the median of the differences) are filled like missing ones; 0: none; 6 removes spikes and keeps roughness",
             RSC_SLOT(surface.outliers)),
 
         one_of("asperities", "curvature", names(kCurvatureNames), "mean of the principal curvatures that defines the radius of an asperity",
@@ -212,7 +213,7 @@ std::vector<Key> make_registry() {
         one_of(
             "asperities", "law", names(kLawNames),
             "contact law of asperities: hertz: a sphere at a grid point (the paper's); elliptic: an elliptic paraboloid at the summit between the "
-            "points; fourth_order: the same with the flattening of the summit; the latter two count overlapping areas once",
+            "points; fourth_order: the paraboloid corrected by the fourth derivatives at the summit; the latter two count overlapping areas once",
             RSC_CHOICE(asperities.law)),
 
         one_of(
@@ -256,14 +257,14 @@ std::vector<Key> make_registry() {
         list("indentation", "levels", 10000, "`unit`", "start, stop and steps give the levels",
              "list of levels instead of start, stop and steps", RSC_SLOT(indentation.levels)),
         timed(optional("indentation", "duration", 1, kPositive, "none",
-                       "time from the first to the last level, spread evenly, for a body that relaxes; the first level is reached at once",
+                       "for a body that relaxes, time from the first to the last level, in equal steps; the first level is reached at once",
                        RSC_SLOT(indentation.duration))),
-        list("indentation", "times", 10000, "time", "none", "the time of each level instead of `duration`, rising",
+        list("indentation", "times", 10000, "time", "none", "time of each level, increasing, instead of `duration`",
              RSC_SLOT(indentation.times)),
         optional("indentation", "centre", 2, kAny, "the middle of the surface", "x and y of the tip of the indenter",
                  RSC_FIRST(indentation.centre)),
         one_of("indentation", "selection", names(kSelectionNames),
-               "asperities that are solved for: all that can touch, or those within selection_factor times the paper's radius",
+               "asperities in the system of equations: all that can touch, or those within selection_factor times the paper's radius",
                RSC_CHOICE(indentation.selection)),
         scalar("indentation", "selection_factor", real, "1", kPositive, "factor for selection = 'paper'",
                RSC_SLOT(indentation.selection_factor)),
@@ -277,21 +278,22 @@ std::vector<Key> make_registry() {
                RSC_SLOT(solver.max_iterations)),
         scalar("solver", "delta0", real, "sigma", above(0, 1e3), "initial regularisation of the paper's method", RSC_SLOT(solver.delta0)),
         one_of("solver", "interaction", names(kInteractionNames),
-               "deflection of the surface elsewhere by an asperity: that of a point force, or none", RSC_CHOICE(solver.interaction)),
+               "deflection of the surface around an asperity: that of a point force, or none", RSC_CHOICE(solver.interaction)),
 
         one_of("solver", "model", names(kModelNames),
                "asperities: the summits of the surface; elements: boundary elements on every point of the surface (slower, more accurate). "
                "auto: asperities for random surfaces, elements for height maps unless another key needs asperities",
                RSC_CHOICE(solver.model)),
 
-        scalar("elements", "points_per_wave", real, "1", between(4, 64),
-               "grid steps in the shortest wavelength for model = 'elements'; &compare begins with it and refines where N still changes; a "
-               "height map is used as it is",
-               RSC_SLOT(elements.points_per_wave)),
+        scalar(
+            "elements", "points_per_wave", real, "1", between(4, 64),
+            "grid steps in the shortest wavelength for model = 'elements'; &compare starts with it and refines the grid until N converges; a "
+            "height map is used on its own grid",
+            RSC_SLOT(elements.points_per_wave)),
 
         list_or_word(
             "compare", "levels", 1000, "`unit` of the indentation", names(kCompareNames),
-            "after the run, solves the level nearest to each of these by elements, too, on the first realization: the error of the "
+            "after the run, solves the level nearest to each of these by elements on the first realization, to measure the error of the "
             "asperity model on this surface. auto: the last level of a single run of the program, if elements are "
             "expected to take less than 2 s",
             RSC_SLOT(compare.levels), RSC_CHOICE(compare.what)),
@@ -309,12 +311,12 @@ std::vector<Key> make_registry() {
             RSC_SLOT(output.fields)),
         list("output", "field_levels", 1000, "`unit` of the indentation", "the last level",
              "levels whose fields are written, the nearest level to each", RSC_SLOT(output.field_levels)),
-        optional("output", "field_window", 4, kAny, "about the contact of these levels; two flats: the whole surface",
+        optional("output", "field_window", 4, kAny, "a region around the contact at these levels; two flats: the whole surface",
                  "x0, x1, y0, y1 of the region in which fields are written", RSC_FIRST(output.field_window)),
         scalar("output", "map_cells", integer, "1", between(1, 4096), "cells along a side of the coarse maps", RSC_SLOT(output.map_cells)),
         scalar("output", "radial_bins", integer, "1", between(1, 100000), "number of radii of the radial means",
                RSC_SLOT(output.radial_bins)),
-        list("output", "pdf_levels", 100, "sigma", "", "separations at which distributions are written, at the nearest level to each",
+        list("output", "pdf_levels", 100, "sigma", "", "separations at which distributions are written (the nearest level to each)",
              RSC_SLOT(output.pdf_levels)),
         scalar("output", "pdf_bins", integer, "1", between(1, 100000), "bins of the distributions", RSC_SLOT(output.pdf_bins)),
         changing(Changes::file,

@@ -7,11 +7,11 @@
 
 namespace rsc {
 
-// The nominal pressure, over E* sqrt(2 m2), from which on two flats touch nearly everywhere: less than 5 % of the area is gap, by Persson's
+// Nominal pressure over E* sqrt(2 m2) above which two flats are near full contact: less than 5 % of the area is gap, by Persson's
 // erf(sqrt(2) p/(E* h')).
 inline constexpr double kClosingPressure = 1;
 
-// The effect of a key on a result: on its numbers, only on how the file stores them, or none.
+// The effect of a key on a result: on its numbers, only on their storage in the file, or none.
 enum class Changes { numbers, file, nothing };
 
 enum class Type { logical, integer, long_integer, real, string, choice };
@@ -22,7 +22,7 @@ struct Bounds {
     bool open = false;      // low itself is excluded
     bool infinity = false;  // Infinity is allowed
     bool hold(double value) const;
-    std::string text() const;  // "> 0", "0 to 1", ... ; empty when anything goes
+    std::string text() const;  // "> 0", "0 to 1", ... ; empty without bounds
 };
 
 // An enumeration, as the number of its choice in the key's list.
@@ -39,17 +39,17 @@ struct Key {
     const char* group;
     const char* name;  // as documented; compared without case
     Type type;
-    int size;          // number of elements, the most of them for a list; 1 for a scalar
+    int size;          // number of elements, the maximum for a list; 1 for a scalar
     bool list;         // a list has as many elements as are given
-    int length;        // of a string: the most characters
+    int length;        // of a string: maximum number of characters
     const char* unit;  // "1" for a pure number, "" for text
     Bounds bounds;
     std::vector<const char*> choices;
-    const char* unset;  // for a key that may stay unset: what then holds; otherwise ""
+    const char* unset;  // for a key that may stay unset: its meaning then; otherwise ""
     const char* meaning;
     Slot (*slot)(Case&);
     Changes changes = Changes::numbers;
-    Slot (*word)(Case&) = nullptr;  // a list that may be one of `choices` instead, which holds while it is empty
+    Slot (*word)(Case&) = nullptr;  // a list that may be one of `choices` instead, which applies while the list is empty
 };
 
 // All keys, group by group in the documented order.
@@ -57,19 +57,19 @@ std::span<const Key> registry();
 // The groups, in order, &study last.
 const std::vector<std::string_view>& group_names();
 const char* group_meaning(std::string_view group);
-// Null when there is none. Any case.
+// Null if there is none. Case is ignored.
 const Key* find_key(std::string_view group, std::string_view name);
 // "; did you mean 'sigma'?", "; it belongs to &surface" or nothing.
 std::string suggest_key(std::string_view group, std::string_view name);
-// "surface%sigma", several with "or", for the name of a key without its group; empty when there is none. Any case.
+// "surface%sigma", several with "or", for the name of a key without its group; empty if there is none. Case is ignored.
 std::string keys_named(std::string_view name);
 
 // --- values by name -----------------------------------------------------------------------------------------------------------
 
-// The elements of keys that have been given, with their places: finds duplicates, and gives messages their position.
+// The elements of keys that have been given, with their positions, to detect duplicates and to locate messages.
 class Ledger {
 public:
-    // The elements given are remembered per key; for a list the values, too, until finish().
+    // The elements given, for each key; for a list also the values, until finish().
     struct Entry {
         const Key* key;
         std::vector<std::pair<long, namelist::Position>> given;  // 1-based element (character of a string), where
@@ -87,7 +87,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-// Stores the values of one assignment and reports what is wrong with them. Lists are stored by finish_lists.
+// Stores the values of one assignment and reports errors in them. Lists are stored by finish_lists.
 void assign(Case& settings, const Key& key, const namelist::Assignment& assignment, Ledger& ledger, std::vector<namelist::Fault>& faults);
 void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& faults);
 
@@ -96,13 +96,13 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& 
 // `whole`: a name without subscript needs all values of an array of fixed size.
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole = false);
 
-// The value in namelist syntax, as set_key takes it; an element with "group%key(2)". Empty for an unset value. Throws
+// The value in namelist syntax, as set_key accepts it; an element with "group%key(2)". Empty for an unset value. Throws
 // Error(bad_input) for an unknown name.
 std::string get_key(const Case& settings, std::string_view name);
 
 // --- a whole case -------------------------------------------------------------------------------------------------------------
 
-// Something wrong with a case or a single value, and the keys ("surface%n") it concerns, the most important first.
+// An error in a case or a single value, and the keys ("surface%n") it concerns, the most important first.
 struct Problem {
     std::vector<const Key*> keys;
     long element;      // 1-based for arrays, 0 otherwise
@@ -112,16 +112,16 @@ std::vector<Problem> check_case(const Case& settings);
 // Throws Error(bad_input) with a line for each problem.
 void require_valid(const Case& settings);
 
-// The case with the default of every key that changes nothing in a result.
+// The case with all keys that do not affect a result at their defaults.
 Case without_idle_keys(const Case& settings);
 
-// Every key with its value, as namelist input that reads back to the same bits.
+// Every key with its value, as namelist input that restores the same bits.
 std::string effective_namelist(const Case& settings);
 
-// Text about everything (empty name), a group or a group%key. Throws Error(bad_input) for an unknown one.
+// Describes all keys (empty name), a group or a group%key. Throws Error(bad_input) for an unknown one.
 std::string describe(std::string_view name);
 
-// The manual page rsc(1) in roff, made of what --help and --describe print.
+// The manual page rsc(1) in roff, composed of the texts of --help and --describe.
 std::string manual_page();
 
 }  // namespace rsc

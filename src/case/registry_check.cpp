@@ -42,7 +42,7 @@ private:
     }
 
     void check_key(const Key& key) {
-        // A slot could also write; here it is only read.
+        // Slots point to non-const values; here they are only read.
         const Slot slot = key.slot(const_cast<Case&>(c_));
         const auto number = [&](double value, long element) {
             const bool overflows = std::isfinite(value) && !usable(value);
@@ -121,11 +121,11 @@ private:
         refuse(relaxes(c_), "solids%relaxation_share", "with solids%relaxation_share it is not available yet");
         refuse(s.adhesion_range > 0, "solids%adhesion_range", "with adhesion_range > 0 it is not available yet; 0 is JKR");
         refuse(by_elements(c_), "solver%model", "with model = 'elements' it is not available yet");
-        refuse(!c_.output.fields.empty(), "output%fields", "fields about spots that stick are not available yet");
+        refuse(!c_.output.fields.empty(), "output%fields", "fields of contacts with adhesion are not available yet");
         refuse(c_.compare.listed(), "compare%levels", "with model = 'elements' it is not available yet; give no compare%levels");
-        refuse(c_.solver.method == Method::dgesv, "solver%method", "the paper's method knows no tension; give another method than 'dgesv'");
+        refuse(c_.solver.method == Method::dgesv, "solver%method", "method = 'dgesv' does not support tensile forces; give another method");
         refuse(c_.indentation.selection == Selection::paper, "indentation%selection",
-               "pulls in asperities beyond the circle of selection = 'paper'; give 'overlap'");
+               "needs asperities beyond the circle of selection = 'paper'; give 'overlap'");
     }
 
     void check_solids() {
@@ -133,21 +133,20 @@ private:
         check_relaxation();
         check_adhesion();
         if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]) && std::isinf(c_.solids.E[1]))
-            complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform, one at most may be rigid");
+            complain({"solids%E"}, "E = Infinity, Infinity: two rigid bodies do not deform; at most one body may be rigid");
         if (std::isfinite(c_.solids.hardness)) {
             if (c_.solids.layer_thickness.empty() && std::isinf(c_.solids.E[0]))
                 complain({"solids%hardness", "solids%E"},
-                         "hardness: the asperities of body 1 yield, so that it must not be rigid (E(1) = Infinity)");
+                         "hardness: the asperities of body 1 yield, so body 1 must not be rigid (E(1) = Infinity)");
             if (c_.solids.friction > 0)
                 complain({"solids%hardness", "solids%friction"},
                          "hardness: not available together with friction, which needs elastic asperities");
             const char* elements = by_elements(c_) ? "solver%model" : "compare%levels";
             if (by_elements(c_) || c_.compare.listed()) {
                 if (c_.solids.size_effect > 0)
-                    complain(
-                        {"solids%size_effect", elements},
-                        "size_effect: not available for elements, which have no radius; give the hardness that holds for asperities of "
-                        "this size");
+                    complain({"solids%size_effect", elements},
+                             "size_effect: not available for elements, which have no radius; give the hardness of asperities of "
+                             "this size");
             }
         }
         if (c_.solids.friction > 0 && by_elements(c_))
@@ -178,20 +177,20 @@ private:
         if (s.relaxation_share.size() != s.relaxation_time.size())
             complain({"solids%relaxation_share", "solids%relaxation_time"},
                      "relaxation_share, relaxation_time: have " + std::to_string(s.relaxation_share.size()) + " and " +
-                         std::to_string(s.relaxation_time.size()) + " values; each share needs its time");
+                         std::to_string(s.relaxation_time.size()) + " values; each share needs one time");
         double sum = 0;
         for (const double g : s.relaxation_share) sum += g;
         if (sum > 1 + 1e-12)
             complain({"solids%relaxation_share"},
-                     "relaxation_share: the shares add up to " + namelist::from_real(sum) + "; a body has no more than 1 to lose");
+                     "relaxation_share: the shares add up to " + namelist::from_real(sum) + "; their sum must be at most 1");
         if (i.duration && !i.times.empty())
-            complain({"indentation%duration", "indentation%times"}, "duration: times are given; one of the two");
+            complain({"indentation%duration", "indentation%times"}, "duration: times are given as well; give only one of the two");
         const std::size_t levels = i.levels.empty() ? static_cast<std::size_t>(std::max(i.steps, 0)) : i.levels.size();
         if (!i.times.empty() && i.times.size() != levels)
             complain({"indentation%times", i.levels.empty() ? "indentation%steps" : "indentation%levels"},
                      "times: has " + std::to_string(i.times.size()) + " values for " + std::to_string(levels) + " levels");
         if (std::adjacent_find(i.times.begin(), i.times.end(), [](double a, double b) { return !(b > a); }) != i.times.end())
-            complain({"indentation%times"}, "times: must rise from each level to the next");
+            complain({"indentation%times"}, "times: must increase from each level to the next");
         if (!relaxes(c_)) return;
         const auto together = [&](bool given, const char* key) {
             if (given)
@@ -226,13 +225,13 @@ private:
             if (c_.run.realizations > 1 && !several)
                 complain(
                     {"run%realizations", "surface%source"},
-                    "realizations: a surface that is read is one realization; for several height maps give a pattern such as maps/*.gwy as the file");
+                    "realizations: a surface from one file is one realization; for several height maps give a pattern such as maps/*.gwy as the file");
             return;
         }
         if (!(s.kurtosis > s.skewness * s.skewness + 1))
             complain({"surface%kurtosis", "surface%skewness"},
                      "kurtosis = " + namelist::from_real(s.kurtosis) + ": must be greater than skewness^2 + 1 = " +
-                         namelist::from_real(s.skewness * s.skewness + 1) + ", as that of any heights");
+                         namelist::from_real(s.skewness * s.skewness + 1) + ", a bound for any distribution");
         if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
         if (s.twin_heights == TwinHeights::measured && (s.skewness != 0 || s.kurtosis != 3))
             complain({"surface%twin_heights", "surface%skewness", "surface%kurtosis"},
@@ -252,7 +251,7 @@ private:
         if (!(s.n > 2 * s.L_lambda_s * stretched))
             complain({"surface%n", "surface%L_lambda_s", "surface%aspect"},
                      "n = " + std::to_string(s.n) + ": must be larger than 2 L_lambda_s" + (s.aspect == 1 ? "" : " sqrt(aspect)") + " = " +
-                         namelist::from_real(2 * s.L_lambda_s * stretched) + " for the grid to carry the shortest wavelength");
+                         namelist::from_real(2 * s.L_lambda_s * stretched) + " so that the grid resolves the shortest wavelength");
         const double L = s.L.value_or(1.0);
         for (const std::optional<double>& x : c_.indentation.centre)
             if (x && (*x < 0 || *x > L)) {
@@ -286,8 +285,8 @@ private:
         const double shortest = c_.surface.L_lambda_s * std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect));
         if (c_.surface.source == Source::synthetic && c_.elements.points_per_wave * shortest > 32768)
             complain({"elements%points_per_wave", "surface%L_lambda_s"},
-                     "points_per_wave = " + namelist::from_real(c_.elements.points_per_wave) + ": makes a grid of " +
-                         count(std::ceil(c_.elements.points_per_wave * shortest)) + " points a side, and 32768 is the most");
+                     "points_per_wave = " + namelist::from_real(c_.elements.points_per_wave) + ": gives a grid of " +
+                         count(std::ceil(c_.elements.points_per_wave * shortest)) + " points a side; the maximum is 32768");
     }
 
     void check_indenter() {
@@ -313,7 +312,7 @@ private:
         needs(i.slope.has_value(), "indenter%slope", "cone");
         needs(i.radius.has_value(), "indenter%radius", "punch");
         needs(!i.file.empty(), "indenter%file", "map");
-        if (i.radii[0].has_value() != i.radii[1].has_value()) complain({"indenter%radii"}, "radii: give both");
+        if (i.radii[0].has_value() != i.radii[1].has_value()) complain({"indenter%radii"}, "radii: two values are needed");
         if (shape == "sphere") return;
         if (std::isfinite(c_.solids.R[0]) && shape != "paraboloid")
             complain({"solids%R", "indenter%shape"}, "R(1) = " + namelist::from_real(c_.solids.R[0]) +
@@ -372,11 +371,10 @@ private:
         if (!(i.control == Control::pressure && relative) || by_elements(c_)) return;
         const double most = i.levels.empty() ? std::max(i.start, i.stop) : *std::max_element(i.levels.begin(), i.levels.end());
         if (most >= kClosingPressure)
-            complain(
-                {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
-                "a pressure of " + namelist::from_real(most) +
-                    " E* sqrt(2 m2): from 1 on less than 5 % of the area is gap, too little for the asperity model; use solver%model = "
-                    "'elements', which is valid up to full contact");
+            complain({i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
+                     "a pressure of " + namelist::from_real(most) +
+                         " E* sqrt(2 m2): above 1 less than 5 % of the area is gap, too little for the asperity model; use solver%model = "
+                         "'elements', which is valid up to full contact");
     }
 
     void check_sizes() {
@@ -398,12 +396,11 @@ private:
             complain({"run%first_realization", "run%realizations"}, "first_realization: the last realization would be beyond 2147483647");
         check_window("output%field_window", "output%fields", c_.output.field_window);
         if (c_.output.fields.empty() && c_.output.field_window[0])
-            complain({"output%field_window", "output%fields"}, "field_window: no fields are asked for");
+            complain({"output%field_window", "output%fields"}, "field_window: no fields are requested");
         if (c_.output.fields.empty() && !c_.output.field_levels.empty())
-            complain({"output%field_levels", "output%fields"}, "field_levels: no fields are asked for");
+            complain({"output%field_levels", "output%fields"}, "field_levels: no fields are requested");
         if (!c_.output.fields.empty() && c_.surface.source == Source::asperities)
-            complain({"output%fields", "surface%source"},
-                     "fields: are those on the points of a surface, and source = 'asperities' has none");
+            complain({"output%fields", "surface%source"}, "fields: need the points of a surface, and source = 'asperities' has none");
         if (c_.output.file.empty()) complain({"output%file"}, "file: must not be empty");
     }
 
@@ -434,7 +431,7 @@ ModelChoice model_of(const Case& settings) {
     switch (settings.surface.source) {
         case Source::synthetic:
         case Source::spectrum: return {Model::asperities, "the surface is synthetic"};
-        case Source::asperities: return {Model::asperities, "only summits are given"};
+        case Source::asperities: return {Model::asperities, "only asperities are given"};
         case Source::heights: break;
     }
     // Keys that elements do not support.

@@ -141,7 +141,7 @@ std::string_view trimmed(std::string_view text) {
     return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
 }
 
-// The lines of usage_text() between the first and the last describe options, from column 35 on.
+// All lines of usage_text() but the first and the last describe options; the descriptions begin at column 35.
 void write_options(std::ostream& out) {
     constexpr std::size_t column = 35;
     std::istringstream lines(usage_text());
@@ -152,12 +152,12 @@ void write_options(std::ostream& out) {
     }
 }
 
-// A group as describe() tells it: a line of two blanks begins a key, deeper ones explain it.
+// Output of describe() for a group as roff: a line indented by two blanks begins a key, deeper ones explain it.
 void write_group(std::ostream& out, std::string_view group) {
     out << ".SS " << escaped("&" + std::string(group)) << '\n' << escaped(group_meaning(group)) << '\n';
     std::istringstream lines(describe(group));
     std::string line;
-    std::getline(lines, line);  // the group's own
+    std::getline(lines, line);  // the line of the group itself
     bool first = false;
     while (std::getline(lines, line)) {
         if (line.starts_with("      ")) {
@@ -178,15 +178,15 @@ std::string manual_page() {
            "\"\n"
            ".SH NAME\nrsc \\- elastic contact of rough spheres by a deterministic multi\\-asperity model\n"
            ".SH SYNOPSIS\n.B rsc\n.RI [ options ]\n.B <\n.I case.nml\n.br\n.B rsc\n.RI [ options ]\n.I case.nml\n"
-           ".SH DESCRIPTION\nA case in Fortran namelist input describes which surfaces are pressed together, and how. The force, the true "
+           ".SH DESCRIPTION\nA case in Fortran namelist input describes the surfaces and the loading. The force, the true "
            "contact area, every contact, maps, radial profiles and distributions are written to a self-describing NetCDF file "
            "(ncdump \\-h). A line is printed for each level.\n"
            ".SH OPTIONS\n";
     write_options(out);
-    out << ".SH EXIT STATUS\n.TP\n.B 0\nDone.\n.TP\n.B 1\nRan and failed: a level did not converge, the disk is full.\n.TP\n.B 2\nRefused "
+    out << ".SH EXIT STATUS\n.TP\n.B 0\nDone.\n.TP\n.B 1\nFailed while running: a level did not converge, the disk is full.\n.TP\n.B 2\nRefused "
            "before running: wrong usage or case, unreadable input.\n.TP\n.B 130, 143\nStopped by SIGINT or SIGTERM; "
-           "\\-\\-resume goes on.\n.SH CASES\nEvery key has a default; any case, comments with !, repeat counts and nulls as in Fortran. Errors "
-           "are reported with file, line and column, all of them at once.\n";
+           "\\-\\-resume continues.\n.SH CASES\nEvery key has a default. Upper and lower case are equivalent; comments (!), repeat counts and nulls as in Fortran. All errors "
+           "are reported at once, with file, line and column.\n";
     for (const std::string_view group : group_names()) write_group(out, group);
     out << ".SH EXAMPLE\n.nf\n&surface     sigma = 0.01  L_lambda_s = 512  n = 2048 /\n&indentation start = 4, stop = 1, steps = 100 /\n"
            "&output      file = 'mine.nc' /\n.fi\n.SH SEE ALSO\n.BR ncdump (1).\nV. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated "

@@ -1,4 +1,4 @@
-// Values by name: stores the assignments of a namelist in a Case, and reads them back.
+// Stores the assignments of a namelist in a Case, and returns values by name.
 
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"
@@ -11,7 +11,7 @@ using namelist::Assignment;
 using namelist::Fault;
 using namelist::Item;
 
-// Elements an assignment goes through, 1-based: first, first + step, ... count of them.
+// Elements of an assignment, 1-based: first, first + step, ..., `count` in all.
 struct Walk {
     long first = 1, step = 1, count = 1;
 };
@@ -27,7 +27,7 @@ std::string quote(const Item& item) {
     return item.quoted ? namelist::from_string(shown) : "'" + shown + "'";
 }
 
-// "10um" is a number and a unit.
+// For a number followed by a unit, as in "10um".
 std::string unit_written(const Item& item) {
     const std::size_t end = item.text.find_last_of("0123456789.");
     if (item.quoted || end == std::string::npos || end + 1 == item.text.size() || !namelist::to_real(item.text.substr(0, end + 1)))
@@ -35,7 +35,7 @@ std::string unit_written(const Item& item) {
     return "; a number is written without its unit, which is run%length_unit for lengths";
 }
 
-// The most frequent reasons for a value too many.
+// The most frequent causes of surplus values.
 std::string likely_cause(const Assignment& a, const Item& item) {
     const std::string& text = item.text;
     if (item.quoted || text.empty()) return {};
@@ -162,7 +162,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     return {};
 }
 
-// title(3:5) = 'abc': characters of the text there is, blanks where there was none.
+// title(3:5) = 'abc': replaces characters of the text, which is extended by blanks if it is shorter.
 std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item item, Ledger::Entry& entry) {
     std::string* text = std::get_if<std::string*>(&slot) ? std::get<std::string*>(slot) : nullptr;
     if (!text) return "a choice has no substring";
@@ -225,11 +225,11 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         entry.whole = true;
     }
 
-    // Elements are marked given when a value, not a null, is stored in them; a text is its characters.
+    // Elements are marked as given if a value, not a null, is stored in them; the elements of a text are its characters.
     const long elements = is_text ? 1 : walk.count;
     const long before = static_cast<long>(entry.given.size());
     const auto mark = [&](long first, long count, const namelist::Position& at) {
-        if (entry.faulty) return;  // one complaint about a key given many times is enough
+        if (entry.faulty) return;  // one message for a key given several times is enough
         for (const auto& [element, where] : std::span(entry.given).first(static_cast<std::size_t>(before)))
             if (element >= first && element < first + count) {
                 fault(at, "given twice, first" + at_line(where));
@@ -299,7 +299,7 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
 
 namespace {
 
-// "group%key(2)" apart: the key and the assignment `key(2) = value`.
+// Splits "group%key(2)" into the key and the assignment `key(2) = value`.
 struct Named {
     const Key* key;
     Assignment assignment;
@@ -350,7 +350,7 @@ std::string element_text(const Key& key, const Slot& slot, long element) {
     return namelist::from_string(key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
 }
 
-// check_case's part for one key.
+// The part of check_case for one key.
 std::string out_of_bounds(Case& settings, const Key& key) {
     for (const Problem& problem : check_case(settings))
         if (problem.keys.size() == 1 && problem.keys.front() == &key) return problem.text;
@@ -375,7 +375,7 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
     assign(changed, *key, assignment, ledger, faults);
     finish_lists(changed, ledger, faults);
     if (!faults.empty()) {
-        // The group is in the name already.
+        // The name includes the group.
         const std::string context = "&" + std::string(key->group) + ": ";
         const std::string& text = faults.front().text;
         throw Error(Failure::bad_input, text.starts_with(context) ? text.substr(context.size()) : text);
@@ -386,7 +386,7 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
 
 std::string get_key(const Case& settings, std::string_view name) {
     const auto [key, assignment] = named(name, "");
-    // A slot could also write; here it is only read.
+    // Slots point to non-const values; here they are only read.
     const Slot slot = key->slot(const_cast<Case&>(settings));
     long size = key->size;
     if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = static_cast<long>((*list)->size());

@@ -9,7 +9,7 @@ namespace {
 
 using namelist::Fault;
 
-// "solids%r" with subscript (2) -> "solids%R(2)"; empty and a fault when there is no such thing.
+// "solids%r" with subscript (2) -> "solids%R(2)"; empty and a fault if there is no such key.
 std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) {
     const auto fault = [&](const std::string& text) {
         faults.push_back({a.at, "&study: " + text});
@@ -112,7 +112,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
 std::vector<Fault> check_study(const Case& base, const Study& study) {
     std::vector<Fault> faults;
     if (study.axes.empty()) return {{study.at, "&study: no lists of values"}};
-    // Every member holds a copy of the list of levels: without this limit a short text could take all memory.
+    // Every member stores a copy of the list of levels: without this limit a short text could use all memory.
     const std::size_t held = member_count(study) * base.indentation.levels.size();
     if (held > kMostLevels)
         return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
@@ -157,7 +157,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
             const std::size_t i = study.mode == StudyMode::product ? m / slower % axis.values.size() : m;
             member.values.emplace_back(axis.key, axis.values[i]);
         }
-        // The bounds of each key were checked before; what can still be wrong are relations between keys.
+        // The bounds of each key were checked before; only relations between keys remain.
         for (const auto& [key, value] : member.values) set_key(member.settings, key, value);
         set_file(member, count);
         for (const Problem& problem : check_case(member.settings))

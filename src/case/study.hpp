@@ -1,4 +1,4 @@
-// A &study: lists of values for keys, and the cases they make.
+// A &study: lists of values for keys, and the cases of their combinations.
 #pragma once
 
 #include "case/case.hpp"
@@ -6,7 +6,7 @@
 
 namespace rsc {
 
-// product: every combination, the first key slowest; zip: the lists side by side.
+// product: every combination, the first key varying slowest; zip: the k-th values of all lists together.
 struct Study {
     struct Axis {
         std::string key;                  // "surface%sigma" or an element, "solids%R(2)"
@@ -22,7 +22,7 @@ struct Study {
 struct Member {
     int index = 1;                                            // 1-based
     std::vector<std::pair<std::string, std::string>> values;  // key, value in namelist syntax
-    Case settings;                                            // output%file is the member's own
+    Case settings;                                            // output%file is numbered by member
 };
 
 inline constexpr std::size_t kMostMembers = 10'000;
@@ -31,7 +31,7 @@ inline constexpr std::size_t kMostLevels = 10'000'000;  // of indentation%levels
 // Reads a &study group; faults are added with their places.
 Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& faults);
 
-// Faults in the study's keys, values and lengths, each tried alone on `base`.
+// Faults in the study's keys, values and lengths, each checked alone on `base`.
 std::vector<namelist::Fault> check_study(const Case& base, const Study& study);
 
 // All members in order, each of them checked (check_case). Throws Error(bad_input) naming the members that are wrong.

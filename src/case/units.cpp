@@ -10,8 +10,8 @@ namespace {
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 
-// UDUNITS keeps its status in a global variable, prints to stderr unless told otherwise, and reads numbers by the locale: while an
-// object of this class lives, one thread uses it, nothing is printed, and the decimal mark is a point.
+// UDUNITS stores its status in a global variable, prints to stderr by default, and reads numbers by the locale. During the lifetime of an
+// object of this class only one thread uses UDUNITS, nothing is printed, and the decimal mark is a point.
 class Session {
 public:
     Session() : lock_(mutex()), old_handler_(ut_set_error_message_handler(ut_ignore)) {
@@ -24,7 +24,7 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    // The units there are, read once from UDUNITS's XML files. Never freed: another thread may be asking while the program ends.
+    // The unit system, read once from UDUNITS's XML files. Never freed: another thread may use it while the program ends.
     ut_system* system() {
         static ut_system* const units = ut_read_xml(nullptr);
         if (!units)
@@ -62,13 +62,13 @@ std::string trimmed(const std::string& text) {
 double factor_between(const Unit& from, const Unit& to) {
     const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(from.get(), to.get()), cv_free);
     if (!converter || cv_convert_double(converter.get(), 0.0) != 0) return 0;
-    // Units are decimal fractions of each other, but products of their prefixes have rounding errors.
+    // Conversion factors are short decimal numbers; rounding to 15 digits removes the errors of their products.
     char digits[40];
     std::snprintf(digits, sizeof digits, "%.14e", cv_convert_double(converter.get(), 1.0));
     return std::strtod(digits, nullptr);
 }
 
-// What a quantity is called, the unit it is taken in unless told otherwise, one that measures it, and examples.
+// Name of a quantity, default unit, a unit that measures it, and examples.
 struct Known {
     const char *name, *usual, *measure, *examples;
 };
@@ -89,7 +89,7 @@ std::string problem_of(Session& session, const std::string& text, const Unit& un
 }  // namespace
 
 std::string unit_problem(const std::string& text, Quantity quantity) {
-    // Not looked up, so that the defaults work without the list of units.
+    // Not parsed, so that the defaults work without the list of units.
     if (text.empty() || text == "1" || text == known(quantity).usual) return {};
     Session session;
     return problem_of(session, text, session.parse(trimmed(text)), quantity);

@@ -1,4 +1,4 @@
-// Units as UDUNITS-2 spells and knows them. May be called by several threads.
+// Units in the syntax of UDUNITS-2. Thread-safe.
 #pragma once
 
 #include "std.hpp"
@@ -12,8 +12,8 @@ enum class Quantity { length, force, time };
 std::string unit_problem(const std::string& text, Quantity quantity);
 
 // 1 `from` in `to`^power, `to` being a unit of length: 0.001 for "um" and "mm", 1000 for "um-1", "mm" and -1. Texts in UTF-8 or
-// Latin-1 ("µm", "Å"), blanks around them ignored. Equal texts (power 1) and pure numbers on both sides give 1. Throws
-// Error(bad_input) saying which of the two is wrong; it names no file: the caller does.
+// Latin-1 ("µm", "Å"), blanks around them ignored. Equal texts (power 1) and pure numbers on both sides give 1. Throws Error(bad_input)
+// that names the wrong unit; the caller adds the file name.
 double length_factor(const std::string& from, const std::string& to, int power = 1);
 
 // A unit in the spelling of UDUNITS: powers of a length and a force unit, unit_of("mm", -2, "N", 1) is "N mm-2"; "1" if both
