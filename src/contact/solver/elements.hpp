@@ -1,23 +1,14 @@
-// The contact of elements: p >= 0, w = K p - g0 >= 0, p w = 0 on the pixels of a surface. K is symmetric and positive definite: the
-// pressures are the one minimum of the energy p'Kp/2 - g0'p over p >= 0.
+// The contact of elements on a free surface: BoundedSolver on the pixels that may touch, with the Z0 in their penetrations. Pixels far from
+// pressure stay outside a working set and are checked at the end; conjugate gradients are preconditioned by every spot solved alone.
 #pragma once
 
 #include "contact/interaction/pixel_products.hpp"
+#include "contact/solver/bounded.hpp"
 #include "contact/solver/spot_blocks.hpp"
 
 namespace rsc {
 
-struct ElementsOutcome {
-    bool converged = false;
-    int iterations = 0;   // rounds: sets of pixels under pressure tried
-    long products = 0;    // products with K
-    double residual = 0;  // what the conditions miss: see ElementsSolver::error
-};
-
-// Primal-dual active set: pixels whose pressure falls below 0 leave, pixels that penetrate enter, some steps of conjugate gradients on
-// the pixels under pressure in between, preconditioned by every spot solved alone. Where the sets do not settle in some rounds, the
-// energy is made to fall in every round, so that rounds cannot repeat. Pixels far from pressure stay outside a working set, and are checked at the end.
-class ElementsSolver {
+class ElementsSolver : private BoundedSolver {
 public:
     // Pressures are bounded by `highest` (the hardness; Infinity: none): where p = highest, w may be negative.
     ElementsSolver(PixelProducts& products, double highest);
@@ -31,40 +22,33 @@ public:
     // same pressures then leave no penetration anywhere.
     void press_out(std::vector<Pixel>& pixels, std::vector<double>& depth);
 
-    // -d(sum of p)/dZ0 of the last answer: sum of q over the pixels under pressure, where K q = 1, to a relative residual of
-    // `tolerance`. Pressed further, pixels at the highest pressure keep it; on the way back they are elastic.
-    enum class Way { further, back };
-    double stiffness(double tolerance, Way way);
-
-    // p'Kp/2 of the last answer, evaluated as g0'p - p'Kp/2 = sum p (g0 - w)/2, which equals it at the solution; pixels at the highest
-    // pressure with p (g0 + w)/2.
-    double energy() const;
+    // -d(sum of p)/dZ0 of the last answer, to a relative residual of `tolerance`: BoundedSolver::stiffness.
+    double stiffness(double tolerance, bool back);
+    using BoundedSolver::energy;
 
 private:
     void start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p);
     std::size_t guess(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& over, double& least,
                       std::vector<double>& p);
-    void draw(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& p);
-    void evaluate(PixelProducts::Accuracy accuracy);
-    void find_free();
-    void descend(int most_steps, double reduction);
-    long bound();
-    void keep_falling(PixelProducts::Accuracy accuracy);
-    long join(const std::vector<Pixel>& pixels, const std::vector<double>& g0);
-    // Rms of w where 0 < p < highest and of penetrations left elsewhere, over the number of pixels under pressure, by the mean of g0
-    // weighted with p.
-    double error() const;
+    void draw(const std::vector<double>& p);
+    void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
+    void precondition(const std::vector<double>& r, std::vector<double>& y) override;
+    void freed() override;
+    bool judge_exactly(bool exact, double residual, int rounds) override;
+    bool complete(bool solved, double residual) override;
+    long join();
 
     PixelProducts& products_;
-    double highest_;
-    // The working set: positions in the pixels given, values. `member_`: pixels given that belong to it whatever their pressure.
+    // The pixels given, those of them that belong to the working set whatever their pressure, and whether those outside were looked at.
+    const std::vector<Pixel>* pixels_ = nullptr;
+    const std::vector<double>* g0_ = nullptr;
     std::vector<char> member_;
+    bool looked_ = false;
+    double tolerance_ = 0;
+    // The working set: positions in the pixels given, places.
     std::vector<int> position_;
     std::vector<Pixel> set_;
-    std::vector<double> g0_, p_, w_, direction_, image_, before_p_, before_w_;
-    // Positions in the working set of the pixels that are neither held at 0 nor at the highest pressure.
-    std::vector<int> free_;
-    std::vector<double> r_, z_;
+    std::vector<double> r_, y_;  // over the free ones
     SpotBlocks blocks_;
 };
 

@@ -35,8 +35,9 @@ public:
     // carries no more goes on penetrating.
     double closed() const;
 
-    // Heights were changed, as accepting a solution does that lowers pixels at the highest pressure by their penetration: the last
-    // solution still holds.
+    // Pixels at the highest pressure, where they penetrate, are lowered by it: the last solution still holds. Returns which of pixels() they
+    // are and how far; whoever owns the heights has to lower them, and say so.
+    std::vector<std::pair<Pixel, double>> press_out();
     void heights_changed();
 
     // K p at every point, row by row, of pressures p on some of them; its mean is 0.
@@ -49,7 +50,6 @@ public:
     double separation() const;
     const std::vector<Pixel>& pixels() const;      // under pressure, row by row
     const std::vector<double>& pressures() const;  // theirs
-    const std::vector<double>& gaps() const;       // theirs: w, 0 within the residual but where p = highest
     // -d(mean pressure)/dZ0. Pressed further, pixels at the highest pressure keep it; on the way `back` they are elastic.
     double stiffness(bool back);
     // p'Kp/2 a pixel, to the square of the residual.
