@@ -24,15 +24,15 @@ void check(int status, const std::string& path) {
         throw Error(Failure::file_system,
                     "cannot write '" + path + "': a variable is too large for &output format='classic'; use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
-        throw Error(Failure::no_memory, "no memory to put '" + path + "' together; write less (&output contacts, heights)");
+        throw Error(Failure::no_memory, "not enough memory for '" + path + "'; write less (&output contacts, heights)");
     // The file is written in memory: if NetCDF or HDF5 fail there, lack of memory is the likely reason, whatever error they report.
     throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
                 "'" + path + "' cannot be written (" + nc_strerror(status) +
-                    "), most likely for want of memory; write less (&output contacts, heights) or use format='classic'");
+                    "), most likely for lack of memory; write less (&output contacts, heights) or use format='classic'");
 }
 
 // The bytes of an empty netCDF-4 file. A file created in memory loses the order of its variables; one created on disk and opened in memory
-// keeps it. HDF5 crashes if the disk is full, so that the space is checked first.
+// keeps it. HDF5 crashes if the disk is full, so the space is checked first.
 std::vector<char> make_empty(const std::string& path, int mode) {
     std::error_code none;
     int error = 0;
@@ -46,7 +46,7 @@ std::vector<char> make_empty(const std::string& path, int mode) {
         std::vector<char> bytes(1 << 16);
         int status = NC_NOERR, ncid = -1;
         const ssize_t written = ::write(fd, bytes.data(), bytes.size()), size = static_cast<ssize_t>(bytes.size());
-        // A write that was cut short does not say why; the next one does.
+        // A short write sets no errno; the next one does.
         const bool whole =
             written == size || (written >= 0 && ::write(fd, bytes.data(), static_cast<std::size_t>(size - written)) == size - written);
         const bool room = whole && ::ftruncate(fd, 0) == 0 && ::lseek(fd, 0, SEEK_SET) == 0;
@@ -91,16 +91,16 @@ public:
         std::free(image_.memory);
     }
     int id() const { return ncid_; }
-    // Ends the writing; the bytes of the file, which live as long as this does.
+    // Ends the writing and returns the bytes of the file, which are valid as long as this object.
     std::span<const char> close() {
-        NC_memio image{};  // after a failure it may name memory that is released already
+        NC_memio image{};  // after a failure it may point to freed memory
         check(nc_close_memio(std::exchange(ncid_, -1), &image), path_);
         image_ = image;
         return {static_cast<const char*>(image_.memory), file_size()};
     }
 
 private:
-    // HDF5's memory is padded; its superblock (version 2 or 3, 8-byte offsets) holds where the file ends.
+    // HDF5's memory is padded; its superblock (version 2 or 3, 8-byte offsets) contains the end of the file.
     std::size_t file_size() const {
         const auto* bytes = static_cast<const unsigned char*>(image_.memory);
         if (image_.size < 48 || bytes[0] != 0x89 || bytes[1] != 'H' || bytes[8] < 2 || bytes[9] != 8) return image_.size;
@@ -114,13 +114,13 @@ private:
     NC_memio image_{};
 };
 
-// HDF5 may crash, now or when the program ends, if it is out of memory: the memory it needs is allocated for a test first.
-// The image of the file is copied when it grows, and once more to be read.
+// HDF5 may crash, now or when the program ends, if it is out of memory: the memory it needs is allocated first as a test.
+// The image of the file is copied when it grows, and once more for reading.
 void require_memory(double bytes, const std::string& path) {
     const double wanted = 3 * bytes + (32 << 20);
     void* const probe = wanted < 9e18 ? std::malloc(static_cast<std::size_t>(wanted)) : nullptr;
     if (probe == nullptr)
-        throw Error(Failure::no_memory, "no memory to put '" + path + "' together (some " + std::to_string(std::lround(wanted / 1e6)) +
+        throw Error(Failure::no_memory, "not enough memory for '" + path + "' (some " + std::to_string(std::lround(wanted / 1e6)) +
                                             " MB); write less (&output contacts, heights, map_cells)");
     std::free(probe);
 }

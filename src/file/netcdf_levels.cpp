@@ -12,7 +12,7 @@ const char* const kPaper =
     "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, "
     "Journal of Multiscale Modelling (2018)";
 
-// flag_values from `first` on, and the names of an enumeration from there.
+// flag_values from `first` on, with the names of the enumeration.
 template <std::size_t n>
 NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t first) {
     std::vector<std::int32_t> values;
@@ -35,14 +35,14 @@ void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("indenter", r_.indenter.shape->text(r_.length_unit));
     file_.attribute("comment",
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
-                    "makes this file again, "
-                    "equal but for the attribute `history`.");
+                    "reproduces this file, "
+                    "except for the attribute `history`.");
     if (r_.path_dependent)
         file_.attribute(
             "path",
             r_.relaxes
-                ? "levels depend on those before them: a body that relaxes remembers its loads"
-                : "levels depend on those before them: points that yielded (solids hardness) stay lowered, what is attached (solids adhesion) stays attached until it is pulled off");
+                ? "levels depend on the levels before: the response of a relaxing body depends on the history of loads"
+                : "levels depend on the levels before: points that yielded (solids hardness) remain lowered, attached spots (solids adhesion) remain attached until pull-off");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
@@ -100,15 +100,15 @@ void ResultTable::levels() {
     for (std::size_t k = 0; k < pull_off.size(); ++k)
         for (std::size_t s = 0; s < o_.steps; ++s) pull_off[k] = std::fmin(pull_off[k], o_.row(k, s).least_force);
     if (computed(pull_off))
-        add_absent("pull_off_force", {"realization"}, r_.force_unit, "the smallest force met", pull_off,
-                   "adhesion: negative where bodies have to be pulled apart; also between levels");
+        add_absent("pull_off_force", {"realization"}, r_.force_unit, "smallest force since the first level", pull_off,
+                   "adhesion: including forces between levels; negative if separating the bodies takes a tensile force");
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {
     return !std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
 }
 
-// The components of a vector as the last dimension, which is declared here for all of them.
+// The components of a vector as the last dimension, which is declared on the first call.
 std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::vector<double>& y) {
     if (!components_) {
         components_ = true;
@@ -122,9 +122,9 @@ std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::
 }
 
 void ResultTable::means() {
-    add("converged", {"step"}, "1", "realizations that count in the means", o_.force.count,
+    add("converged", {"step"}, "1", "number of realizations in the means", o_.force.count,
         comment(
-            "levels that did not converge (status 4) are left out of all means of levels, of maps and of distributions, and those that lack a quantity out of its own"));
+            "all means (of levels, maps and distributions) exclude levels that did not converge (status 4); the mean of a quantity also excludes levels where it is missing"));
     if (r_.force_control) {
         add_absent("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
         add_absent("separation_std", {"step"}, unit(1), "standard deviation of the separation over realizations", o_.separation.deviation,
@@ -144,8 +144,9 @@ void ResultTable::means() {
         }
         add_absent(name + "_mean", dims, units(q), "mean " + of, s.mean);
         add_absent(name + "_std", dims, units(q), "standard deviation of the " + of, s.deviation, "divisor M - 1 for M realizations");
-        add_absent(name + "_stderr", dims, units(q), "standard error of " + name + "_mean", s.error, name + "_std over the root of M");
-        if (s.count != o_.force.count) add(name + "_count", {"step"}, "1", "realizations that have the " + std::string(q.plain), s.count);
+        add_absent(name + "_stderr", dims, units(q), "standard error of " + name + "_mean", s.error, name + "_std/sqrt(M)");
+        if (s.count != o_.force.count)
+            add(name + "_count", {"step"}, "1", "number of realizations with a value of the " + std::string(q.plain), s.count);
     }
 }
 
@@ -177,10 +178,10 @@ void ResultTable::surfaces() {
         add("kurtosis", dims, "1", "kurtosis of the heights", of_surfaces([](const auto& s) { return s.kurtosis; }));
     }
     add_absent("rms_slope", dims, "1", "rms gradient of the surface", of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
-               "sqrt(2 m2); the theory is one of small slopes");
+               "sqrt(2 m2); the theory assumes small slopes");
     std::vector<std::int32_t> summits, saddles;
     for (const SurfaceStatistics& s : o_.surface) summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
-    if (std::any_of(summits.begin(), summits.end(), [](auto n) { return n > 0; })) {  // elements do not look for summits
+    if (std::any_of(summits.begin(), summits.end(), [](auto n) { return n > 0; })) {  // elements do not search for summits
         add("summits", dims, "1", "number of asperities", summits);
         add("saddles", dims, "1", "grid maxima that are not asperities", saddles,
             comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' maxima without a summit between the grid "
@@ -205,16 +206,16 @@ void ResultTable::theory() {
            "sqrt(3) m4/(18 pi m2)");
     const double R = r_.indenter.shape->hertz_radius();
     add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
-        comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the topmost"));
+        comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
-               "1/R* = 1/R1 + 1/R2; absent for two flats and for other shapes than spheres");
+               "1/R* = 1/R1 + 1/R2; missing for two flats and for shapes other than spheres");
     add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
     add("tip_y", {}, unit(1), "y of the indenter's tip", std::vector<double>{r_.indenter.y0});
     outline();
     add_absent("sigma_reference", {}, unit(1), "rms height used as the unit of separations", {r_.sigma});
 }
 
-// The part of body 2 that can meet heights of up to 4 rms heights above the mean plane at the deepest level; hardly any point is higher.
+// The part of body 2 that can touch points up to 4 rms heights above the mean plane at the deepest level; hardly any point is higher.
 void ResultTable::outline() {
     double lowest = std::numeric_limits<double>::infinity();
     for (const double Z0 : of_rows<double>([](const LevelValues& row) { return row.separation; }))
@@ -253,7 +254,7 @@ void ResultTable::regimes() {
     if (r_.indenter.period.finite()) return two_flats(m);
     if (r_.indenter.layers.count > 0) return;  // no closed form
     add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
-               "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); absent for two flats and where no closed form is known");
+               "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); missing for two flats and for indenters without a closed form");
 }
 
 void ResultTable::friction() {
@@ -267,10 +268,11 @@ void ResultTable::friction() {
          {"cycle", std::vector<std::int32_t>{static_cast<std::int32_t>(f.first) + 1, static_cast<std::int32_t>(f.points)}},
          {"comment", "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 % of it, closed"}});
     const Names loop{"step", "point"};
-    const std::string none = "absent without contact";
+    const std::string none = "missing without contact";
     add_absent("tangential_displacement", loop, unit(1), "tangential displacement of the indenter", f.displacement, none);
-    add_absent("tangential_force", loop, unit(0, 1), "tangential force", f.force,
-               "partial slip with the coefficient solids%friction at every point; at full slip it is that times the normal force; " + none);
+    add_absent(
+        "tangential_force", loop, unit(0, 1), "tangential force", f.force,
+        "partial slip with the coefficient solids%friction at every point; at full slip the coefficient times the normal force; " + none);
     add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness in full stick", f.stiffness,
                "4 G*/E* times -dN/dZ0; " + none);
     add_absent("cycle_work", {"step"}, unit(1, 1), "friction work of a cycle", f.cycle_work, "the area of the loop; " + none);
@@ -281,7 +283,7 @@ void ResultTable::two_flats(const Moments& m) {
     double summits = 0, kappa = 0, m2 = 0;
     for (const SurfaceStatistics& s : o_.surface) summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g, m2 += s.m2;
     const auto n = static_cast<double>(o_.surface.size());
-    m2 /= n;  // of the surfaces made: on a band that begins at L their slope is not that of m2_theory
+    m2 /= n;  // of the generated surfaces: for a band that begins at L their slope differs from that of m2_theory
     const FlatSummits own{summits / n / A0, n / kappa, std::sqrt(std::max(0.0, m.m0 - kSummitVariance * m.m2 * m.m2 / m.m4))};
     std::vector<double> persson, bush, greenwood;
     for (double N : o_.force.mean) {

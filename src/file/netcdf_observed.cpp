@@ -7,7 +7,7 @@
 namespace rsc {
 namespace {
 
-// Attributes of one fitted distribution: a value a pdf_level each. NaN becomes the fill value, like NaN in a variable.
+// Attributes of one fitted distribution, with one value for each pdf_level. NaN becomes the fill value, as in a variable.
 template <typename Get>
 std::vector<double> of_fits(const std::vector<FittedDistributions>& fits, Get get) {
     std::vector<double> values;
@@ -44,14 +44,14 @@ void ResultTable::maps() {
     add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations", o_.map_pressure,
         comment("p = sum of f/w^2 over the asperities in the cell"));
     if (o_.realizations == 1) return;
-    const std::string rest = ": what the sum over realizations has beyond the mean's product with their number and w^2",
+    const std::string rest = ": sum over realizations minus the mean times number of realizations times w^2",
                       why = "for rsc --merge and --resume, which add realizations without rounding";
     add("map_area_fraction_rest", dims, unit(2), "rest of map_area_fraction" + rest, o_.map_area_rest, comment(why));
     add("map_pressure_rest", dims, unit(0, 1), "rest of map_pressure" + rest, o_.map_force_rest, comment(why));
 }
 
 void ResultTable::radial() {
-    if (o_.radii.empty()) return;  // the tip is not over the map
+    if (o_.radii.empty()) return;  // the tip is not above the map
     file_.dimension("radius", o_.radii.size());
     add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
         comment("middles of rings of equal width, from the tip to the largest circle in the map"));
@@ -66,7 +66,7 @@ void ResultTable::radial() {
         for (double r : o_.radii)
             hertz.push_back(std::isfinite(R) && N >= 0 ? hertz_contact(N, R, r_.indenter.E_star).pressure(r) : kAbsent);
     add_absent("hertz_pressure", dims, unit(-2, 1), "pressure of the smooth sphere at force_mean (Hertz)", hertz,
-               "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); absent for flat on flat and for what is no sphere");
+               "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); missing for two flats and for shapes other than spheres");
 }
 
 void ResultTable::bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width) {
@@ -87,8 +87,8 @@ void ResultTable::distributions() {
         step.push_back(f.sum.step + 1);
     }
     for (int b = 1; b <= o_.options.pdf.bins; ++b) bin.push_back(b);
-    add("pdf_level", {"pdf_level"}, "1", "Z0/sigma asked for", wanted);
-    add("pdf_separation_sigma", {"pdf_level"}, "1", "Z0/sigma of the nearest level run, which the distributions are of", used,
+    add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", wanted);
+    add("pdf_separation_sigma", {"pdf_level"}, "1", "Z0/sigma of the nearest level, to which the distributions belong", used,
         comment("mean over realizations under force control"));
     add("pdf_step", {"pdf_level"}, "1", "number of that level", step,
         {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "0: it differs between realizations (force control)"}});
@@ -111,9 +111,9 @@ void ResultTable::distributions() {
     add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", number);
     add("part", {"part"}, "1", "part of a sum", std::vector<std::int32_t>{1, 2},
         {{"flag_values", std::vector<std::int32_t>{1, 2}}, {"flag_meanings", "rounded rest"}});
-    add("pdf_sums", {"pdf_level", "pdf_sum", "part"}, "1", "sums over realizations of which the distributions are made", sums,
+    add("pdf_sums", {"pdf_level", "pdf_sum", "part"}, "1", "sums over realizations from which the distributions are computed", sums,
         comment(
-            "exact: the sum of the two parts, in powers of the units of length and force; for rsc --merge and --resume, which add realizations without rounding"));
+            "the exact value is the sum of the two parts, in powers of the units of length and force; for rsc --merge and --resume, which add realizations without rounding"));
 }
 
 void ResultTable::counts(const std::string& name, const std::string& axis, const std::string& long_name,
@@ -127,7 +127,7 @@ void ResultTable::counts(const std::string& name, const std::string& axis, const
     add(name, {"pdf_level", "bin"}, "1", long_name, values,
         {{"coordinates", axis},
          {"overflow", overflow},
-         {"comment", "whole numbers; overflow: contacts beyond the last bin, one value a pdf_level"}});
+         {"comment", "integers; overflow: contacts beyond the last bin, one value for each pdf_level"}});
 }
 
 void ResultTable::density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
@@ -136,8 +136,8 @@ void ResultTable::density(const std::string& name, const std::string& axis, cons
     for (const FittedDistributions& f : o_.distributions) values.insert(values.end(), (f.*which).begin(), (f.*which).end());
     NetcdfAttributes all{{"coordinates", axis}};
     append(all, std::move(attributes));
-    append(all,
-           comment(note + "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one value a pdf_level; " + kAbsentMeans));
+    append(all, comment(note + "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one value for each pdf_level; " +
+                        kAbsentMeans));
     file_.variable({name, {"pdf_level", "bin"}, units, long_name, std::move(values), std::move(all), true});
 }
 
@@ -164,7 +164,7 @@ void ResultTable::pressure() {
     add("pressure_area", {"pdf_level", "bin"}, unit(2), "contact area by pressure, summed over realizations", values,
         {{"coordinates", "pressure_bin"},
          {"overflow", overflow},
-         {"comment", "overflow: area beyond the last bin, one value a pdf_level"}});
+         {"comment", "overflow: area beyond the last bin, one value for each pdf_level"}});
     const auto parameter = [&](const std::string& name, double GammaFit::*p) {
         return std::pair<std::string, NetcdfAttribute>{name, of_fits(fits, [p](const auto& f) { return f.gamma.*p; })};
     };
@@ -183,7 +183,7 @@ void ResultTable::pressure() {
             &FittedDistributions::pressure_pdf, std::move(a),
             "each contact contributes 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2), weighted by its area; fit: gamma p^alpha "
             "exp(-(p/delta)^beta), "
-            "maximum likelihood of the bins; errors are those of independent_contacts = (sum A)^2/sum A^2 draws");
+            "by maximum likelihood of the bins; standard errors for independent_contacts = (sum A)^2/sum A^2 draws");
 }
 
 void ResultTable::spot_area() {
@@ -208,7 +208,7 @@ void ResultTable::asperities() {
         if (!values.empty()) add_disorder("asperity_" + std::string(column.name), {"asperity"}, units, column.meaning, values);
     }
     if (!r_.residual_depth.empty())
-        add("asperity_residual_depth", {"asperity"}, unit(1), "how far the summit stays pressed down without force, after the last level",
+        add("asperity_residual_depth", {"asperity"}, unit(1), "residual depth of the summit without force, after the last level",
             r_.residual_depth);
 }
 
@@ -223,19 +223,18 @@ void ResultTable::contacts() {
     NetcdfAttributes start = from_one;
     append(start, comment("level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"));
     add("contact_start", {"step"}, "1", "first contact of the level in the variables of dimension contact", plus_one(c.start), start);
-    add("contact_count", {"step"}, "1", "contacts kept of the level", c.count);
+    add("contact_count", {"step"}, "1", "number of stored contacts of the level", c.count);
     if (c.force.empty()) return;
     file_.dimension("contact", c.force.size());
     if (!c.asperity.empty()) add("contact_asperity", {"contact"}, "1", "asperity of the contact", plus_one(c.asperity), from_one);
     if (!c.x.empty()) {
-        const std::string what = " of the middle of the contact's pressure";
+        const std::string what = " of the centroid of the contact's pressure";
         add_disorder("contact_x", {"contact"}, unit(1), "x" + what, c.x);
         add_disorder("contact_y", {"contact"}, unit(1), "y" + what, c.y, comment("a contact is a set of pixels connected by their sides"));
     }
     add_disorder("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
     add_disorder("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
-    if (!c.yields.empty())
-        add("contact_yields", {"contact"}, "1", "1 where the contact yields at this level, 0 where it is elastic", c.yields);
+    if (!c.yields.empty()) add("contact_yields", {"contact"}, "1", "1 if the contact yields at this level, 0 if it is elastic", c.yields);
 }
 
 void ResultTable::residual_profile() {
@@ -243,7 +242,7 @@ void ResultTable::residual_profile() {
     if (p.depth.empty()) return;
     file_.dimension("residual_pixel", p.depth.size());
     const Names dims{"residual_pixel"};
-    const std::string points = " of the points of the surface that are lower for good";
+    const std::string points = " of the points of the surface with residual depth";
     add("residual_pixel_x", dims, unit(1), "x" + points, p.x, {{"pixel_size", std::vector<double>{p.dx}}});
     add("residual_pixel_y", dims, unit(1), "y" + points, p.y, {{"pixel_size", std::vector<double>{p.dy}}});
     add("residual_pixel_depth", dims, unit(1), "residual depth without force, after the last level", p.depth);
@@ -257,18 +256,20 @@ void ResultTable::compared() {
     for (std::int32_t& s : step) ++s;
     const Names dims{"compare"};
     const std::string by = " by elements";
-    add("compare_step", dims, "1", "number of the level that was solved by elements, too", step,
+    add("compare_step", dims, "1", "number of the level that was also solved by elements", step,
         {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "of the first realization"}});
     add("compare_separation", dims, unit(1), "separation of that level, Z0", c.separation,
-        comment(r_.force_control ? "of elements under the level's force" : ""));
+        comment(r_.force_control ? "of elements at the force of the level" : ""));
     add("compare_force", dims, unit(0, 1), "normal force" + by, c.force);
     add("compare_contact_area", dims, unit(2), "true contact area" + by, c.area);
-    add("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, not corrected for their border", c.area_pixels);
+    add("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, without the correction at borders",
+        c.area_pixels);
     add("compare_contacts", dims, "1", "number of contacts" + by, c.contacts, comment("sets of pixels connected by their sides"));
     add("compare_residual", dims, "1", "residual of the contact conditions", c.residual);
-    const std::string over = "of asperities over that of elements, less 1";
+    const std::string over = "of asperities over that of elements, minus 1";
     if (r_.force_control)
-        add_absent("separation_error", dims, unit(1), "separation of asperities less that of elements, at equal force", c.separation_error);
+        add_absent("separation_error", dims, unit(1), "separation of asperities minus that of elements, at equal force",
+                   c.separation_error);
     else
         add_absent("force_error", dims, "1", "force " + over, c.force_error);
     add_absent("compare_force_error_expected", dims, "1", "expected relative error of the force of elements", c.force_error_expected,
@@ -295,7 +296,7 @@ void ResultTable::compared() {
 void ResultTable::heights() {
     if (!r_.heights) return;
     const HeightMap& h = *r_.heights;
-    // The maps own the dimensions x and y; the heights lie on a finer grid.
+    // The dimensions x and y are those of the maps; the heights are on a finer grid.
     file_.dimension("height_y", static_cast<std::size_t>(h.ny));
     file_.dimension("height_x", static_cast<std::size_t>(h.nx));
     std::vector<double> x, y;

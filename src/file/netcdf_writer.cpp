@@ -39,13 +39,12 @@ void ResultTable::measured() {
     add("filled_points", {}, "1", "missing points of the map that were filled", std::vector<std::int32_t>{clamped(m.missing)},
         {{"share", std::vector<double>{m.missing_share}},
          {"comment",
-          "with the harmonic function of the heights around them; summits closer to them than the shortest wave, 2 pi/ks, are left out"}});
+          "with the harmonic function of the heights around them; summits closer to them than the shortest wavelength, 2 pi/ks, are excluded"}});
     if (m.outlier_times > 0)
-        add("outlier_points", {}, "1", "points among filled_points that were outliers",
-            std::vector<std::int32_t>{clamped(m.outliers.count)},
+        add("outlier_points", {}, "1", "number of filled_points that were outliers", std::vector<std::int32_t>{clamped(m.outliers.count)},
             {{"threshold", std::vector<double>{m.outliers.threshold}},
              {"standard_deviations", std::vector<double>{m.outlier_times}},
-             {"comment", "farther than the threshold from the median of the 5 x 5 points around them"}});
+             {"comment", "differing from the median of the 5 x 5 points around them by more than the threshold"}});
     std::vector<std::int32_t> values;
     std::string meanings;
     for (const char* name : kDetrendNames) {
@@ -60,7 +59,7 @@ void ResultTable::measured() {
     if (m.form.how == Detrend::sphere && std::isfinite(m.form.radius)) form.push_back({"radius", std::vector<double>{m.form.radius}});
     form.push_back(
         {"comment",
-         "least-squares fit to the points present, subtracted; slopes and second derivatives in the middle of the map: x, y, xx, xy "
+         "least-squares fit to the valid points, subtracted; slopes and second derivatives in the middle of the map: x, y, xx, xy "
          "and yy; the radius of a sphere is positive for a dome"});
     add("form_removed", {}, "1", "form subtracted from the heights", std::vector<std::int32_t>{static_cast<std::int32_t>(m.form.how)},
         form);
@@ -87,8 +86,8 @@ void ResultTable::measured() {
     scalar("sdq", "1", "rms gradient Sdq (ISO 25178-2)", m.parameters.sdq);
     scalar("isotropy_ratio", "1", "ratio of smallest to largest rms slope over all directions", m.isotropy,
            "1 for an isotropic surface, 0 for grooves");
-    scalar("points_per_wave", "1", "grid steps in the shortest wave, 2 pi/ks", m.points_per_wave(),
-           "below 4 slopes, curvatures and summits are determined by the grid, or by noise");
+    scalar("points_per_wave", "1", "grid steps in the shortest wavelength, 2 pi/ks", m.points_per_wave(),
+           "below 4 slopes, curvatures and summits are determined by the grid or by noise");
 
     file_.dimension("height_bin", m.height_pdf.size());
     std::vector<double> bins;
@@ -109,12 +108,12 @@ void ResultTable::measured() {
     add("plane_wavenumber", {"plane_wavenumber"}, unit(-1), "wavenumber of psd_plane", m.spectrum.plane_wavenumber);
     add("angle", {"angle"}, "degree", "direction of the wave vector, from the x axis towards the y axis", angles);
     add("psd_plane", {"plane_wavenumber", "angle"}, unit(4), "power spectral density by direction", m.spectrum.plane_psd,
-        comment("the other half plane is the mirror image; surface%twins = 'directional' makes surfaces with it"));
+        comment("the other half plane is the mirror image; surface%twins = 'directional' generates surfaces with it"));
     const Texture& t = m.texture;
     add_absent("sal", {}, unit(1), "autocorrelation length Sal (ISO 25178-2)", {t.sal},
                "shortest lag at which the autocorrelation falls to 0.2");
     add_absent("str", {}, "1", "texture aspect ratio Str (ISO 25178-2)", {t.str},
-               t.str_bounded ? "upper bound: along the lay the autocorrelation does not fall to 0.2 within half the map" : "");
+               t.str_bounded ? "upper bound, because along the lay the autocorrelation does not fall to 0.2 within half the map" : "");
     scalar("std", "degree", "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO 25178-2)",
            m.spectrum.lay(), "at right angles to the direction with the most power");
     scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);
@@ -123,7 +122,7 @@ void ResultTable::measured() {
     file_.dimension("normal_score", t.score.size());
     add("normal_score", {"normal_score"}, "1", "normal score: the share erfc(-score/sqrt 2)/2 of the points is lower", t.score);
     add("height_quantile", {"normal_score"}, unit(1), "height about the mean at a normal score", t.height,
-        comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' makes surfaces with it"));
+        comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' generates surfaces with it"));
     if (!t.autocorrelation.empty()) {
         const auto lags = [](int reach, double step) {
             std::vector<double> all;
@@ -157,7 +156,7 @@ void ResultTable::measured() {
          {"ks_seen", std::vector<std::int32_t>{found.ks_seen ? 1 : 0}},
          {"comment",
           "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, k = hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction "
-          "[degree] of the lay, mean over all directions; least squares in logarithms; ks_seen 0: the power law reaches the grid's shortest wave"}});
+          "[degree] of the lay, mean over all directions; least squares in logarithms; ks_seen 0: the power law extends to the shortest wavelength of the grid"}});
 }
 
 }  // namespace rsc

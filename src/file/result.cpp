@@ -9,14 +9,14 @@ namespace rsc {
 Contacts contacts_kept(const Case& c) {
     const bool one = c.run.realizations == 1;
     if (!one && (c.output.contacts == Contacts::last || c.output.contacts == Contacts::all))
-        throw Error(Failure::bad_input, "&output contacts: contacts are kept for one realization only, and this case has " +
+        throw Error(Failure::bad_input, "&output contacts: contacts are stored for one realization only, and this case has " +
                                             std::to_string(c.run.realizations) + "; use contacts='none' or 'auto', or realizations=1");
     if (!one && c.output.heights)
-        throw Error(Failure::bad_input, "&output heights: heights are kept for one realization only, and this case has " +
+        throw Error(Failure::bad_input, "&output heights: heights are stored for one realization only, and this case has " +
                                             std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");
     if (!one && !c.output.fields.empty())
         throw Error(Failure::bad_input,
-                    "&output fields: fields are kept for one realization only, and this case has " + std::to_string(c.run.realizations));
+                    "&output fields: fields are stored for one realization only, and this case has " + std::to_string(c.run.realizations));
     if (c.output.contacts != Contacts::automatic) return c.output.contacts;
     return one ? Contacts::all : Contacts::none;
 }
@@ -26,9 +26,8 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     options.tip_x = indenter.x0;
     options.tip_y = indenter.y0;
     options.map = make_map_grid(domain.x0, domain.y0, domain.Lx, domain.Ly, c.output.map_cells);
-    options.radial_bins = indenter.period.finite() ? 0 : c.output.radial_bins;  // two flats have no centre
-    if (c.output.pdf_levels.empty() || !(sigma > 0) || !(sqrt_m4 > 0))
-        return options;  // nothing to measure the ranges by: no distributions
+    options.radial_bins = indenter.period.finite() ? 0 : c.output.radial_bins;          // two flats have no centre
+    if (c.output.pdf_levels.empty() || !(sigma > 0) || !(sqrt_m4 > 0)) return options;  // no length scale for the ranges: no distributions
     for (double level : c.output.pdf_levels) options.pdf_levels.push_back(level * sigma);
     constexpr double sharpest = 4;  // radii down to a quarter of 1/sqrt(m4): nearly all (Nayak's density of curvatures)
     const double hardest = c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
@@ -73,7 +72,7 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         const std::size_t count = kept ? level.asperity.size() : 0;
         if (packed.force.size() + count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
             throw Error(Failure::bad_input,
-                        "&output contacts: more contacts than the result file can number; use contacts='last' or 'none'");
+                        "&output contacts: too many contacts for the indices of the result file; use contacts='last' or 'none'");
         packed.start.push_back(static_cast<std::int32_t>(packed.force.size()));
         packed.count.push_back(static_cast<std::int32_t>(count));
         if (!kept) continue;
@@ -100,7 +99,7 @@ Moments regime_moments(const Result& result) {
         mean.m4 += s.m4;
     }
     const auto n = static_cast<double>(surfaces.size());
-    return {mean.m0 / n, mean.m2 / n, mean.m4 / n, {}, {}};  // NaN for no surface, and when one lacks them
+    return {mean.m0 / n, mean.m2 / n, mean.m4 / n, {}, {}};  // NaN without surfaces, and if a surface lacks them
 }
 
 namespace {
@@ -114,7 +113,7 @@ public:
         const auto found = std::find_if(variables_.begin(), variables_.end(), [&](const auto& v) { return v.name == name; });
         return found == variables_.end() ? nullptr : &*found;
     }
-    // Absent values are NaN.
+    // Missing values are NaN.
     std::vector<double> values(const std::string& name, const std::vector<std::size_t>& lengths) const {
         const NetcdfInput::Variable* variable = find(name);
         if (!variable) refuse("it has no variable " + name + ", which is needed to merge campaigns");
@@ -137,7 +136,7 @@ private:
     std::vector<NetcdfInput::Variable> variables_;
 };
 
-// Both follow from the surface: if that was read from a file, it may have been another one.
+// Both axes depend on the surface, which may differ if it was read from a file.
 void require_same_axes(const Columns& file, const ObserveOptions& options) {
     const auto require = [&](const std::string& name, std::size_t count, double first) {
         if (file.values(name, {count}).front() != first)
@@ -192,7 +191,7 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
     read("m4_grid", &SurfaceStatistics::m4_grid);
     read("mean_kappa_g", &SurfaceStatistics::mean_kappa_g);
     read("mean_kappa_a", &SurfaceStatistics::mean_kappa_a);
-    if (!file.find("summits")) return;  // elements do not look for summits
+    if (!file.find("summits")) return;  // elements do not search for summits
     read("summits", &SurfaceStatistics::summits);
     read("saddles", &SurfaceStatistics::saddles);
 }

@@ -28,22 +28,22 @@ std::string folder_of(const std::string& path) {
 
 std::string reason_to_leave(const std::string& path, const FileKind& kind) {
     struct stat status {};
-    if (::lstat(path.c_str(), &status) != 0) return {};  // what else is wrong with the name, opening it will tell
+    if (::lstat(path.c_str(), &status) != 0) return {};  // other errors are found on opening
     if (S_ISDIR(status.st_mode)) return "this is a folder; name a file in it";
-    if (S_ISLNK(status.st_mode)) return "this is a link to another file; name that file, or remove the link first";
+    if (S_ISLNK(status.st_mode)) return "this is a link to another file; give the name of that file, or remove the link first";
     if (!S_ISREG(status.st_mode)) return "this is not a plain file (but a device, a FIFO, ...)";
     if ((status.st_mode & 0222) == 0 || ::access(path.c_str(), W_OK) != 0)
-        return "this file is read-only; name another, or allow it to be written";
+        return "this file is read-only; give another name, or make it writable";
     if (!kind.is_one(path))
-        return std::string("this file exists and is no ") + kind.name + " of rsc; it is left alone: name another, or remove it first";
+        return std::string("this file exists and is no ") + kind.name + " of rsc; it is left alone: give another name, or remove it first";
     return {};
 }
 
 void fail_to_write(const std::string& path, int error) {
     const std::string folder = folder_of(path);
-    std::string why = std::error_code(error, std::generic_category()).message() + "; see whether folder '" + folder + "' can be written to";
-    if (error == ENOSPC) why = "the disk that holds folder '" + folder + "' is full; make room there, or name a file on another disk";
-    if (error == EDQUOT) why = "the disk quota for folder '" + folder + "' is used up; make room there, or name a file on another disk";
+    std::string why = std::error_code(error, std::generic_category()).message() + "; check that folder '" + folder + "' is writable";
+    if (error == ENOSPC) why = "the disk that holds folder '" + folder + "' is full; free some space, or give a file on another disk";
+    if (error == EDQUOT) why = "the disk quota for folder '" + folder + "' is used up; free some space, or give a file on another disk";
     if (error == EFBIG) why = "the file grows beyond the limit of file sizes (see ulimit -f); raise the limit, or write less";
     throw Error(Failure::file_system, "cannot write '" + path + "': " + why);
 }
@@ -57,7 +57,7 @@ bool begins_with(const std::string& path, const std::string& start) {
 }
 
 int lock_file(int fd) {
-    // Not flock(), which HDF5 takes on files that it reads: it would refuse a result whose writer has not let go of it yet.
+    // Not flock(), which HDF5 uses on files that it reads: it would refuse a result whose writer still holds the lock.
     struct flock whole {};
     whole.l_type = F_WRLCK;
     whole.l_whence = SEEK_SET;
@@ -65,7 +65,7 @@ int lock_file(int fd) {
     return errno == EACCES ? EAGAIN : errno;
 }
 
-// A temporary that an interrupted writer left is one that no process has locked. Where locks do not work it stays.
+// A temporary file that no process has locked was left by an interrupted writer. Without working locks it is kept.
 void remove_parts_left(const std::string& path) {
     for (int k = 0; k < kPartsLookedAt; ++k) {
         const std::string name = part_name(path, k);
@@ -83,7 +83,7 @@ WholeFile::WholeFile(const std::string& path, const FileKind& kind) : path_(path
     remove_parts_left(path);
     for (int k = 0; !open_part(part_name(path, k));) ++k;
     struct stat before {};
-    if (::stat(path.c_str(), &before) == 0) (void)::fchmod(fd_, before.st_mode & 0777);  // who may read it stays as it was
+    if (::stat(path.c_str(), &before) == 0) (void)::fchmod(fd_, before.st_mode & 0777);  // keep the permissions
 }
 
 // Creates and locks a new file of that name, so that no other writer removes it. False if there is one already.
@@ -92,7 +92,7 @@ bool WholeFile::open_part(const std::string& name) {
     if (fd_ < 0 && errno == EEXIST) return false;
     if (fd_ < 0) fail_to_write(path_, errno);
     struct stat status {};
-    // Between the two calls another writer may have taken it for one that was left, and removed it.
+    // Between the two calls another writer may have removed it as an abandoned file.
     if (lock_file(fd_) == EAGAIN || ::fstat(fd_, &status) != 0 || status.st_nlink == 0) {
         ::close(std::exchange(fd_, -1));
         return false;
@@ -103,7 +103,7 @@ bool WholeFile::open_part(const std::string& name) {
 
 WholeFile::~WholeFile() {
     if (fd_ < 0) return;
-    ::unlink(part_.c_str());  // while it is locked: afterwards the name may be another writer's
+    ::unlink(part_.c_str());  // while it is locked: afterwards another writer may use the name
     ::close(fd_);
 }
 
@@ -118,7 +118,7 @@ void WholeFile::write(std::span<const char> bytes) {
 }
 
 int WholeFile::finish(bool keep_open) {
-    if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOSYS) fail_to_write(path_, errno);  // some file systems lack it
+    if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOSYS) fail_to_write(path_, errno);  // not supported by some file systems
     if (::rename(part_.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
     const int fd = std::exchange(fd_, -1);
     if (!keep_open) ::close(fd);
@@ -155,11 +155,11 @@ bool begins_as_netcdf(const std::string& path) {
     return file.read(start, sizeof start) && (std::memcmp(start, "CDF", 3) == 0 || std::memcmp(start, "\x89HDF", 4) == 0);
 }
 
-// HDF5 may crash if it is out of memory: the memory it needs is allocated for a test first.
+// HDF5 may crash if it is out of memory: the memory it needs is allocated first as a test.
 void require_memory(const std::string& path) {
     constexpr std::size_t wanted = std::size_t{32} << 20;
     void* const probe = std::malloc(wanted);
-    if (!probe) throw Error(Failure::no_memory, "no memory to look into '" + path + "' (some 32 MB)");
+    if (!probe) throw Error(Failure::no_memory, "not enough memory to read '" + path + "' (some 32 MB)");
     std::free(probe);
 }
 
@@ -176,7 +176,7 @@ std::optional<ResultHead> head_of_result(const std::string& path) {
     require_sound(path);
     if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {
-        constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: a damaged file may announce anything
+        constexpr std::size_t longest = std::size_t{1} << 26;  // of a case: the length in a damaged file may be arbitrary
         std::size_t length = 0;
         nc_type type = NC_NAT;
         std::string value;
