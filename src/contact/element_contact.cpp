@@ -321,8 +321,7 @@ ResidualProfile ElementContact::residual_profile() const {
 
 double ElementContact::stiffness() {
     const double pixel = impl_->heights.dx * impl_->heights.dy;
-    const auto way = impl_->accepted ? ElementsSolver::Way::back : ElementsSolver::Way::further;
-    const double slope = 0.0 - pixel * impl_->solver.stiffness(1e-9, way);
+    const double slope = 0.0 - pixel * impl_->solver.stiffness(1e-9, impl_->accepted);
     return slope / (1 + shift() * slope);
 }
 

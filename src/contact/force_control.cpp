@@ -12,6 +12,70 @@ constexpr double kUnresolved = 1e-6;  // a relative error of the force that roun
 constexpr double kFarAbove = 100;     // times the force asked for
 constexpr int kPasses = 2;            // failures of predicted starts after which only full solves are used
 
+// What a level at z says of the one looked for: it is the one (or failed), or lies above it; where Newton's method goes next, -Infinity:
+// nowhere.
+struct Verdict {
+    bool found, above;
+    double next;
+};
+
+// Newton's method with the slope that every level has, kept inside a bracket. A library's root finder without slopes takes about twice as
+// many levels. First along levels that pass() finds, which settle() then makes answers of; where that fails, along answers alone.
+// `look` gives the level at a separation, passing or as an answer, `settle` the answer at one passed, `judge` the verdict on it. `reach` turns
+// the next place, while none below is known, into one to go to: of it, the present one, the lowest known above, the count.
+template <class Look, class Settle, class Judge, class Reach>
+Level search(double begin, double below, double above, int most, Look&& look, Settle&& settle, Judge&& judge, Reach&& reach, bool& stuck) {
+    Level level;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    const auto counted = [&](Level solved) {
+        iterations += solved.iterations;
+        products += solved.products;
+        return solved;
+    };
+    double z = begin, low = below, high = above;
+    int passes = kPasses, i = 0;
+    const auto answers_alone = [&] {  // from where it all began
+        passes = 0, i = -1;
+        z = begin, low = below, high = above;
+    };
+    stuck = false;
+    for (;; ++i) {
+        const bool passing = passes > 0;
+        level = counted(look(z, passing));
+        Verdict verdict = judge(level, z);
+        if (verdict.found && passing) {
+            level = counted(settle(level));
+            verdict = judge(level, z);
+            if (!verdict.found) {  // another solution than those passed: on from this one
+                if (--passes == 0) {
+                    answers_alone();
+                    continue;
+                }
+                low = below, high = above;
+            }
+        }
+        if (verdict.found) break;
+        (verdict.above ? high : low) = z;
+        double next = verdict.next;
+        if (std::isinf(low)) next = reach(next, z, high, i);
+        if (!(next < high) || !(next > low)) next = 0.5 * (low + high);
+        if (i + 1 >= most || next == z || !(next > low) || !(next < high)) {
+            if (passing) {  // so it is for what was passed; now for the answers
+                answers_alone();
+                continue;
+            }
+            stuck = i + 1 < most;
+            if (!stuck) level.status = LevelStatus::not_converged;
+            break;
+        }
+        z = next;
+    }
+    level.iterations = iterations;
+    level.products = products;
+    return level;
+}
+
 }  // namespace
 
 Level Contact::at_separation(double Z0) {
@@ -53,79 +117,41 @@ double Contact::slope() {
     return S / (1 - shift() * S);
 }
 
-// Newton on z + shift() N(z) = Z0 with z as solve() counts: its left side rises with z, ever faster, as long as N depends on Z0 at all.
+// z + shift() N(z) = Z0 with z as solve() counts: its left side rises with z, ever faster, as long as N depends on Z0 at all.
 Level Contact::solve_between_planes(double Z0) {
     const double c = shift();
     if (Z0 >= first_touch()) return solve(Z0);
-    double above = Z0, below = -kInfinity;
-    double z = Z0;
+    double begin = Z0;
     if (last_) {
         const auto& [at, force, rise] = *last_;
-        z = at + (Z0 - at - c * force) / (1 + c * rise);
-        if (!(z < above) || !(1 + c * rise > 0)) z = above;
+        begin = at + (Z0 - at - c * force) / (1 + c * rise);
+        if (!(begin < Z0) || !(1 + c * rise > 0)) begin = Z0;
     }
-    const double begin = z;
-    Level level;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
-    const auto counted = [&](Level solved) {
-        iterations += solved.iterations;
-        products += solved.products;
-        return solved;
-    };
-    double miss = 0, steep = 0;
-    const auto done = [&] {
-        const double rise = slope();
-        miss = z + c * level.force - Z0, steep = 1 + c * rise;
+    double miss = 0;
+    const auto judge = [&](const Level& level, double z) {
+        const double rise = slope(), steep = 1 + c * rise;
+        miss = z + c * level.force - Z0;
         last_ = {z, level.force, rise};
-        if (level.status == LevelStatus::not_converged) return true;
         // An error of Z0 is one of the force of -rise/steep times as much.
         const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
-        return std::abs(miss) <= rounding || (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
+        const bool found = level.status == LevelStatus::not_converged || std::abs(miss) <= rounding ||
+                           (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
+        return Verdict{found, miss > 0, steep > 0 ? z - miss / steep : -kInfinity};
+    };
+    const auto reach = [&](double next, double z, double above, int) {
+        return std::isfinite(next) && next < above ? next : z - 2 * (std::abs(miss) + (Z0 - z));
     };
     constexpr int most = 60;
-    int passes = kPasses, i = 0;
-    const auto answers_alone = [&] {  // from where it all began
-        passes = 0, i = -1;
-        above = Z0, below = -kInfinity;
-        z = begin;
-    };
-    for (;; ++i) {
-        const bool passing = passes > 0;
-        level = counted(passing ? pass(z) : solve(z));
-        bool found = done();
-        if (found && passing) {
-            level = counted(settle(level));
-            found = done();
-            if (!found) {  // another solution than those passed: on from this one
-                if (--passes == 0) {
-                    answers_alone();
-                    continue;
-                }
-                above = Z0, below = -kInfinity;
-            }
-        }
-        if (found) break;
-        (miss > 0 ? above : below) = z;
-        double next = steep > 0 ? z - miss / steep : -kInfinity;
-        if (!(next < above) || !(next > below)) next = std::isfinite(below) ? 0.5 * (above + below) : z - 2 * (std::abs(miss) + (Z0 - z));
-        if (i == most || next == z || !std::isfinite(next)) {
-            if (passing) {  // so it is for what was passed; now for the answers
-                answers_alone();
-                continue;
-            }
-            level.status = LevelStatus::not_converged;
-            break;
-        }
-        z = next;
-    }
+    bool stuck;
+    Level level = search(
+        begin, -kInfinity, Z0, most, [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
+        [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
+    if (stuck) level.status = LevelStatus::not_converged;
     level.separation = Z0;
-    level.iterations = iterations;
-    level.products = products;
     return level;
 }
 
-// Newton on ln N(Z0), whose slope the stiffness gives, kept inside a bracket that shrinks at every level.
+// ln N(Z0) = ln N, whose slope the stiffness gives.
 Level Contact::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
         throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
@@ -150,78 +176,39 @@ Level Contact::at_force(double N) {
         }
     }
     if (!(Z0 > below)) Z0 = 0.5 * (above + below);
-    const double begin = Z0, first_depth = depth;
-    Level level;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
-    const auto counted = [&](Level solved) {
-        iterations += solved.iterations;
-        products += solved.products;
-        return solved;
-    };
-    const auto done = [&] { return std::abs(level.force / N - 1) <= tolerance() || level.status == LevelStatus::not_converged; };
-    constexpr int most = 200;
-    int passes = kPasses, i = 0;
-    const auto answers_alone = [&] {  // from where it all began
-        passes = 0, i = -1;
-        above = first_touch(), below = closed();
-        Z0 = begin, depth = first_depth;
-    };
-    for (; i < most; ++i) {
-        const bool passing = passes > 0;
-        level = counted(passing ? pass(Z0) : solve(Z0));
-        if (passing && done()) {
-            level = counted(settle(level));
-            if (!done()) {  // another solution than those passed: on from this one
-                if (--passes == 0) {
-                    answers_alone();
-                    continue;
-                }
-                above = first_touch(), below = closed();
-            }
-        }
-        if (done()) break;
+    const auto judge = [&](const Level& level, double z) {
         const double miss = level.force / N - 1;
-        (miss < 0 ? above : below) = Z0;
-        double next = level.force > 0 ? Z0 - std::log1p(miss) * level.force / slope() : -kInfinity;
-        if (std::isinf(below)) {
-            const double furthest = above - std::max(2 * (levels_since_move() > 1 ? above - Z0 : 0.0) + depth, 0.0);
-            next = std::isfinite(next) ? std::max(next, furthest) : furthest;
-            depth *= 2;
-        }
-        if (!(next < above) || !(next > below)) next = std::isinf(below) ? above - depth : 0.5 * (above + below);
-        if (next == Z0 || next >= above || next <= below) {
-            if (passing) {  // so it is for what was passed; now for the answers
-                answers_alone();
-                continue;
-            }
-            // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
-            const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
-            const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
-            if (std::abs(level.force - N) > resolved)
-                level.status = LevelStatus::not_converged;
-            else if (std::abs(level.force / N - 1) > kUnresolved)  // a force grows with the depth to the power 3/2
-                throw Error(Failure::bad_input,
-                            format("a force of %.9g is too small for the resolution of the separation: near %.9g its smallest steps "
-                                   "allow %.9g or more",
-                                   N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
-            break;
-        }
-        Z0 = next;
-        if (i + 1 == most) {
-            if (passing)
-                answers_alone();
-            else
-                level.status = LevelStatus::not_converged;
-        }
+        const bool found = std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged;
+        if (found) return Verdict{true, false, z};
+        return Verdict{false, miss<0, level.force> 0 ? z - std::log1p(miss) * level.force / slope() : -kInfinity};
+    };
+    const auto reach = [&](double next, double z, double highest, int i) {
+        const double furthest = highest - 2 * (levels_since_move() > 1 ? highest - z : 0.0) - std::ldexp(depth, i);
+        return std::isfinite(next) && next < highest ? std::max(next, furthest) : furthest;
+    };
+    constexpr int most = 200;
+    bool stuck;
+    Level level = search(
+        Z0, below, above, most, [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
+        [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
+    if (stuck) {
+        // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
+        Z0 = level.separation;
+        const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
+        const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
+        if (std::abs(level.force - N) > resolved)
+            level.status = LevelStatus::not_converged;
+        else if (std::abs(level.force / N - 1) > kUnresolved)  // a force grows with the depth to the power 3/2
+            throw Error(Failure::bad_input,
+                        format("a force of %.9g is too small for the resolution of the separation: near %.9g its smallest steps "
+                               "allow %.9g or more",
+                               N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
     }
     if (shift() > 0) {
         last_ = {level.separation, level.force, slope()};
         level.separation += shift() * level.force;
     }
     finish(level);
-    level.iterations = iterations;
-    level.products = products;
     return level;
 }
 

@@ -131,16 +131,11 @@ void PeriodicElementContact::accept(Level& level) {
         return;
     }
     if (!path_dependent()) return;
-    bool lowered = false;
-    for (std::size_t k = 0; my.touches && k < my.solver.pixels().size(); ++k) {
-        const double depth = 0 - my.solver.gaps()[k];
-        if (!(my.solver.pressures()[k] >= my.options.hardness.H0) || !(depth > 0)) continue;
-        const auto [i, j] = my.solver.pixels()[k];
-        my.pressed.add(i, j, depth);
-        my.own.row(j)[i] -= depth;
-        lowered = true;
-    }
-    if (lowered) {
+    if (my.touches) {
+        for (const auto& [pixel, depth] : my.solver.press_out()) {
+            my.pressed.add(pixel.x, pixel.y, depth);
+            my.own.row(pixel.y)[pixel.x] -= depth;
+        }
         my.find_top();
         my.solver.heights_changed();
     }

@@ -36,7 +36,7 @@ struct PeriodicElements::Impl {
     double mean = 0;  // of the heights as they are
     std::unique_ptr<PeriodicGrid> grid;
     std::vector<Pixel> pixels;
-    std::vector<double> pressures, gaps;
+    std::vector<double> pressures;
 
     double pressure_unit() const { return substrate.modulus() * (rms / relief.dx); }
     template <class F>
@@ -74,31 +74,32 @@ void PeriodicElements::Impl::prepare() {
 
 ElementsOutcome PeriodicElements::Impl::solve(Given given, double tolerance, int most_iterations) {
     const ElementsOutcome outcome = solve_from_coarse(*grid, given, tolerance, most_iterations, true);
-    pixels.clear();
-    pressures.clear();
-    gaps.clear();
-    const PixelRows& set = grid->set();
-    for (int j = 0; j < relief.ny; ++j)
-        for (std::size_t k = set.begin[static_cast<std::size_t>(j)]; k < set.begin[static_cast<std::size_t>(j) + 1]; ++k) {
-            if (!(grid->pressures()[k] > 0)) continue;
-            pixels.push_back({set.column[k], j});
-            const double p = grid->pressures()[k];
-            pressures.push_back(p >= highest / pressure_unit() ? highest : p * pressure_unit());
-            gaps.push_back(grid->gaps()[k] * rms);
-        }
+    pixels = grid->pixels();
+    pressures = grid->pressures();
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        if (!(pressures[k] > 0)) continue;
+        pixels[kept] = pixels[k];
+        pressures[kept++] = pressures[k] >= highest / pressure_unit() ? highest : pressures[k] * pressure_unit();
+    }
+    pixels.resize(kept), pressures.resize(kept);
     return outcome;
 }
 
 PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substrate, double highest)
-    : impl_(std::make_unique<Impl>(Impl{relief, substrate, highest, 0, 0, 0, nullptr, {}, {}, {}})) {
+    : impl_(std::make_unique<Impl>(Impl{relief, substrate, highest, 0, 0, 0, nullptr, {}, {}})) {
     impl_->prepare();
 }
 PeriodicElements::~PeriodicElements() = default;
 
-void PeriodicElements::heights_changed() {
-    impl_->grid->press_out();
-    impl_->mean = impl_->mean_height();
+std::vector<std::pair<Pixel, double>> PeriodicElements::press_out() {
+    const std::vector<Pixel> set = impl_->grid->pixels();
+    std::vector<std::pair<Pixel, double>> lowered;
+    for (const auto& [k, depth] : impl_->grid->press_out()) lowered.emplace_back(set[static_cast<std::size_t>(k)], depth * impl_->rms);
+    return lowered;
 }
+
+void PeriodicElements::heights_changed() { impl_->mean = impl_->mean_height(); }
 
 ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, int most_iterations) {
     Impl& my = *impl_;
@@ -137,7 +138,6 @@ double PeriodicElements::closing_pressure() { return 0 - impl_->grid->least_inve
 double PeriodicElements::separation() const { return impl_->zero + impl_->grid->Z0() * impl_->rms; }
 const std::vector<Pixel>& PeriodicElements::pixels() const { return impl_->pixels; }
 const std::vector<double>& PeriodicElements::pressures() const { return impl_->pressures; }
-const std::vector<double>& PeriodicElements::gaps() const { return impl_->gaps; }
 
 double PeriodicElements::stiffness(bool back) {
     const double points = static_cast<double>(impl_->relief.nx) * static_cast<double>(impl_->relief.ny);

@@ -1,0 +1,238 @@
+#include "contact/solver/bounded.hpp"
+
+#include "rough/parallel.hpp"
+
+namespace rsc {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kThreads = 100000;  // pixels from which threads pay
+
+}  // namespace
+
+template <class F>
+double BoundedSolver::sum(F&& of) {
+    const int rows = static_cast<int>(rows_.size()) - 1;
+    partial_.resize(at(rows));
+#pragma omp parallel for schedule(static) num_threads(omp_team(p_.size() >= kThreads && rows > 1 ? kEveryThread : 1))
+    for (int j = 0; j < rows; ++j) {
+        double part = 0;
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) part += of(k);
+        partial_[at(j)] = part;
+    }
+    return std::accumulate(partial_.begin(), partial_.end(), 0.0);
+}
+
+void BoundedSolver::evaluate(bool exact) {
+    stopping_point();
+    multiply(p_, w_, exact);
+    for (std::size_t k = 0; k < w_.size(); ++k) w_[k] -= z_[k];
+    if (wanted_) {  // Z0 is such that the mean of w over the pixels under pressure is 0
+        const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
+        Z0_ = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) / static_cast<double>(touching);
+    }
+    for (double& w : w_) w += Z0_;
+}
+
+double BoundedSolver::error() {
+    std::size_t touching = 0;
+    double weight = 0;
+    for (double p : p_) touching += p > 0, weight += p;
+    const double inside = sum([&](std::size_t k) {
+        const double e = p_[k] >= highest_ ? std::max(w_[k], 0.0) : p_[k] > 0 ? w_[k] : std::min(w_[k], 0.0);
+        return e * e;
+    });
+    const double bad = inside + outside();
+    if (touching == 0) return bad > 0 ? kInfinity : 0.0;
+    const double overlap = sum([&](std::size_t k) { return p_[k] * (z_[k] - Z0_); });
+    return std::sqrt(bad / static_cast<double>(touching)) / std::abs(overlap / weight);
+}
+
+void BoundedSolver::find_free() {
+    free_.resize(p_.size());
+    for (std::size_t k = 0; k < p_.size(); ++k) free_[k] = !((p_[k] <= 0 && w_[k] >= 0) || (p_[k] >= highest_ && w_[k] <= 0));
+    freed();
+}
+
+// Conjugate gradients on the free pixels. With a wanted sum of p, the sum stays, and w counts but for a constant.
+void BoundedSolver::descend(int most_steps, double reduction) {
+    const std::size_t n = p_.size();
+    direction_.assign(n, 0.0);
+    const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        return sum([&](std::size_t k) { return a[k] * b[k]; });
+    };
+    // A single step is one along the gradient itself: cut off at the bounds it still leads down.
+    const bool plain = most_steps == 1;
+    std::vector<double> residual(n);
+    for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 1 : 0;
+    // A correction by a constant pressure, as a punch's, is cheap, the more so the fuller the contact.
+    double whole = 0, punch = 0;
+    if (manner_.repeats) {
+        if (plain)
+            one_ = residual;
+        else
+            precondition(residual, one_);
+        whole = sum([&](std::size_t k) { return one_[k]; });
+        if (!wanted_ && !plain) {
+            multiply(one_, image_, false);
+            const double energy = sum([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
+            punch = energy > 0 ? 1 / energy : 0;
+        }
+    }
+    double last = 0, first = 0;
+    for (int step = 0;; ++step) {
+        for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 0 - w_[k] : 0.0;
+        if (plain)
+            y_ = residual;
+        else
+            precondition(residual, y_);
+        if (manner_.repeats) {
+            const double c = wanted_ ? -sum([&](std::size_t k) { return y_[k]; }) / whole : punch * product(one_, residual);
+            for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
+        }
+        const double ry = product(residual, y_);
+        if (step == 0) first = ry;
+        if (step == most_steps || !(ry > reduction * reduction * first)) return;
+        const double beta = step > 0 ? ry / last : 0.0;
+        last = ry;
+        for (std::size_t k = 0; k < n; ++k) direction_[k] = y_[k] + beta * direction_[k];
+        stopping_point();
+        multiply(direction_, image_, false);
+        const double curvature = product(direction_, image_);
+        if (!(curvature > 0)) return;
+        const double alpha = ry / curvature;
+        for (std::size_t k = 0; k < n; ++k) p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k];
+    }
+}
+
+// Cuts pressures off at their bounds, and restores their sum by adding pressure where a lower flat would. True if any was cut off.
+bool BoundedSolver::bound() {
+    bool cut = false;
+    for (double& p : p_) {
+        const double inside = std::clamp(p, 0.0, highest_);
+        cut = cut || inside != p;
+        p = inside;
+    }
+    if (!wanted_) return cut;
+    constexpr int most = 50;
+    for (int i = 0; i < most; ++i) {
+        double all = 0, room = 0;
+        for (std::size_t k = 0; k < p_.size(); ++k) {
+            all += p_[k];
+            room += p_[k] > 0 ? one_[k] : 0.0;
+        }
+        const double missing = *wanted_ - all;
+        if (std::abs(missing) <= 1e-14 * *wanted_ || !(room > 0)) break;
+        for (std::size_t k = 0; k < p_.size(); ++k)
+            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / room * one_[k], 0.0);
+    }
+    return true;
+}
+
+// True if the last round lowered the energy; otherwise pressures return to the best ones found on the way.
+bool BoundedSolver::fell() {
+    double slope = 0, curvature = 0;
+    for (std::size_t k = 0; k < p_.size(); ++k) {
+        const double d = p_[k] - before_p_[k];
+        slope += d * before_w_[k];
+        curvature += d * (w_[k] - before_w_[k]);
+    }
+    if (slope + 0.5 * curvature <= 0) return true;
+    const double t = slope < 0 && curvature > 0 ? std::min(1.0, -slope / curvature) : 0.5;
+    for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = before_p_[k] + t * (p_[k] - before_p_[k]);
+    return false;
+}
+
+ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool exactly) {
+    ElementsOutcome outcome;
+    if (wanted_) {  // a start may have another sum
+        one_ = p_;
+        bound();
+    }
+    before_p_.clear();
+    bool exact = false;
+    int steps = manner_.steps;
+    double last = kInfinity;
+    evaluate(false);
+    for (;;) {
+        outcome.residual = error();
+        // A round that raised the energy is taken back to its best place; shorter ones follow.
+        const bool watched = outcome.iterations > manner_.quick || (manner_.repeats && outcome.residual > last);
+        if (watched && !before_p_.empty() && !fell()) {
+            evaluate(exact);
+            outcome.residual = error();
+            steps = std::max(steps / 2, 1);
+        } else {
+            steps = std::min(steps + 1, manner_.steps);
+        }
+        last = outcome.residual;
+        const bool judged = manner_.repeats || outcome.iterations > 0;  // starts from other levels get a round at least
+        const bool small = judged && outcome.residual <= tolerance;
+        if (small && exactly && !exact) {
+            exact = true;
+            before_p_.clear();
+            evaluate(true);
+            continue;
+        }
+        if (judged) outcome.converged = complete(small, outcome.residual);
+        if (outcome.converged || outcome.iterations >= most_rounds) break;
+        if (w_.size() != p_.size()) evaluate(exact);  // of a set that has changed
+        ++outcome.iterations;
+        renew();
+        find_free();
+        before_p_ = p_;
+        before_w_ = w_;
+        descend(steps, manner_.reduction);
+        const bool cut = bound();
+        exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
+        if (cut || exact || manner_.repeats) evaluate(exact);
+    }
+    return outcome;
+}
+
+double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, int most_steps, double reduction) {
+    // The same steps on the same matrix, with 1 for z - Z0; the answer of the level is put back afterwards.
+    const std::vector<double> p = p_, w = w_;
+    const std::optional<double> wanted = std::exchange(wanted_, std::nullopt);
+    const std::size_t n = p_.size();
+    free_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) free_[k] = p_[k] > 0 && (back || p_[k] < highest_);
+    freed();
+    const double count = sum([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
+    std::fill(p_.begin(), p_.end(), 0.0);
+    std::fill(w_.begin(), w_.end(), -1.0);
+    for (int round = 0; round < most_rounds && count > 0; ++round) {
+        descend(most_steps, reduction);
+        if (most_rounds == 1) break;
+        multiply(p_, w_, true);
+        for (double& v : w_) v -= 1;
+        if (std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count) <= tolerance) break;
+    }
+    // 2 1'q - q'Kq misses what it tends to by the square of the residual only.
+    const double answer = sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; });
+    p_ = p;
+    w_ = w;
+    wanted_ = wanted;
+    return answer;
+}
+
+double BoundedSolver::energy() const {
+    double twice = 0;
+    for (std::size_t k = 0; k < p_.size(); ++k) twice += p_[k] * (z_[k] - Z0_ + (p_[k] < highest_ ? -w_[k] : w_[k]));
+    return 0.5 * twice;
+}
+
+std::vector<std::pair<int, double>> BoundedSolver::press_out() {
+    std::vector<std::pair<int, double>> depths;
+    for (std::size_t k = 0; k < p_.size(); ++k) {
+        if (!(p_[k] >= highest_ && w_[k] < 0)) continue;
+        depths.emplace_back(static_cast<int>(k), -w_[k]);
+        z_[k] += w_[k];
+        w_[k] = 0;
+    }
+    return depths;
+}
+
+}  // namespace rsc
