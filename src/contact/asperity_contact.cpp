@@ -20,12 +20,12 @@ using Vector = std::vector<double>;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Distance that a tip may move before the summits of the difference are searched again.
+// Distance that the tip may move before the summits of the difference are detected again.
 double summits_keep(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     double curvature = 0;
     for (std::size_t i = 0; i < asperities.kappa1.size(); ++i) curvature += std::sqrt(asperities.kappa1[i] * asperities.kappa2[i]);
     const double size = options.rms_slope * static_cast<double>(asperities.kappa1.size()) / curvature;
-    return std::fmax(0.1 * size, 0.02 * options.rms_slope * indenter.shape->hertz_radius());  // NaN where it is no sphere
+    return std::fmax(0.1 * size, 0.02 * options.rms_slope * indenter.shape->hertz_radius());  // hertz_radius() is NaN unless it is a sphere
 }
 
 std::unique_ptr<Law> law_of(const Asperities& asperities, double E_star, const SolverOptions& options,
@@ -44,28 +44,28 @@ struct AsperityContact::Impl {
     const Asperities& of_surface;
     SummitSearch search;
     std::optional<Asperities> of_difference;
-    const Asperities& asperities;  // one of the two
+    const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
     SolverOptions options;
-    double found_x, found_y;  // the tip when the summits were found
+    double found_x, found_y;  // position of the tip at which the summits were found
     std::shared_ptr<const Kernel> kernel;
     std::optional<RelaxingAsperities> relaxing;
     std::unique_ptr<Law> law;
     Ranking ranking;
 
-    // The level at hand and its answer.
+    // The current level and its solution.
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
     NewtonOutcome outcome;  // of pass() and settle()
-    bool passed = false;    // the solution is one of pass(), not settled
+    bool passed = false;    // the solution is that of pass() and has not been settled
     struct {
         double separation = 0;
-        bool unique = true;  // proved to be the only one
-    } solved;                // what solve() gave last
+        bool unique = true;  // the solution is proved to be unique
+    } solved;                // last result of solve()
 
     EarlierLevels earlier;
-    std::unique_ptr<Products> direct, mesh;  // mesh: made when first wanted
+    std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the one in use
     Newton newton;
 
@@ -88,17 +88,17 @@ struct AsperityContact::Impl {
         ranking.assign(asperities, indenter);
     }
 
-    double scale() const { return relaxing ? relaxing->scale() : 1.0; }  // forces of the law over true ones
-    // How far earlier loads of a body that relaxes raise its surface between flats, as solve() counts separations.
+    double scale() const { return relaxing ? relaxing->scale() : 1.0; }  // ratio of the forces of the law to the true ones
+    // Shift of the separation used by solve() due to earlier loads of a relaxing body (periodic flats).
     double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     void use(Method how);
-    void select(double Z0);  // candidates and method
+    void select(double Z0);  // determines candidates and method
     NewtonOutcome solve_from(const Vector& start, bool rough_start);
-    // A law that remembers its path goes on from the accepted levels, on the branch they are on; all others, where several solutions
-    // exist, by the rule of solve_cold().
+    // True if the solution continues the branch of the accepted levels (path-dependent laws). For other laws solve_cold() selects among
+    // several solutions.
     bool follows() const { return law->path_dependent(); }
-    // The rule that defines the answer: from the no-interaction start, downhill to a minimum.
+    // Descends from the no-interaction start to a minimum of the energy. This defines the solution if there are several.
     NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     NewtonOutcome solve_by_paper(Fallback& why_not);
@@ -112,7 +112,7 @@ struct AsperityContact::Impl {
 void AsperityContact::Impl::use(Method how) {
     method = how;
     if (how == Method::mesh && !mesh) {
-        // Full products judge the residual and must be finer than the tolerance; inner ones only make steps.
+        // Full products determine the residual and must be more accurate than the tolerance; inner products only determine steps.
         mesh = make_mesh_products(kernel, std::min(1e-4, 0.1 * options.tolerance), 1e-3);
     }
     products = how == Method::mesh ? mesh.get() : direct.get();
@@ -261,7 +261,7 @@ Level AsperityContact::settle(const Level& passed) {
     const long products_before = my.products_taken();
     const bool unique = my.one_solution();
     int iterations = 0;
-    if (!unique) {  // the one passed again, for which there was no proof, or another beside it
+    if (!unique) {  // the solution of pass() is not proved to be unique
         my.outcome = my.solve_cold();
         iterations = my.outcome.iterations;
     }
@@ -285,7 +285,7 @@ void AsperityContact::accept(Level& level) {
         level.plastic_work = my.law->work_lost();
     }
     if (my.solution.v.empty()) return;
-    // The same forces; energy and stiffness from now on are those of unloading.
+    // Forces are unchanged; energy and stiffness now refer to unloading.
     my.products->set_points(set.size(), set.x.data(), set.y.data());
     my.newton.take(set, my.solution.v);
 }
@@ -301,7 +301,7 @@ std::vector<double> AsperityContact::residual_depths() const {
     return depths;
 }
 
-// Pairs: an asperity that yielded, how deep; of a body that relaxes what it writes, behind the time.
+// Pairs of the index of a yielded asperity and its largest penetration; for relaxing bodies the time, followed by their state.
 std::vector<double> AsperityContact::memory() const {
     std::vector<double> pairs;
     if (relaxes()) {
@@ -337,7 +337,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
     my.candidates = {};
     my.solution.clear();
     if (!level) return;
-    const double Z0 = level->separation - shift() * level->force;  // as solve() counts
+    const double Z0 = level->separation - shift() * level->force;  // separation as defined for solve()
     if (!my.follows()) return (void)solve(Z0);
     my.select(Z0);
     Vector start(at(my.candidates.size()), -1e300);  // no contact
@@ -370,7 +370,7 @@ bool AsperityContact::path_dependent() const { return impl_->law->path_dependent
 
 double AsperityContact::tolerance() const { return impl_->options.tolerance; }
 
-// Without interaction: others only take from it.
+// The force without interaction, which is an upper bound.
 double AsperityContact::force_at_most(double depth) {
     Impl& my = *impl_;
     const double Z0 = first_touch() - depth;
@@ -398,7 +398,7 @@ double AsperityContact::stiffness() {
     return slope / (1 + shift() * slope);
 }
 
-// The shift c adds c N^2/2 to F'BF/2, which is no energy of the bodies.
+// The shift c adds c N^2/2 to F'BF/2, which is not part of the energy of the bodies.
 double AsperityContact::energy() const {
     if (relaxes()) return impl_->relaxing->stored();
     if (impl_->solution.v.empty()) return 0;

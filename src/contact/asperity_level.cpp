@@ -11,7 +11,7 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// The contacts of a level as they lie on the surface: their long axes are those of the smaller curvature.
+// Contact spots of a level on the surface; their long axes are in the direction of the smaller curvature.
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
@@ -21,7 +21,7 @@ std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities&
     return spots;
 }
 
-// Z0 from which on down the flank of some summit touches the indenter, slope^2/(2 curvature) before its top does.
+// Largest Z0 at which the flank of a summit touches the indenter, slope^2/(2 curvature) above the Z0 at which its top touches.
 double beside(const Asperities& asperities, const Indenter& indenter) {
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < asperities.size(); ++i) {
@@ -34,7 +34,6 @@ double beside(const Asperities& asperities, const Indenter& indenter) {
 
 }  // namespace
 
-// The summits of the difference between surface and indenter, or nothing where the asperities are to be taken as they are.
 std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                 const SummitSearch& search) {
     require_sound(indenter);
@@ -43,7 +42,7 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
     for (std::size_t i = 0; i < asperities.size(); ++i)
         highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
     constexpr double kFlankSpacing = 0.4;
-    constexpr double depth = 8;  // rms heights below the highest: from 4 sigma down to where the model ends
+    constexpr double depth = 8;  // rms heights below the highest summit, the range of the model
     const double steepest = steepest_above(asperities, indenter, highest - depth * options.sigma);
     if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
         Asperities found = search(indenter);
@@ -53,14 +52,15 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
     return moved_summits(asperities, indenter);
 }
 
-// `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures. The dense method is never the cheapest.
+// `auto`: direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench. The dense method is never the
+// cheapest.
 Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates) {
     if (kernel.none()) return options.method == Method::dgesv ? Method::dgesv : Method::direct;
     if (options.method != Method::automatic) return options.method;
-    // A solve takes some 40 inner products; the mesh also some full ones its making, and points that lie closer in the middle.
+    // A solve takes about 40 inner products. The overhead of the mesh includes its setup and denser points near the middle.
     constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
     const double contacts = contacts_per_candidate * static_cast<double>(candidates.size());
-    double scale = 1e300;  // of a smooth part, in extents of the candidates
+    double scale = 1e300;  // length scale of a smooth part, relative to the extent of the candidates
     if (kernel.smooth() && candidates.size() > 0) {
         const auto [west, east] = std::minmax_element(candidates.x.begin(), candidates.x.end());
         const auto [south, north] = std::minmax_element(candidates.y.begin(), candidates.y.end());
@@ -78,9 +78,9 @@ void judge_asperities(Level& level, const Law& law, const Asperities& asperities
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
-    if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options);  // fitted without adhesion
+    if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options);  // calibrated without adhesion
     judge_range(level, indenter, options);
-    // The surface's own summits touch only where the indenter is flat beside them.
+    // Summits of the surface are the contact points only if the indenter is nearly flat beside them.
     if (of_surface && (level.slope_ratio > kMostSlopeRatio || (level.contacts == 0 && level.separation < beside(asperities, indenter))))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }

@@ -2,7 +2,7 @@
 
 namespace rsc {
 
-// The contact whose last level lies nearer; one that has no level yet is taken first.
+// Index of the contact whose last level is nearer; a contact without a level is used first.
 int ContactCurve::lane(double delta) const {
     if (!last_[0]) return 0;
     const double there = std::abs(-last_[0]->separation - delta);
@@ -14,7 +14,7 @@ int ContactCurve::lane(double delta) const {
 const Level& ContactCurve::level(double delta) {
     const int k = lane(delta);
     if (!last_[k] || last_[k]->separation != -delta) {
-        last_[k].reset();  // so that an exception below leaves no level rather than the old one
+        last_[k].reset();  // after an exception there is no level instead of the old one
         last_[k] = std::make_unique<Level>(contact_[k]->at_separation(-delta));
         ++levels_;
         failed_ += last_[k]->status == LevelStatus::not_converged;
@@ -50,7 +50,7 @@ std::vector<SpotSlip> slip_of_spots(ContactCurve& curve, const FrictionHistory& 
     if (nodes.size() < 2) return spots;
     const Level top = curve.level(history.approach());
     for (std::size_t k = 0; k < top.asperity.size(); ++k) spots.push_back({top.asperity[k], top.a[k], 0, {}});
-    // Calls visit(spot, force, radius) for the contacts of a level that are contacts of the top one as well.
+    // Calls visit(spot, force, radius) for the contacts of a level that also exist at the top level.
     const auto match = [&](const Level& level, auto&& visit) {
         std::size_t k = 0;
         for (std::size_t j = 0; j < level.asperity.size(); ++j) {
@@ -58,7 +58,7 @@ std::vector<SpotSlip> slip_of_spots(ContactCurve& curve, const FrictionHistory& 
             if (k < spots.size() && spots[k].asperity == level.asperity[j]) visit(spots[k], level.f[j], level.a[j]);
         }
     };
-    // sum over pieces -p [f(end) - f(begin)] = sum over nodes f (p after - p before).
+    // The sum over pieces of -p [f(end) - f(begin)] equals the sum over nodes of f (p_after - p_before).
     const auto slope = [&](std::size_t piece) {
         const auto &begin = nodes[piece], &end = nodes[piece + 1];
         const double ds = end.approach - begin.approach;

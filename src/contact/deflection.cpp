@@ -3,9 +3,9 @@
 namespace rsc {
 namespace {
 
-// (2 - 1/s^2) asin(s) + sqrt(1/s^2 - 1) = (4/3) s (1 + s^2/10 + 9 s^4/280 + ...), s = a/d: the coefficients, from those of asin(s) and of
-// sqrt(1 - s^2), b_n = (2n)!/(4^n n!^2).
-constexpr int kTerms = 8;  // s^16 below rounding for s < kFar
+// (2 - 1/s^2) asin(s) + sqrt(1/s^2 - 1) = (4/3) s (1 + s^2/10 + 9 s^4/280 + ...), s = a/d: coefficients from the series of asin(s) and
+// sqrt(1 - s^2) with b_n = (2n)!/(4^n n!^2).
+constexpr int kTerms = 8;  // s^16 is below rounding for s < kFar
 constexpr double kFar = 0.1;
 constexpr std::array<double, kTerms> kSeries = [] {
     std::array<double, kTerms> series{};
@@ -30,7 +30,7 @@ double spot_deflection(double force, double radius, double distance, double E_st
         const double t2 = 1 / (s * s);
         return 0.75 * near * force / radius * ((2 - t2) * std::asin(s) + std::sqrt(t2 - 1));
     }
-    double sum = 0;  // the two terms above cancel
+    double sum = 0;  // series, because the two terms above cancel
     for (std::size_t n = kTerms; n-- > 0;) sum = sum * s * s + kSeries[n];
     return near * force / distance * sum;
 }

@@ -5,19 +5,19 @@
 namespace rsc {
 namespace {
 
-using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is 1
+using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is the constant 1
 
 // In the order of the table; the same as in input/trust/trust.py.
 constexpr const char* kCauses[kErrorPredictors + 1] = {
     "",
-    "the slope of the indenter at the contacts, which touches other points than summits (slope_ratio)",
-    "contacts as wide as the waves of the surface: the law knows a summit, not what is around it",
-    "spots that overlap (overlapping_pairs)",
+    "the slope of the indenter at the contacts, which touches points beside summits (slope_ratio)",
+    "contacts as wide as the waves of the surface: the law describes a summit, not its surroundings",
+    "overlapping spots (overlapping_pairs)",
     "elongated summits",
     "the size of the contacts relative to the spacing of the summits",
     "few contacts",
     "few points in the shortest wave",
-    "contacts that yield",
+    "yielding contacts",
     "two flats",
 };
 
@@ -29,7 +29,7 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
         const double ratio = asperities.kappa1.empty() ? 1.0 : asperities.kappa1[i] / asperities.kappa2[i];
         elongation += level.f[k] * std::log(std::min(ratio, 1e3));
         if (!asperities.biharmonic
-                 .empty()) {  // (q a/pi)^2 of the summit's profile (law/law.hpp): 1 where the contact meets its neighbours'
+                 .empty()) {  // (q a/pi)^2 of the summit's profile (law/law.hpp); 1 if the contact reaches those of its neighbours
             const double waves = level.a[k] / std::numbers::pi,
                          q2 = asperities.biharmonic[i] / (asperities.kappa1[i] + asperities.kappa2[i]);
             pressed += level.f[k] * std::clamp(q2 * waves * waves, 0.0, 1.0);
@@ -67,7 +67,7 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
     const auto& [of_force, of_area] = kErrorTable[static_cast<std::size_t>(options.law)];
     level.force_error_expected = bound(of_force);
     level.area_error_expected = bound(of_area);
-    // Of each predictor, what it adds above the most favourable value it has.
+    // The cause is the predictor with the largest contribution above that of its most favourable value.
     double most = 0;
     for (std::size_t k = 1; k < x.size(); ++k) {
         const double least = of_force[k] > 0 && k == 5 ? std::log(1e-2) : 0.0;

@@ -19,7 +19,7 @@ Slide slope(const Node& begin, const Node& end) {
     return ds > 0 ? (1 / ds) * (end.deflection - begin.deflection) : Slide{};
 }
 
-// u in between, on the straight piece.
+// Deflection u at s by linear interpolation between two nodes.
 Slide between(const Node& begin, const Node& end, double s) { return begin.deflection + (s - begin.approach) * slope(begin, end); }
 
 Node node_at(LoadCurve& curve, double s, Slide u) {
@@ -29,8 +29,8 @@ Node node_at(LoadCurve& curve, double s, Slide u) {
     return {s, load.force, load.energy, u};
 }
 
-// int S'(s) q(s) ds over pieces on which q is quadratic: [S q - N q' + W q''] on each. q is continuous over the pieces, and at the ends
-// of the whole q or S vanishes, so that S cancels. q is given by its values at the ends and in the middle of a piece.
+// Integral of S'(s) q(s) ds over pieces on which q is quadratic: [S q - N q' + W q''] on each. q is continuous, and q or S vanishes at both
+// ends of the whole range, so that the terms in S cancel. q is given by its values at the ends and in the middle of each piece.
 class QuadraticIntegral {
 public:
     template <class Q>
@@ -39,7 +39,7 @@ public:
         if (!(h > 0)) return;
         const double q0 = q(begin.approach), q1 = q(begin.approach + 0.5 * h), q2 = q(end.approach);
         const double slope = (-3 * q0 + 4 * q1 - q2) / h, bend = 4 * (q0 - 2 * q1 + q2) / (h * h);
-        // Energies and loads of neighbouring levels have few digits left in their difference: its bounds for a load that grows.
+        // Differences of neighbouring levels suffer from cancellation and are limited by their bounds for an increasing load.
         const double growth = end.load - begin.load;
         const double area = std::clamp(end.energy - begin.energy - h * end.load, std::min(0.0, -h * growth), 0.0);
         sum_ += bend * area - slope * growth;
@@ -50,17 +50,18 @@ private:
     double sum_ = 0;
 };
 
-// A spring is at its limit to rounding; kRounding is some ten units of it.
+// Tolerance for a spring at its friction limit.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
-// Pieces of memory whose slopes differ by less, in mu/m, are one: a loading in fixed proportion, cut into many steps, is one piece.
+// Pieces of memory whose slopes differ by less than this (relative to mu/m) are merged, so that proportional loading in many steps is one
+// piece.
 constexpr double kSameSlope = 1e-10;
 
 }  // namespace
 
 void require_friction(const Friction& friction) {
     if (!(friction.coefficient >= 0) || std::isinf(friction.coefficient))
-        throw Error(Failure::bad_input, "the coefficient of friction must be zero or positive, and finite");
+        throw Error(Failure::bad_input, "the coefficient of friction must be finite and not negative");
     if (!(friction.ratio > 0) || std::isinf(friction.ratio))
         throw Error(Failure::bad_input, "the ratio m = 4 G*/E* of the tangential to the normal stiffness must be positive and finite");
 }
@@ -78,7 +79,7 @@ void FrictionHistory::restore(const State& now, const State& committed) {
                     norm(node.deflection) <= c * (state->delta - node.approach) + 1e-9 * c * (state->delta - nodes.front().approach);
         }
         sound = sound && nodes.size() != 1 && (nodes.empty() || nodes.back().approach == state->delta);
-        if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact with this friction");
+        if (!sound) throw Error(Failure::bad_input, "the state does not belong to a contact with this friction");
     }
     now_ = now;
     committed_ = committed;
@@ -96,20 +97,20 @@ void FrictionHistory::go_to(LoadCurve& curve, double delta, Slide xi) {
     } else {
         const Slide from = next.xi;
         const double begin = next.delta, dd = delta - begin;
-        // The slide at a point of the straight path.
+        // Slide at a point of the straight path.
         const auto slide_at = [&](double d) { return dd == 0 ? xi : from + ((d - begin) / dd) * (xi - from); };
         const auto part = [&](double d, Slide to) {
             const Slide dxi = to - next.xi;
             advance(curve, next, d, dxi);
             next.xi = to;
         };
-        if (next.nodes.empty() && delta > touch) {  // touches on the way
+        if (next.nodes.empty() && delta > touch) {  // contact begins on the path
             next.delta = touch;
             next.xi = begin < touch ? slide_at(touch) : from;
             next.nodes = {{touch, 0, 0, {}}};
         }
-        // Unloading: the pieces of memory above delta vanish one after the other; each step ends where one does, because the direction of slip
-        // changes there.
+        // Unloading removes the pieces of memory above delta one by one. A step ends at each of them, because the direction of slip changes
+        // there.
         while (next.nodes.size() > 2 && delta < next.nodes[next.nodes.size() - 2].approach) {
             const double d = next.nodes[next.nodes.size() - 2].approach;
             part(d, slide_at(d));
@@ -157,22 +158,22 @@ void FrictionHistory::move(LoadCurve& curve, double share) {
     now_.lost = old.lost + now_.step_lost;
 }
 
-// One straight piece of path; delta is not below the node before the last.
+// Advances along a straight path; delta is not below the node before the last.
 void FrictionHistory::advance(LoadCurve& curve, State& state, double delta, Slide dxi) const {
     const double c = friction_.slide_per_approach();
     const double old_delta = state.delta, dd = delta - old_delta;
     std::vector<Node>& nodes = state.nodes;
-    std::vector<Node> free = nodes;  // the deflections if nothing slipped
+    std::vector<Node> free = nodes;  // deflections without slip
     for (Node& node : free) node.deflection = node.deflection + dxi;
     state.delta = delta;
     if (dd > 0) {
-        // New springs touch one after the other and follow what is left of the slide: u = (delta - s) dxi/dd.
+        // New springs touch successively and follow the remaining slide: u = (delta - s) dxi/dd.
         const double rate = norm(dxi) / dd;
         Node top = node_at(curve, delta, {});
-        if (rate <= c) {  // no slip: the limits grow faster than the deflections
+        if (rate <= c) {  // no slip, because the limits grow faster than the deflections
             const std::size_t n = free.size();
             const Slide fresh = (-1 / dd) * dxi;
-            if (n > 1 && norm(slope(free[n - 2], free[n - 1]) - fresh) <= kSameSlope * c) free.pop_back();  // the straight piece goes on
+            if (n > 1 && norm(slope(free[n - 2], free[n - 1]) - fresh) <= kSameSlope * c) free.pop_back();  // the last piece is extended
             free.push_back(top);
             nodes = std::move(free);
             return;
@@ -183,23 +184,23 @@ void FrictionHistory::advance(LoadCurve& curve, State& state, double delta, Slid
         const std::size_t n = free.size();
         const Slide u = between(free[n - 2], free[n - 1], delta);
         if (delta == free[n - 2].approach)
-            free.pop_back();  // the piece is gone; its lower end is the new top
+            free.pop_back();  // the piece is removed; its lower end is the new top
         else
             free.back() = node_at(curve, delta, u);
     }
-    if (free.size() == 1) free.insert(free.begin(), free.front());  // no contact left: an empty piece
+    if (free.size() == 1) free.insert(free.begin(), free.front());  // no contact is left; adds an empty piece
     slip(curve, state, dd, dxi, old_delta, std::move(free));
 }
 
-// Cuts the free deflections down to the cone |u| <= c (delta - s). Since they change by at most c per unit of s, a spring that would
-// leave the cone has all those above it outside: what slips is s* < s <= delta.
+// Limits the free deflections to the cone |u| <= c (delta - s). They change by at most c per unit of s, so that all springs above one that
+// leaves the cone are outside as well: the springs s* < s <= delta slip.
 void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi, double old_delta, std::vector<Node> free) const {
     const double c = friction_.slide_per_approach(), m = friction_.ratio;
     const double delta = state.delta, touch = free.front().approach;
     const auto limit = [&](double s) { return c * (delta - s); };
     const double slack = kRounding * limit(touch);
     const std::size_t n = free.size();
-    std::size_t inside = 0;  // so many nodes are within the cone
+    std::size_t inside = 0;  // number of nodes within the cone
     while (inside < n && norm(free[inside].deflection) <= limit(free[inside].approach) + slack) ++inside;
     if (inside == n) {
         free.back().deflection = {};
@@ -210,14 +211,14 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
     std::vector<Node> after(free.begin(), free.begin() + static_cast<std::ptrdiff_t>(inside));
     Slide direction;
     double edge = touch;
-    if (inside == 0) {  // all slips
+    if (inside == 0) {  // full slip
         const Slide u = free.front().deflection;
         direction = (1 / norm(u)) * u;
         Node bottom = free.front();
         bottom.deflection = limit(touch) * direction;
         after.push_back(bottom);
     } else {
-        // |u + p t| = L - c t on the piece that leaves the cone: (p^2 - c^2) t^2 + 2 (p.u + c L) t + u^2 - L^2 = 0.
+        // The last piece leaves the cone where |u + p t| = L - c t: (p^2 - c^2) t^2 + 2 (p.u + c L) t + u^2 - L^2 = 0.
         const Node &begin = free[inside - 1], &end = free[inside];
         const Slide u = begin.deflection, p = slope(begin, end);
         const double L = std::max(limit(begin.approach), norm(u)), h = end.approach - begin.approach;
@@ -226,7 +227,7 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
         const double root = std::sqrt(std::max(0.0, dot(q, q) - cross(p, u) * cross(p, u)));
         const double deficit = (L - norm(u)) * (L + norm(u));
         double t = b + root > 0 ? std::min(h, deficit / (b + root)) : h;
-        for (int polish = 0; polish < 2; ++polish) {  // numerator and denominator may both have lost digits
+        for (int polish = 0; polish < 2; ++polish) {  // corrects cancellation in numerator and denominator
             const Slide w = u + t * p;
             const double rate = norm(w) > 0 ? dot(p, w) / norm(w) + c : 0.0;
             if (rate > 0) t = std::clamp(t - (norm(w) - (L - c * t)) / rate, 0.0, h);
@@ -244,7 +245,7 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
     Node top = free.back();
     top.deflection = {};
 
-    // Work lost: a spring slips by `over` in the direction n, at the rate e along the step, while its limit changes.
+    // Dissipated work: a spring slips by `over` in the direction n, at the rate e along the step, while its limit changes.
     const double e = dot(direction, dxi) - c * dd;
     if (c > 0 && e > 0) {
         QuadraticIntegral lost;
@@ -252,13 +253,13 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
         Node begin = after.back();
         for (std::size_t k = std::max<std::size_t>(inside, 1) - 1; k + 1 < n && edge < delta; ++k) {
             const Node& end = free[k + 1];
-            if (dd > 0 && begin.approach >= old_delta)  // springs that touched during the step, and slipped from the start
+            if (dd > 0 && begin.approach >= old_delta)  // springs that touched during the step slip from the beginning
                 lost.add(begin, end, [&](double s) { return 0.5 * e * limit(s) * limit(s) / (c * dd); });
             else
                 lost.add(begin, end, [&](double s) { return over(k, s) * (limit(s) - 0.5 * c * dd * over(k, s) / e); });
             begin = end;
         }
-        if (dd < 0) {  // springs that let go during the step: they slipped until their limit was 0
+        if (dd < 0) {  // springs released during the step slip until their limit is 0
             const std::size_t k = before.size() - 2;
             lost.add(top, before.back(), [&](double s) {
                 const double still = (c * (old_delta - s) - dot(direction, between(before[k], before[k + 1], s))) / e;
@@ -308,8 +309,8 @@ FrictionHistory::Tangent FrictionHistory::stiffness(LoadCurve& curve) const {
     Tangent tangent{S, 0, 0, S};
     const double L = c * (now_.delta - edge);
     if (!(L > 0)) return tangent;
-    // The slipping part mu [N - N* - S* (delta - s*)] n turns with the deflection of the spring at its inner edge, n = u/|u|:
-    // dn = (I - n n') (dxi + p ds*)/L, c ds* = -n.(dxi + p ds*), p the slope of u inside the edge.
+    // The slipping part mu [N - N* - S* (delta - s*)] n rotates with the deflection of the spring at its inner edge, n = u/|u|: dn = (I - n
+    // n') (dxi + p ds*)/L, c ds* = -n.(dxi + p ds*), where p is the slope of u inside the edge.
     const std::size_t k = nodes.size() - 2;
     const Slide n = (1 / norm(nodes[k].deflection)) * nodes[k].deflection;
     const Slide p = k > 0 ? slope(nodes[k - 1], nodes[k]) : Slide{};
@@ -342,7 +343,7 @@ std::vector<SlidePoint> slide_to(LoadCurve& curve, const Friction& friction, dou
     require_friction(friction);
     require_contact(curve, delta);
     for (double x : xi)
-        if (!(x >= 0) || std::isinf(x)) throw Error(Failure::bad_input, "a slide of first loading must be zero or positive, and finite");
+        if (!(x >= 0) || std::isinf(x)) throw Error(Failure::bad_input, "slides of first loading must be finite and not negative");
     const double N = curve.load(delta).force, touch = curve.first_touch(), c = friction.slide_per_approach();
     std::vector<SlidePoint> points;
     points.reserve(xi.size());
