@@ -1,4 +1,4 @@
-// The program: `rsc < case.nml`. It turns text into a case and runs it; everything else is in run/. Built with RSC_MPI it is
+// The program: `rsc < case.nml`. It reads the case and runs it; everything else is in run/. With RSC_MPI it is built as
 // rsc_mpi.
 
 #include "case/options.hpp"
@@ -16,7 +16,7 @@
 #include "run/mpi_team.hpp"
 #endif
 
-// A threaded BLAS sums in an order that depends on its threads; results must not. OpenBLAS has this switch, others need none.
+// A threaded BLAS sums in an order that depends on the number of threads, but results must not. Only OpenBLAS needs this switch.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace {
@@ -27,8 +27,8 @@ using Job = rsc::MpiJob;
 struct Job {};  // one process
 #endif
 
-// For the attribute `history`. With SOURCE_DATE_EPOCH, for reproducible files, it is the version only: the
-// same with or without --resume, for any program and number of threads.
+// For the attribute `history`. With SOURCE_DATE_EPOCH, for reproducible files, only the version: it is
+// independent of --resume, the program and the number of threads.
 std::string command_line(int argc, char** argv) {
     if (std::getenv("SOURCE_DATE_EPOCH")) return {};
     std::string text = "rsc";
@@ -66,30 +66,30 @@ rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& comma
     return how;
 }
 
-// 0: done, 1: some level did not converge.
+// Returns the exit status: 0 on success, 1 if a level did not converge.
 int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
     rsc::RunOptions how = how_to_run(options, command);
-    if (read.study) how.compare_automatically = false;  // a member is the same alone and among the others
+    if (read.study) how.compare_automatically = false;  // so that a member alone has the same result as in the study
     const std::size_t threads = threads_of(read.settings);
     rsc::CampaignWork work = rsc::make_work(rsc::members_of(read), how, threads);
     const std::unique_ptr<rsc::Team> team = make_team(job, work, read, threads);
     return rsc::run_members(read, options.member, how, work, *team).failed == 0 ? 0 : 1;
 }
 
-// Without MPI every process that mpirun starts would run the whole case and write the same file.
+// Without MPI every process started by mpirun would run the whole case and write the same file.
 void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
 #ifndef RSC_MPI
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"}) {
         const char* const size = std::getenv(name);
         if (size && std::atoi(size) > 1 && !options.member)
             throw rsc::Error(rsc::Failure::bad_input, std::string("rsc: started ") + size +
-                                                          " times by an MPI launcher, but this program knows nothing of MPI: use rsc_mpi "
+                                                          " times by an MPI launcher, but this program is built without MPI: use rsc_mpi "
                                                           "(cmake -DRSC_MPI=ON, or make -f Makefile.legacy rsc_mpi), or rsc --member K");
     }
 #endif
 }
 
-// With MPI they are caught already.
+// With MPI signals are caught already.
 void catch_signals_early() {
 #ifndef RSC_MPI
     rsc::catch_signals();
@@ -116,7 +116,7 @@ int run_program(int argc, char** argv, Job& job) {
     }
     if (options.show_case) {
         const std::optional<std::string> text = rsc::case_in_result(options.case_path);
-        if (!text) throw rsc::Error(rsc::Failure::bad_input, options.case_path + ": no result of rsc, whose case could be shown");
+        if (!text) throw rsc::Error(rsc::Failure::bad_input, options.case_path + ": is no result of rsc, so there is no case to print");
         std::cout << *text;
         return 0;
     }
@@ -125,10 +125,10 @@ int run_program(int argc, char** argv, Job& job) {
         catch_signals_early();
         return rsc::merge_campaigns(options.merge, *options.output, how_to_run(options, command_line(argc, argv))).failed == 0 ? 0 : 1;
     }
-    // A result file is a case, too.
+    // A result file can also be given as a case.
     const std::optional<std::string> inside = options.case_path.empty() ? std::nullopt : rsc::case_in_result(options.case_path);
     const rsc::ReadCase read = inside ? rsc::read_case_text(*inside, options.case_path, options) : rsc::read_case(options);
-    catch_signals_early();  // until here there is nothing to be left in order, and waiting for standard input could not be ended
+    catch_signals_early();  // not earlier, so that a signal ends the wait for standard input
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
         if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");
@@ -148,7 +148,7 @@ int run_program(int argc, char** argv, Job& job) {
     return run(job, options, read, command_line(argc, argv));
 }
 
-// Every failure becomes a message and an exit status here.
+// Converts every failure into a message and an exit status.
 int guarded(const std::function<int()>& program) {
     try {
         const int status = program();
@@ -159,15 +159,15 @@ int guarded(const std::function<int()>& program) {
         std::cerr << "rsc: " << stop.what() << '\n';
         return 128 + stop.signal();
     } catch (const rsc::Error& error) {
-        // Text from files may hold control characters of terminals.
+        // Text from files may contain control characters of terminals.
         std::istringstream lines(error.what());
         for (std::string line; std::getline(lines, line);) std::cerr << rsc::printable(line, line.size()) << '\n';
         return error.kind() == rsc::Failure::bad_input ? 2 : 1;
     } catch (const std::bad_alloc&) {
-        std::cerr << "rsc: out of memory; a smaller surface%n, fewer levels or solver%method = 'direct' need less\n";
+        std::cerr << "rsc: out of memory; reduce surface%n or the number of levels, or use solver%method = 'direct'\n";
         return 1;
     } catch (const std::exception& error) {
-        std::cerr << "rsc: internal failure: " << error.what() << "\nPlease report it with the case that led here.\n";
+        std::cerr << "rsc: internal failure: " << error.what() << "\nPlease report it with the case that caused it.\n";
         return 1;
     }
 }
@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
 #ifdef RSC_MPI
     return guarded([&] {
         Job job(argc, argv);
-        rsc::catch_signals();  // behind MPI_Init, which has handlers of its own
+        rsc::catch_signals();  // after MPI_Init, which installs its own handlers
         if (!job.root()) return serve(job, command_line(argc, argv));
         const int status = guarded([&] { return run_program(argc, argv, job); });
         std::cout.flush();

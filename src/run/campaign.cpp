@@ -21,10 +21,10 @@ const char* const kGoesOn = "to continue, run the same command with --resume";
 
 using Clock = std::chrono::steady_clock;
 
-// The finished realizations of a campaign: those added up, and those that wait for an earlier one.
+// The finished realizations of a campaign: those in the sums, and those that wait for an earlier one.
 class Progressing {
 public:
-    // `earlier`: the sums of a finished campaign that this one continues, where the checkpoint has none.
+    // `earlier`: the sums of a finished campaign that this one continues, if the checkpoint has none.
     Progressing(const Job& job, Checkpoint& checkpoint, std::size_t workers, const std::function<std::optional<Accumulators>()>& earlier)
         : first_(job.settings.run.first_realization),
           count_(job.settings.run.realizations),
@@ -38,14 +38,14 @@ public:
             sums_ = std::move(*found);
             std::vector<const std::string*> rest;
             for (const std::string& record : contents.records) rest.push_back(&record);
-            checkpoint.rewrite(to_bytes(sums_), rest);  // from here on the result file is not needed
+            checkpoint.rewrite(to_bytes(sums_), rest);  // the result file is not needed any more
         }
         for (std::string& record : contents.records) take(std::move(record));
         add_in_order();
         next_ = next_to_add();
     }
 
-    // The next realization to begin. None is begun far ahead of a slow one, because finished ones that wait for it are held in memory.
+    // The next realization to start. None starts far ahead of a slow one, because finished ones that wait for it are held in memory.
     std::optional<std::int64_t> next() {
         while (waiting_.contains(next_)) ++next_;
         if (next_ >= first_ + count_ || next_ >= next_to_add() + window_) return {};
@@ -85,7 +85,7 @@ private:
     Checkpoint& checkpoint_;
 };
 
-// True if a file that the surfaces are read from is not older than the result.
+// True if an input file of the surfaces is not older than the result.
 bool input_is_newer(const Case& settings) {
     if (settings.surface.source == Source::synthetic) return false;
     std::error_code error;
@@ -95,8 +95,8 @@ bool input_is_newer(const Case& settings) {
     return false;
 }
 
-// The sums in the result file of the case, if it holds the first realizations of the same campaign and no others. Otherwise `messages` says
-// why not, because that result is going to be replaced.
+// The sums in the result file of the case, if it contains the first realizations of the same campaign and no others. Otherwise the reason
+// is written to `messages`, because that result will be replaced.
 std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages) {
     const std::string& file = job.settings.output.file;
     std::string why;
@@ -119,8 +119,8 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
     return {};
 }
 
-// The contents of a campaign's result file. Levels of &compare are solved by elements here and reported on `table`. After a signal that is
-// caught meanwhile the result is incomplete.
+// The contents of a campaign's result file. Levels of &compare are solved by elements here and reported on `table`. If a signal is caught
+// meanwhile, the result is incomplete.
 Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* table) {
     const Case& settings = job.settings;
     Observations observations = sums.finish();

@@ -23,10 +23,10 @@ struct FrameHead {
 };
 
 constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // smaller files are not rewritten
-constexpr double kSyncShare = 0.01;                           // at most this share of the time is spent on waiting for the disk
+constexpr double kSyncShare = 0.01;                           // largest share of the time spent on waiting for the disk
 constexpr double kSyncSeconds = 5;
 
-// Any file may be replaced here: the process that holds its lock owns it, and load() refuses files that are no checkpoints.
+// Any file may be replaced here, because the process holds its lock, and load() refuses files that are no checkpoints.
 const FileKind kCheckpoint{"checkpoint", [](const std::string&) { return true; }};
 
 // CRC-32 of kind, length and bytes.
@@ -65,7 +65,7 @@ bool get(int fd, char* data, std::size_t n, std::uint64_t offset) {
     return true;
 }
 
-// Reads the frame at `offset` and moves it behind; false for a frame that is incomplete, damaged or missing.
+// Reads the frame at `offset` and advances `offset`; false for a frame that is incomplete, damaged or missing.
 bool get_frame(int fd, std::uint64_t end, std::uint64_t& offset, std::uint32_t& kind, std::string& bytes) {
     FrameHead head;
     if (end - offset < sizeof head || !get(fd, reinterpret_cast<char*>(&head), sizeof head, offset)) return false;
@@ -82,7 +82,7 @@ std::uint64_t file_size(int fd) {
     return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
-// True if the descriptor belongs to the file that has the name now.
+// True if the descriptor belongs to the file that now has this name.
 bool still_named(int fd, const std::string& name) {
     struct stat open {
     }, named{};
@@ -106,7 +106,7 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
         if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
         const bool busy = lock_file(fd_) == EAGAIN;
-        if (!busy && still_named(fd_, name_)) break;  // otherwise it was replaced or removed meanwhile
+        if (!busy && still_named(fd_, name_)) break;  // otherwise the file was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
         if (busy || attempt == 100) throw Error(Failure::bad_input, "'" + name_ + "': another process is running this campaign");
     }
@@ -139,7 +139,7 @@ void Checkpoint::write_frame(std::uint32_t kind, const std::string& bytes, std::
     int error = put(fd_, reinterpret_cast<const char*>(&head), sizeof head, size);
     if (error == 0) error = put(fd_, bytes.data(), bytes.size(), size + sizeof head);
     if (error != 0) {
-        // A torn frame at the end is ignored, but nothing may follow it.
+        // An incomplete frame at the end is ignored, but nothing may follow it.
         if (::ftruncate(fd_, static_cast<off_t>(size)) != 0) error = errno;
         fail_to_write(name_, error);
     }
@@ -164,7 +164,7 @@ void Checkpoint::load(const Case& settings) {
     if (kind != kHeader) refuse("is not a checkpoint of rsc");
     if (!bytes.starts_with(header_start()))
         refuse("was written by another version of rsc (" + bytes.substr(0, bytes.find('\n')) +
-               "), whose numbers may differ in the last bits: finish it with that one, or remove the file to start from the "
+               "), whose numbers may differ in the last bits: finish it with that version, or remove the file to start from the "
                "beginning");
     const Reading there = read_namelist(std::string_view(bytes).substr(header_start().size()));
     if (!there.faults.empty()) refuse("is damaged; remove it to start from the beginning");
@@ -172,7 +172,7 @@ void Checkpoint::load(const Case& settings) {
     for (const std::string& line : differences(there.settings, settings)) changed += "\n  " + line;
     if (!changed.empty())
         refuse("belongs to another case: it cannot be resumed with" + changed +
-               "\nGive these keys their old values, or remove the file to start from the beginning.");
+               "\nRestore the old values of these keys, or remove the file to start from the beginning.");
     base_size_ = size_ = offset;
     while (get_frame(fd_, end, offset, kind, bytes)) {
         if (kind == kSums && size_ == base_size_) {
@@ -185,7 +185,7 @@ void Checkpoint::load(const Case& settings) {
         }
         size_ = offset;
     }
-    // Sums are written before the file gets its name: incomplete ones are an error of the disk.
+    // Sums are written before the file gets its name, so incomplete sums are a disk error.
     FrameHead head;
     if (size_ == base_size_ && !contents_.sums && end - size_ >= sizeof head &&
         get(fd_, reinterpret_cast<char*>(&head), sizeof head, size_) && head.kind == kSums)
@@ -224,7 +224,7 @@ void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::s
     }
 }
 
-// After kill -9 the file is complete, because the system keeps what was written. A crash of the machine loses what is not yet on the disk.
+// After kill -9 the file is complete, because the system still writes its buffers. A crash of the machine loses what is not on the disk.
 void Checkpoint::sync_now_and_then() {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -297,7 +297,7 @@ void transfer_each(Archive& a, T& vector) {
         std::uint64_t size = 0;
         a(size);
         vector.clear();
-        // One by one: a wrong size fails at the end of the bytes, before much memory is allocated.
+        // Appended one by one: a wrong size fails at the end of the bytes, before much memory is allocated.
         for (std::uint64_t k = 0; k < size; ++k) transfer<Archive>(a, vector.emplace_back());
         return;
     }

@@ -9,11 +9,11 @@
 namespace rsc {
 namespace {
 
-// The grid of elements is refined while that is expected to take no longer than this.
+// The grid of elements is refined only if the expected time is at most this.
 constexpr double kRefineSeconds = 60;
-// compare%levels = 'auto' is for what takes no longer.
+// Longest expected time of compare%levels = 'auto'.
 constexpr double kAutoSeconds = 2;
-// Relative cost with the grid that gives the error: a finer one (maps) has four times the points, a coarser one a quarter.
+// Relative cost including the second grid for the error: a finer one (maps) has four times the points, a coarser one a quarter.
 constexpr double kWithFiner = 5, kWithCoarser = 1.25;
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
@@ -37,12 +37,12 @@ void print(std::ostream& out, const Job& job, const ComparedLevels& c, const Lev
         out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
                       100 * c.contacts_error[k]);
     if (c.force_error_expected[k] > kUnresolved)
-        out << format("  warning: a finer grid may change N of the elements by %.2g %%, so that they are not a reliable reference.\n",
+        out << format("  warning: a finer grid may change N of the elements by %.2g %%, so they are not a reliable reference.\n",
                       100 * c.force_error_expected[k]);
 }
 
-// The levels to compare: the nearest one to each of compare%levels. If levels depend on those before, in the order of the path, and of
-// equally near levels one that is not in the list yet, so that loading and unloading can both be compared.
+// The levels to compare: the nearest one to each of compare%levels. If levels depend on the levels before, they are in the order of the
+// path, and of equally near levels one that is not in the list yet is taken, so that loading and unloading can both be compared.
 std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels, bool path_dependent) {
     if (!job.settings.compare.listed()) return {levels.size() - 1};
     const bool by_force = job.settings.indentation.control != Control::separation;
@@ -98,12 +98,12 @@ private:
         Case settings = job_.settings;
         settings.elements.points_per_wave = points_per_wave;
         auto map = std::make_unique<HeightMap>(make_element_surface(settings, number_, threads_).map);
-        map->x0 = job_.domain.x0;  // of several measured maps the first one says where they lie
+        map->x0 = job_.domain.x0;  // the position of several measured maps is that of the first
         map->y0 = job_.domain.y0;
         return map;
     }
 
-    // Doubles the points a side; false if that would take too long, or is impossible.
+    // Doubles the points a side; false if that is impossible or would take too long.
     bool refine(const Level& level) {
         if (!job_.spectrum || contact_->path_dependent() || level.status == LevelStatus::not_converged) return false;
         const double finer = 2 * points_per_wave_;
@@ -154,7 +154,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
     const bool by_force = job.settings.indentation.control != Control::separation && !reference.contact().path_dependent();
     if (table) *table << "\ncompared with elements (asperities over elements - 1" << (by_force ? ", at equal force" : "") << "):\n";
     std::size_t next = 0;
-    bool on_path = true;  // elements have gone through all levels that matter
+    bool on_path = true;  // all reversals of the path converged
     for (const std::size_t step : steps_to_compare(job, levels, reference.contact().path_dependent())) {
         const LevelValues& level = levels[step];
         Level truth;
@@ -164,7 +164,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
                 if (turns(levels, next))
                     on_path = reference.contact().at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
             truth = reference.solve(level, by_force, own);
-        } catch (const Error& error) {  // two flats nearer than the mean planes: only asperities can be
+        } catch (const Error& error) {  // two flats closer than their mean planes, which only the asperity model allows
             if (error.kind() != Failure::bad_input) throw;
             if (table)
                 *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1, level.separation / job.sigma, error.what());

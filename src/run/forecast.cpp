@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-// E[h^p] over h > 0, h = z - Z0 with Gaussian heights z of deviation sigma, by the midpoint rule.
+// E[h^p] over h > 0, h = z - Z0 for Gaussian heights z of standard deviation sigma, by the midpoint rule.
 double mean_excess(double Z0, double sigma, double power) {
     constexpr int points = 400;
     constexpr double reach = 6;  // standard deviations
@@ -19,8 +19,8 @@ double mean_excess(double Z0, double sigma, double power) {
     return sum * std::max(width, 0.0) / (sigma * std::sqrt(2 * 3.14159265358979));
 }
 
-// The integral of mean_excess(Z0 + s) over the domain, s being the height of the indenter's face: from the areas that the face has in
-// steps of height, sampled on a grid.
+// The integral of mean_excess(Z0 + s) over the domain, s being the height of the indenter's face: from the areas of the face in intervals
+// of height, sampled on a grid.
 double under_indenter(const Job& job, double Z0, double power) {
     constexpr int side = 96, steps = 32;
     const double step = std::max(1.0, 6 - Z0 / job.sigma) * job.sigma / steps;
@@ -38,14 +38,14 @@ double under_indenter(const Job& job, double Z0, double power) {
     return sum;
 }
 
-// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction: an upper bound.
+// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction, an upper bound.
 double greenwood_force(const Job& job, double Z0) {
     const double r = job.theory ? job.theory->mean_radius() : 1.0;
     const double density = 1 / (job.domain.mean_spacing * job.domain.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
     return density * k * under_indenter(job, Z0, 1.5);
 }
 
-// A separation with about that force.
+// A separation with approximately this force.
 double separation_at(const Job& job, double force) {
     double high = 6 * job.sigma, low = high;
     do low -= 2 * job.sigma;
@@ -58,11 +58,11 @@ double separation_at(const Job& job, double force) {
 }
 
 double level_seconds(const Job& job, double candidates) {
-    // As `auto` counts (contact.cpp): some 40 products of the contacts, 0.4 of the candidates, at 6e9 pairs a second.
+    // As for method `auto` (contact.cpp): about 40 products with the contacts, which are 0.4 of the candidates, at 6e9 pairs per second.
     const double contacts = 0.4 * candidates;
     double solve = 40 * contacts * contacts / 6e9;
     if (job.solver.method == Method::dgesv)
-        solve = 10 * candidates * candidates * candidates / 1.5e9;  // ten factorisations of 2/3 n^3 operations at 1e9 a second
+        solve = 10 * candidates * candidates * candidates / 1.5e9;  // ten factorisations of 2/3 n^3 operations at 1e9 per second
     else if (job.solver.method != Method::direct && candidates > 1)
         solve = std::min(solve, 160 * MeshPotential::estimated_cost(static_cast<std::size_t>(candidates), 1e-3));
     return 1e-4 + 3e-6 * candidates + solve;
@@ -71,13 +71,13 @@ double level_seconds(const Job& job, double candidates) {
 // The part of the domain where a Gaussian surface is higher than the indenter at Z0.
 double area_under(const Job& job, double Z0) { return under_indenter(job, Z0, 0); }
 
-// Points of the surface that elements stand on.
+// Number of grid points of the elements.
 double points_of_elements(const Job& job, double points_per_wave) {
     if (job.given_heights) return static_cast<double>(job.given_heights->nx) * job.given_heights->ny;
     return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
 }
 
-// A level by elements: proportional to the number of points under the sphere, or of the period of two flats.
+// Seconds for a level by elements: proportional to the number of points under the sphere, or in the period of two flats.
 double element_level_seconds(const Job& job, double Z0, double points) {
     if (job.indenter.period.finite()) return 1e-6 * points;
     return 5e-6 * points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);
@@ -98,7 +98,7 @@ double surface_seconds(const Case& settings) {
     const auto start = Clock::now();
     try {
         make_surface_model(sample, 1, 1);
-    } catch (const Error&) {  // a piece of the surface so small that it has no summit
+    } catch (const Error&) {  // the piece of surface is so small that it has no summit
     }
     return std::chrono::duration<double>(Clock::now() - start).count() * scale * scale;
 }
@@ -121,7 +121,7 @@ double likely_separation(const Job& job, double level) {
 }
 
 double element_seconds(const Job& job, double Z0, double points_per_wave) {
-    constexpr double making = 1.2e-7;  // a point of a made surface
+    constexpr double making = 1.2e-7;  // for each point of a synthetic surface
     const double points = points_of_elements(job, points_per_wave);
     return (job.spectrum ? making * points : 0) + element_level_seconds(job, Z0, points);
 }
@@ -135,7 +135,7 @@ double expected_seconds(const Job& job, double workers) {
         const double once = elements ? element_level_seconds(job, Z0, points_of_elements(job, job.settings.elements.points_per_wave))
                                      : level_seconds(job, expected_candidates(job, Z0));
         const bool at_once = !force || (elements && job.indenter.period.finite());
-        one += at_once ? once : 6 * once;  // some six separations for a force
+        one += at_once ? once : 6 * once;  // about six separations for each force
     }
     const double realizations = job.settings.run.realizations;
     return one * std::ceil(realizations / std::max(1.0, std::min(workers, realizations)));

@@ -28,7 +28,7 @@ std::vector<double> spaced(const Case::Indentation& keys) {
     return values;
 }
 
-// None where the case gives none.
+// The times of the levels; empty if the case has none.
 std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
     if (!keys.duration) return keys.times;
     std::vector<double> times(levels, 0.0);
@@ -45,7 +45,7 @@ void require_maps(const Case& settings) {
                                             std::to_string(files) + " files match");
 }
 
-// The sphere touches the same place of every map, so that all must have the same size; their origins do not matter.
+// The sphere touches every map at the same position, so that all maps must have the same size; their origins do not matter.
 void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     constexpr double kSame = 1e-6;
     const Domain& d = model.domain;
@@ -66,8 +66,8 @@ void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     static_cast<Domain&>(model.domain) = place;
 }
 
-// The m2 for relative pressures, the same for all realizations: that of the map, of the single synthetic surface, or for several the
-// expectation over their modes. Negative or NaN: not known.
+// The m2 for relative pressures, common to all realizations: that of the map or of the single synthetic surface, or the expectation
+// over the modes of several surfaces. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
     if (!job.spectrum) return job.given ? job.given->statistics.m2 : kAbsent;
     const Case& c = job.settings;
@@ -91,7 +91,7 @@ double seam(const HeightMap& map) {
     return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
 }
 
-// The levels whose fields are wanted, in their order: the nearest to each of output%field_levels.
+// The levels whose fields are requested, in ascending order: the nearest to each of output%field_levels.
 std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
@@ -149,7 +149,7 @@ Job prepare(const Case& settings) {
     job.sigma = sigma_of(settings, job.domain);
     if (!(job.sigma > 0)) {
         throw Error(Failure::bad_input,
-                    "surface%sigma: the rms height of what was read is 0; give a sigma > 0 (it scales unit='sigma' "
+                    "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales unit='sigma' "
                     "and solver%delta0), and unit='length' if the levels are lengths");
     }
     job.solver = solver_of(settings, job.domain);
@@ -174,8 +174,9 @@ Job prepare(const Case& settings) {
         const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
         const bool relative = indentation.unit == LevelUnit::relative;
         if (relative && !(m2 > 0)) {
-            throw Error(Failure::bad_input,
-                        "indentation%unit = 'relative': the surface's rms slope is not known, only summits; use unit = 'pressure'");
+            throw Error(
+                Failure::bad_input,
+                "indentation%unit = 'relative': the rms slope of the surface is not known, only its summits; use unit = 'pressure'");
         }
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
@@ -198,7 +199,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     Realization r;
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
-    std::optional<ResolutionCheck> resolution;  // of elements, of a single run
+    std::optional<ResolutionCheck> resolution;  // of elements, single runs only
     SummitSearch search;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
@@ -250,7 +251,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         add_answers(*contact, level, settings.solids.resistivity);
         if (resolution) resolution->judge(k, level);
         if (job.measured && job.given) judge_filled(level, *job.measured, job.domain);
-        if (level.force == 0 && level.separation < job.points_touch)  // points touch where no summit is
+        if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
         if (std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end())

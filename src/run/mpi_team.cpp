@@ -1,4 +1,4 @@
-// Compiled with RSC_MPI for rsc_mpi; without it there is nothing here.
+// Compiled with RSC_MPI for rsc_mpi; empty otherwise.
 #ifdef RSC_MPI
 
 #include "run/mpi_team.hpp"
@@ -32,7 +32,7 @@ std::optional<Message> receive() {
     return message;
 }
 
-// Messages being sent; their bytes are kept until they have arrived.
+// Messages being sent; their bytes are stored until delivery.
 class Outbox {
 public:
     void send(int rank, Tag tag, std::string bytes) {
@@ -48,7 +48,7 @@ public:
             letters_.pop_front();
         }
     }
-    // The receivers look for messages until all have left.
+    // The receivers check for messages until all ranks have left.
     ~Outbox() {
         for (Letter& letter : letters_) MPI_Wait(&letter.request, MPI_STATUS_IGNORE);
     }
@@ -102,7 +102,7 @@ public:
         leave_if_interrupted();
         WorkerThreads local(work_, threads_);
         std::vector<std::size_t> at_work(ranks_, 0);
-        const auto wait = ahead > 0 ? 2ms : 10ms;  // between looking for messages: a realization takes less time than a member
+        const auto wait = ahead > 0 ? 2ms : 10ms;  // between checks for messages: a realization takes less time than a member
         for (;;) {
             const std::size_t unfinished = hand_out(next, local, at_work, ahead);
             if (unfinished == 0) return;
@@ -126,7 +126,7 @@ public:
     }
 
 private:
-    // First one task for every worker, then a second one, so that none has two while another has none. Returns the number handed out.
+    // Distributes one task to every worker before a second one. Returns the number of unfinished tasks.
     std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work, int ahead) {
         bool more = true;
         for (std::size_t deep = 1; more && deep <= static_cast<std::size_t>(1 + ahead); ++deep)
@@ -176,7 +176,7 @@ std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::st
 void MpiJob::dismiss(int status) {
     const auto value = static_cast<std::int32_t>(status);
     for (int rank = 1; rank < size_; ++rank) MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
-    // Results that are no longer needed must still be received, until all ranks have left: their senders wait for that.
+    // Results that are no longer needed must still be received until all ranks have left, because their senders wait for it.
     MPI_Request left = MPI_REQUEST_NULL;
     MPI_Ibarrier(MPI_COMM_WORLD, &left);
     for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))

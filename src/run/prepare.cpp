@@ -18,7 +18,7 @@
 namespace rsc {
 namespace {
 
-// Hertz asperities lie on grid points, as in the paper; the other laws need the summits between them.
+// Hertz asperities are at grid points, as in the paper; the other laws need the summits between the points.
 Detail detail_of(const Case& settings) { return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid; }
 
 double rms(const std::vector<double>& values) {
@@ -36,7 +36,7 @@ void count_summits(const SummitCount& count, SurfaceStatistics& s) {
     s.saddles = count.saddles + count.repeated;
 }
 
-// Skewness and kurtosis are stored for heights that are not Gaussian only.
+// Skewness and kurtosis are stored only for heights that are not Gaussian.
 void made_heights(const Moments& sampled, SurfaceStatistics& s) {
     if (sampled.heights.skewness == 0 && sampled.heights.kurtosis == 3) return;
     s.skewness = sampled.heights.skewness, s.kurtosis = sampled.heights.kurtosis;
@@ -52,7 +52,7 @@ std::string map_file(const std::string& name, std::int64_t number) {
     if (!is_pattern(name)) return name;
     const std::vector<std::string> files = matching_files(name);
     if (number < 1 || number > static_cast<std::int64_t>(files.size()))
-        throw Error(Failure::bad_input, name + ": realization " + std::to_string(number) + " is asked for, and " +
+        throw Error(Failure::bad_input, name + ": realization " + std::to_string(number) + " is requested, but only " +
                                             std::to_string(files.size()) + " files match");
     return files[static_cast<std::size_t>(number - 1)];
 }
@@ -99,7 +99,7 @@ SurfaceModel read_list(const Case& settings) {
     const auto& keys = settings.surface;
     SurfaceModel model;
     model.asperities = read_asperities(keys.file, settings.run.length_unit);
-    make_law(settings.asperities.law, model.asperities, 1);  // refuses asperities that lack what the law needs
+    make_law(settings.asperities.law, model.asperities, 1);  // refuses asperities without the properties that the law needs
     model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
     model.statistics.summits = static_cast<std::int64_t>(model.asperities.size());
     model.statistics.sigma = model.domain.sigma;
@@ -165,20 +165,20 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
     constexpr double most = 32768;
     char text[300];
     if (wanted > most) {
-        std::snprintf(text, sizeof text, "&elements points_per_wave = %g: makes a grid of %.0f points a side, and %.0f is the most",
+        std::snprintf(text, sizeof text, "&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is %.0f",
                       settings.elements.points_per_wave, wanted, most);
         throw Error(Failure::bad_input, text);
     }
     const int n = element_points(settings, spectrum);
-    // Two flats: heights, transforms in single and double precision, coarser grids.
+    // Memory for two flats: heights, transforms in single and double precision, coarser grids.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
     const double bytes = (periodic ? 24.0 : 8.0) * n * n,
                  memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-    constexpr double beside = 1.5;  // the modes of the surface while it is made, the pixels in contact later
+    constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
     if (!(memory > 0) || beside * bytes <= memory) return;
     std::snprintf(text, sizeof text,
                   "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has %.3g GB of memory; use "
-                  "fewer points a wave or a smaller surface%%L_lambda_s",
+                  "fewer points per wave or a smaller surface%%L_lambda_s",
                   settings.elements.points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes,
                   1e-9 * memory);
     throw Error(Failure::bad_input, text);
@@ -239,7 +239,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     }
     SummitCount count;
     const auto& measured = surface.origin.measured;
-    // Rounded heights have plateaus, which are summits of a smoother surface.
+    // Rounded heights have plateaus, so that summits are found on a smoothed surface.
     const double step = surface.origin.theory ? 0 : measured ? measured->height_step : height_step(map);
     auto breaks = std::make_shared<Breaks>();
     if (!surface.origin.theory) *breaks = measured ? measured->breaks : find_breaks(map, step);

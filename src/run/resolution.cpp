@@ -7,18 +7,18 @@
 namespace rsc {
 namespace {
 
-// A map of more points than this is not solved on a finer grid: that would take as long as the rest of a run.
+// A map of more points than this is not solved on a finer grid, which would take as long as the rest of a run.
 constexpr double kMostPoints = 1 << 20;
 
-// Expected error of N of contacts of one pixel, assumed to decrease as the third power of the contact radius in pixels: a lower bound
-// for contacts of few pixels, chosen by judgement.
+// Expected error of N for contacts of one pixel, assumed to decrease as the third power of the contact radius in pixels: an empirical
+// lower bound for contacts of few pixels.
 constexpr double kOnePixel = 2;
 
-// Fewer points in the shortest wave than this cannot be halved: a grid carries waves of more than two.
+// Fewer points in the shortest wavelength than this cannot be halved, because a grid resolves wavelengths of more than two points.
 constexpr double kHalvedFrom = 5;
 
-// Contacts of twice (synthetic surfaces) or four times (maps, where a check costs four levels) as many pixels, or of three quarters as
-// many, are checked again. In between a level has the error of the last check, whose contacts were smaller.
+// The check is repeated when contacts have twice (synthetic surfaces) or four times (maps, where a check costs four levels) as many pixels,
+// or three quarters as many. In between, levels keep the error of the last check, whose contacts were smaller.
 constexpr double kGrownMade = 2, kGrownRead = 4, kShrunk = 0.75;
 
 }  // namespace
@@ -44,7 +44,7 @@ std::optional<GridError> OtherGrid::error(const LevelValues& level) {
     Level other;
     try {
         other = contact_->at_separation(level.separation);
-    } catch (const Error& error) {  // two flats nearer than this grid can be
+    } catch (const Error& error) {  // two flats closer than this grid allows
         if (error.kind() != Failure::bad_input) throw;
         return {};
     }

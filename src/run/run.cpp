@@ -27,7 +27,7 @@ bool check_result_path(const Case& settings, const RunOptions& options) {
 
 std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
 
-// On a terminal the line is redrawn, unless the table is printed there; with `always` a line now and then on other streams, too.
+// On a terminal the line is redrawn, unless the table is printed there; with `always` lines are also printed on other streams.
 std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
     terminal = isatty(STDERR_FILENO) != 0;
     const bool scrolls = options.table && !options.quiet && isatty(STDOUT_FILENO) != 0;
@@ -51,7 +51,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     if (by_elements(job.settings))
         std::snprintf(line, sizeof line, "elements, %zu levels in %s\n", levels.size(), duration(seconds).c_str());
     else
-        std::snprintf(line, sizeof line, "%lld asperities (%lld saddles left out), %zu levels in %s\n", static_cast<long long>(s.summits),
+        std::snprintf(line, sizeof line, "%lld asperities (%lld saddles excluded), %zu levels in %s\n", static_cast<long long>(s.summits),
                       static_cast<long long>(s.saddles), levels.size(), duration(seconds).c_str());
     out << line;
     if (s.m2 > 0) {
@@ -64,7 +64,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     print_result(out, file, replaces);
 }
 
-// The OpenMP threads of the caller while this lives.
+// Restores the number of OpenMP threads of the caller on destruction.
 class OmpThreads {
 public:
     explicit OmpThreads(int threads) { omp_set_num_threads(threads); }
@@ -97,31 +97,31 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.file = result;
     twins.surface.L = L;
     twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) * (1 - 1e-12))) +
-                      2;  // heights of any distribution need a point more
+                      2;  // one more point for heights of any distribution
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
     twins.surface.sigma = m.parameters.sq;
-    twins.surface.normalise = Normalise::ensemble;  // the map's rms height is one sample's; that of the twins may scatter as it does
+    twins.surface.normalise = Normalise::ensemble;  // the rms height of the map is that of one sample; that of the twins scatters likewise
     if (keys.sigma && twins.indentation.control == Control::separation && twins.indentation.unit == LevelUnit::sigma) {
-        // sigma was a unit of length for the map; for twins it is their rms height.
+        // For the map sigma was a unit of length; for twins it is the rms height.
         twins.indentation.unit = LevelUnit::length;
         twins.indentation.start *= job.sigma;
         twins.indentation.stop *= job.sigma;
         for (double& level : twins.indentation.levels) level *= job.sigma;
     }
-    // The square begins at 0, with the map's longer side; the tip keeps its distance from the middle.
+    // The square begins at 0 and has the longer side of the map; the tip keeps its distance from the middle.
     const Domain& d = job.domain;
     if (auto& x = twins.indentation.centre[0]) x = std::clamp(*x - (d.x0 + 0.5 * d.Lx) + 0.5 * L, 0.0, L);
     if (auto& y = twins.indentation.centre[1]) y = std::clamp(*y - (d.y0 + 0.5 * d.Ly) + 0.5 * L, 0.0, L);
     twins.output.file = stem(result) + "_twins.nc";
     twins.output.contacts = Contacts::automatic;
     twins.output.heights = false;
-    twins.solver.model = model_of(job.settings).model;  // as the map was solved, so that the two can be compared
+    twins.solver.model = model_of(job.settings).model;  // as for the map, for comparison
     return kMark + effective_namelist(twins);
 }
 
-// Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also says if a file
-// of that name was not written by rsc and is left alone; empty for other surfaces, and for maps too small for a spectrum.
+// Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also reports a file
+// of that name that was not written by rsc and is not replaced; empty for other surfaces, and for maps too small for a spectrum.
 static std::string write_twins(const Job& job, const std::string& result) {
     if (!job.measured || !job.measured->fit) return {};
     const std::string path = stem(result) + "_twins.nml";

@@ -20,13 +20,13 @@ const char* fallback_text(Fallback fallback) {
         case Fallback::dgesv_not_converged: return "dgesv did not converge";
         case Fallback::dgesv_singular: return "dgesv's matrix was singular";
         case Fallback::not_unique: return "dgesv's solution is not proved unique";
-        case Fallback::held: return "no state carries this force; held at the smallest";
+        case Fallback::held: return "no state has this force; level of the smallest force";
     }
     return "";
 }
 
 const char* name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
-// Columns of what only two flats have are theirs alone.
+// Columns that only two flats have are shown for two flats only.
 bool shown(const LevelQuantity& q, const Job& job) {
     return q.heading && (q.always || (q.of_step ? !job.times.empty() : job.indenter.period.finite()));
 }
@@ -64,7 +64,7 @@ void print_case(std::ostream& out, const Job& job) {
     }
 }
 
-// The treatment of a measured map, of several that of the first.
+// The treatment of a measured map, or of the first of several maps.
 void print_measured(std::ostream& out, const Job& job) {
     if (!job.measured) return;
     if (!job.given) out << "the first of the maps:\n";
@@ -77,7 +77,7 @@ void print_measured(std::ostream& out, const Job& job) {
             job.seam);
 }
 
-// A second rough body: what was done to its map, and whether it is taken between its points.
+// A second rough body: the treatment of its map, and a note if it is interpolated.
 void print_second(std::ostream& out, const Job& job) {
     const ShapeKeys& keys = job.indenter.shape->keys();
     if (!keys.map) return;
@@ -92,12 +92,12 @@ void print_second(std::ostream& out, const Job& job) {
     };
     if (!between(dx, map.dx, map.nx, job.indenter.x0, d.x0) && !between(dy, map.dy, map.ny, job.indenter.y0, d.y0)) return;
     const char* l = job.settings.run.length_unit.c_str();
-    out << format("body 2 is interpolated between its points, which are %g x %g %s apart", map.dx, map.dy, l);
-    if (dx > 0) out << format("; those of body 1 are %g x %g %s apart", dx, dy, l);
-    out << (dx > 1.000001 * map.dx || dy > 1.000001 * map.dy ? ": coarser, and blind to what lies between\n" : "\n");
+    out << format("body 2 is interpolated between its points, at a spacing of %g x %g %s", map.dx, map.dy, l);
+    if (dx > 0) out << format("; the spacing of body 1 is %g x %g %s", dx, dy, l);
+    out << (dx > 1.000001 * map.dx || dy > 1.000001 * map.dy ? ", which is coarser, so that details of body 2 are missed\n" : "\n");
 }
 
-// The columns after the first three are the level's declared quantities (observe/quantities.hpp).
+// The columns after the first three are quantities of observe/quantities.hpp.
 void print_heading(std::ostream& out, const Job& job) {
     print_case(out, job);
     print_measured(out, job);
@@ -158,14 +158,14 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     const auto tell_status = [&](LevelStatus status, const char* meaning) {
         tell(count([status](const LevelValues& l) { return l.status == status; }), status_text(status) + " - " + meaning);
     };
-    // Reasons for status out_of_validity, reported also where a more serious status hides it.
+    // Reasons for status out_of_validity, reported also if a more serious status overrides it.
     tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
          "contacts within <d> of the border of the surface - asperities beyond it are missing: N is too small.");
     tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
-         "more than 1 % of the contact area lies on points that were missing and have been filled (filled_share).");
+         "more than 1 % of the contact area is on filled points, which were missing in the map (filled_share).");
     if (elements) {
         double worst = 0;
-        for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // a NaN is no larger
+        for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // ignores NaN
         tell(count([](const LevelValues& l) { return l.force_error_expected > kUnresolved; }),
              format("a finer grid may change N by more than 1 %%, at most by %.2g %% (force_error_expected); ", 100 * worst) + remedy);
     }
@@ -180,10 +180,10 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
             tell(
                 count([](const LevelValues& l) { return l.slope_ratio > kMostSlopeRatio; }),
                 format(
-                    "at contacts the indenter is up to %.2g times as steep as the surface (slope_ratio), and touches other points than the "
+                    "at contacts the indenter is up to %.2g times as steep as the surface (slope_ratio), and touches points other than the "
                     "summits of the surface; ",
                     steepest) +
-                    (list ? "a list of asperities has no others." : "use asperities%law = 'elliptic' or 'fourth_order'."));
+                    (list ? "a list of asperities has no other points." : "use asperities%law = 'elliptic' or 'fourth_order'."));
         tell(count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
              "separation below -3 sigma - the tip lies below 99.9 % of the heights: the asperity model is outside its range.");
         tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
@@ -199,17 +199,17 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     double widest = 0;
     for (const LevelValues& l : levels) widest = std::max(widest, l.wide_contacts);
     tell(count([](const LevelValues& l) { return l.wide_contacts > 0; }),
-         format("contacts with a > h/5, up to %.0f %% of them, where h is the thickness of the top layer - elements have no such limit.",
+         format("up to %.0f %% of the contacts have a > h/5, where h is the thickness of the top layer - elements have no such limit.",
                 100 * widest));
     tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
-         "contacts pressed beyond the validity of the contact law (beyond_law in the file).");
+         "contacts beyond the range of validity of the contact law (beyond_law in the file).");
     tell_status(LevelStatus::overlapping,
                 "pairs of contact spots closer than the sum of their radii: spots that would merge are counted as two.");
     tell_status(
         LevelStatus::not_unique,
-        "spots that overlap so much that other solutions may exist: the one given is a local minimum of the energy, found by a fixed rule.");
+        "spots that overlap so much that other solutions may exist: this one is a local minimum of the energy, selected by a fixed rule.");
     const auto held = [](const LevelValues& l) { return l.fallback == Fallback::held; };
-    tell(count(held), "no state carries the force asked for: the level is the last stable one, that of the smallest force.");
+    tell(count(held), "no state has the force asked for: the level is the last stable one, that of the smallest force.");
     tell(count([&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l); }),
          status_text(LevelStatus::not_converged) +
              " - the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
@@ -220,14 +220,14 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
     const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) { return l.force_error_expected >= 0; });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
-    out << format("level %td: N = %.4g %s +- %.2g %%, A = %.4g %s2 +- %.2g %%: bounds that hold in nine of ten cases\n",
-                  levels.rend() - last, last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
+    out << format("level %td: N = %.4g %s +- %.2g %%, A = %.4g %s2 +- %.2g %%: bounds valid in nine of ten cases\n", levels.rend() - last,
+                  last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
 }
 
 // The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that relax.
 void print_yielding(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (relaxes(job.settings) && !levels.empty() && job.settings.run.realizations == 1)
-        out << format("  %.4g %s %s of the work done are lost in the body that relaxes. Levels depend on those before them.\n",
+        out << format("  %.4g %s %s of the work done are lost by relaxation. Levels depend on the levels before.\n",
                       levels.back().energy_lost, job.settings.run.force_unit.c_str(), job.settings.run.length_unit.c_str());
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
     const auto most = std::max_element(levels.begin(), levels.end(),
@@ -238,13 +238,13 @@ void print_yielding(std::ostream& out, std::span<const LevelValues> levels, cons
     }
     out << format("  at Z0/sigma = %.4g, %d of %d contacts yield", most->separation / job.sigma, most->plastic_contacts, most->contacts);
     double lost = 0;
-    for (const LevelValues& level : levels) lost = std::max(lost, level.plastic_work);  // NaN where a level did not converge
+    for (const LevelValues& level : levels) lost = std::max(lost, level.plastic_work);  // NaN if a level did not converge
     if (job.settings.run.realizations == 1)
         out << format("; plastic work %.4g %s %s", lost, job.settings.run.force_unit.c_str(), job.settings.run.length_unit.c_str());
-    out << ". Levels depend on those before them.\n";
+    out << ". Levels depend on the levels before.\n";
 }
 
-// What a run with adhesion ends in, and for which attraction the model of its contacts' edges holds.
+// The summary of a run with adhesion, and the range of attraction up to which JKR is valid.
 void print_sticking(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     const Case& c = job.settings;
     if (!(c.solids.adhesion > 0) || levels.empty()) return;
@@ -254,8 +254,9 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     for (const LevelValues& level : levels)
         jumps += level.jumps, lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
     if (c.run.realizations == 1)
-        out << format("  adhesion: the smallest force met is %.4g %s; %ld jumps lost %.4g %s %s. Levels depend on those before them.\n",
-                      least, f, jumps, lost, f, l);
+        out << format(
+            "  adhesion: the smallest force is %.4g %s; energy lost in %ld jumps: %.4g %s %s. Levels depend on the levels before.\n", least,
+            f, jumps, lost, f, l);
     // Tabor's parameter is this length over the range of the attraction; JKR holds from 5 on.
     const auto reach = [&](double radius) { return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2)); };
     double summit = kNotComputed;
@@ -267,11 +268,11 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     }
     if (summit > 0)
         out << format(
-            "  JKR (adhesion_range = 0): right for summits of mean radius (%.3g %s) if the attraction reaches no further than %.3g %s "
+            "  JKR (adhesion_range = 0) is valid for summits of mean radius (%.3g %s) if the range of the attraction is at most %.3g %s "
             "(Tabor's parameter 5)",
             summit, l, reach(summit) / 5, l);
     if (const double R = job.indenter.shape->hertz_radius(); summit > 0 && std::isfinite(R))
-        out << format("; for a smooth sphere it would be %.3g %s", reach(R) / 5, l);
+        out << format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l);
     if (summit > 0) out << ".\n";
 }
 
@@ -283,7 +284,7 @@ double coupling(const Case::Solids& s) {
     return above / below;
 }
 
-// Effects that the model of this case leaves out.
+// Effects that the model of this case neglects.
 void print_words(std::ostream& out, const Job& job, bool elements) {
     const Case& c = job.settings;
     constexpr double much_coupling = 0.05, least_points = 5;
@@ -303,8 +304,8 @@ void print_words(std::ostream& out, const Job& job, bool elements) {
             points);
     if (c.indentation.selection == Selection::paper && c.indentation.selection_factor < 1.5)
         out << format(
-            "  selection = 'paper' with a factor of %g leaves out asperities that touch: N may be too low by more than half; 'overlap' leaves out "
-            "none.\n",
+            "  selection = 'paper' with a factor of %g excludes asperities that touch: N may be too low by more than half; 'overlap' includes "
+            "all of them.\n",
             c.indentation.selection_factor);
 }
 
@@ -321,8 +322,8 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     if (!std::isfinite(job.settings.solids.hardness) && !relaxes(job.settings) && extreme != levels.end() &&
         extreme->extreme_area_fraction > kExtremeShare)
         out << format(
-            "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal carries them elastically; solids%%hardness "
-            "bounds them.\n",
+            "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal stays elastic at such pressures; solids%%hardness "
+            "limits them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
     print_yielding(out, levels, job);
     print_sticking(out, levels, job);
@@ -336,13 +337,13 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
 const char* slope_remark(double rms_slope) {
     if (rms_slope <= 0.5) return "";
     if (rms_slope <= 2)
-        return " - above 0.5 the theory of small slopes is inaccurate: compare surfaces by N(Z0), A(N) and stiffness, their ratios and trends; "
+        return " - above 0.5 the theory of small slopes is inaccurate: use ratios and trends of N(Z0), A(N) and stiffness to compare surfaces; "
                "absolute areas and pressures (some 0.4 E* in a contact) are not those of a real body";
-    return " - above 2 the theory of small slopes does not hold: results serve to compare runs of the model and to reproduce "
+    return " - above 2 the theory of small slopes is not valid: use results only to compare runs of the model and to reproduce "
            "the paper (4.7 there); loads, areas and pressures are not those of a real body";
 }
 
-// Path of the plotting script: in a clone, in the installation, or in the clone that the program was built in.
+// Path of the plotting script: in a clone, in the installation, or in the clone where the program was built.
 static std::string plot_script() {
     const std::string here = "output/plot/plot.py";
     std::error_code error;
@@ -396,7 +397,7 @@ void ProgressLine::show(double done, double total) {
 
 namespace {
 
-// Steps of the table: about ten, the first and the last among them.
+// Steps of the table: about ten, including the first and the last.
 std::vector<std::size_t> shown_steps(std::size_t steps) {
     constexpr std::size_t most = 11;
     std::vector<std::size_t> shown;
@@ -421,7 +422,7 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
 
 void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds, std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
-    Observations last;  // the last level of each
+    Observations last;  // the last level of each realization
     last.realizations = count, last.steps = 1;
     for (std::size_t k = 1; k <= count; ++k) last.rows.push_back(sums.rows[k * sums.steps - 1]);
     const LevelStatistics force = last.statistics([](const LevelValues& l) { return l.force; });

@@ -10,12 +10,12 @@ std::atomic<long> caught_at{0};  // seconds
 
 long seconds_now() {
     timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);  // which a signal handler may call
+    clock_gettime(CLOCK_MONOTONIC, &now);  // async-signal-safe
     return static_cast<long>(now.tv_sec);
 }
 
-// One request to stop often arrives twice: for the process and for its group (timeout, mpirun, batch systems). A second signal counts if
-// it arrives some seconds later.
+// One request to stop often arrives twice, for the process and for its group (timeout, mpirun, batch systems). A second signal counts
+// only if it arrives some seconds later.
 extern "C" void remember(int signal) {
     if (caught_signal() == 0) {
         caught_at = seconds_now();
@@ -33,13 +33,13 @@ void catch_signals() {
     action.sa_handler = remember;
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESTART;
-    // Signals that are ignored stay ignored: the keyboard's in background jobs, SIGHUP under nohup.
+    // Ignored signals stay ignored: SIGINT in background jobs, SIGHUP under nohup.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);
         if (before.sa_handler != SIG_IGN || signal == SIGTERM) sigaction(signal, &action, nullptr);
     }
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond the limit of file sizes is an error of write() then
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is then an error of write()
 }
 
 int caught_signal() noexcept { return caught.load(std::memory_order_relaxed); }

@@ -33,7 +33,7 @@ std::string variable_name(const std::string& axis) {
     return name;
 }
 
-// UDUNITS spelling of the registry's units; sigma and the unit of the levels have none.
+// The registry's units in the syntax of UDUNITS; sigma and the unit of the levels have none.
 std::string units_of(const Key& key, const Case& settings) {
     const std::string unit = key.unit, &l = settings.run.length_unit, &f = settings.run.force_unit;
     if (unit == "length") return unit_of(l, 1);
@@ -42,7 +42,7 @@ std::string units_of(const Key& key, const Case& settings) {
     return unit == "1" ? "1" : "";
 }
 
-// None where the members have different ones.
+// None if the members have different ones.
 std::string units_of(const Key& key, const std::vector<Member>& members) {
     const std::string first = units_of(key, members.front().settings);
     for (const Member& member : members)
@@ -50,7 +50,7 @@ std::string units_of(const Key& key, const std::vector<Member>& members) {
     return first;
 }
 
-// The file as seen from the manifest's folder.
+// The path of the file relative to the folder of the manifest.
 std::string relative_name(const std::string& file, const std::string& manifest) {
     const fs::path folder = fs::path(manifest).parent_path();
     const fs::path relative = fs::path(file).lexically_relative(folder.empty() ? fs::path(".") : folder);
@@ -99,7 +99,7 @@ std::string manifest_file(const std::string& output_file) {
     return (path.parent_path() / name).string();
 }
 
-// Throws Error(bad_input) where the manifest must not be written.
+// Throws Error(bad_input) if the manifest must not be written.
 void check_manifest(const std::string& output_file, const std::vector<std::string>& inputs) {
     const std::string path = manifest_file(output_file);
     std::string why = reason_to_leave(path, kManifest);
@@ -123,8 +123,9 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
     file.attribute("title", read.settings.run.title.empty() ? "Manifest of a study" : read.settings.run.title + ": manifest of the study");
     file.attribute("source", "rsc " RSC_VERSION);
     file.attribute("history", history_text(command));
-    file.attribute("comment",
-                   "member k of the study is `file`(k), beside this one; the other variables are the keys that differ between members");
+    file.attribute(
+        "comment",
+        "the result of member k is `file`(k), relative to this file; the other variables are the keys that differ between members");
     file.attribute("case", effective_namelist(base) + effective_namelist(*read.study));
     file.dimension("member", members.size());
     std::vector<std::int32_t> numbers;
@@ -165,7 +166,7 @@ Error named(const Error& error, const Member& member) {
     return {error.kind(), name.empty() ? error.what() : name + ": " + error.what()};
 }
 
-// Checks everything that can be checked without preparing the case (prepare). Returns whether a result is there already.
+// Checks everything that can be checked without preparing the case (prepare). Returns true if a result exists already.
 bool look_at(const Member& member, const RunOptions& options) {
     const Case& settings = member.settings;
     const bool there = check_result_path(settings, options);
@@ -175,7 +176,7 @@ bool look_at(const Member& member, const RunOptions& options) {
     return there;
 }
 
-// Prepares cases. A map that many members share is read once.
+// Prepares cases. A map used by several members is read once.
 class ReadOnce {
 public:
     void operator()(const Case& settings) {
@@ -198,7 +199,7 @@ std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Mem
     return wanted;
 }
 
-// look_at every member, then `ready(member, whether a result is there)`; errors name the member.
+// Calls look_at and then `ready(member, true if a result exists)` for every member; errors name the member.
 template <class Ready>
 void look_at_all(const ReadCase& read, const std::vector<const Member*>& wanted, const RunOptions& options, Ready ready) {
     if (read.study) check_manifest(read.settings.output.file, options.inputs);
@@ -211,7 +212,7 @@ void look_at_all(const ReadCase& read, const std::vector<const Member*>& wanted,
     }
 }
 
-// The summary of its result file if it is complete, from the same case, and no input has changed.
+// The summary of a result file that is complete, from the same case, and whose inputs have not changed.
 std::optional<RunSummary> finished(const Member& member) {
     const Case& settings = member.settings;
     std::error_code error;
@@ -224,7 +225,7 @@ public:
     Run(std::size_t members, const RunOptions& options, CampaignWork& work, Team& team)
         : members_(members), options_(options), work_(work), team_(team), table_(options.quiet ? nullptr : options.table) {}
 
-    // Members of one realization each, side by side.
+    // Runs members of one realization each in parallel.
     void side_by_side(const std::vector<const Member*>& members) {
         const bool terminal = ::isatty(STDERR_FILENO) != 0;
         const bool show = options_.progress == Progress::always || (options_.progress == Progress::automatic && terminal);
@@ -246,7 +247,7 @@ public:
             0);
     }
 
-    // A single member: with its own table, and all workers for a campaign.
+    // Runs a single member, with its own table, and with all workers for a campaign.
     void alone(const Member& member) {
         try {
             if (table_ && members_ > 1) *table_ << member_name(member) << '\n';
@@ -316,7 +317,7 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
 double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
-    constexpr std::size_t samples = 20;  // members whose time is worked out; the others are taken to be like them
+    constexpr std::size_t samples = 20;  // members whose time is estimated; the others are assumed similar
     double seconds = 0;
     std::size_t timed = 0;
     ReadOnce prepare_once;
@@ -324,7 +325,7 @@ double check_members(const ReadCase& read, std::optional<int> only, const RunOpt
         const bool campaign = member.settings.run.realizations > 1;
         if (timed == samples) return prepare_once(member.settings);
         ++timed;
-        // Members of one realization run side by side.
+        // Members of one realization run in parallel.
         const double side_by_side = campaign || wanted.size() == 1 ? 1.0 : static_cast<double>(std::min(threads, wanted.size()));
         seconds += expected_seconds(prepare(member.settings), static_cast<double>(threads)) / side_by_side;
     });
@@ -335,10 +336,10 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
     ReadOnce prepare_once;
-    std::set<const Member*> there;  // those with a result already
+    std::set<const Member*> there;  // members with an existing result
     look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);
-        // A single case is prepared next anyway.
+        // A single case is prepared later anyway.
         if (!member.values.empty()) prepare_once(member.settings);
     });
     if (read.study) write_manifest(read, all, options.command);

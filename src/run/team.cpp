@@ -33,7 +33,7 @@ WorkerThreads::~WorkerThreads() {
 }
 
 void WorkerThreads::loop() {
-    omp_set_num_threads(1);  // of this thread alone
+    omp_set_num_threads(1);  // of this thread only
     std::unique_lock lock(mutex_);
     for (;;) {
         wake_worker_.wait(lock, [this] { return abandoned_ || !tasks_.empty(); });
@@ -126,7 +126,7 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     } catch (const Error& error) {
         throw Error(error.kind(), which + error.what());
     } catch (const std::bad_alloc&) {
-        throw Error(Failure::no_memory, which + "out of memory; fewer run%threads or a smaller surface%n need less");
+        throw Error(Failure::no_memory, which + "out of memory; reduce run%threads or surface%n");
     }
 }
 
