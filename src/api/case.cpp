@@ -1,4 +1,4 @@
-// Cases: options by name, and a run of the whole program.
+// Cases: options by name, and runs as by the program.
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
@@ -11,7 +11,7 @@
 namespace rsc::api {
 
 const Case& settings_of(const rsc_case* a_case) {
-    if (a_case && !a_case->tag.sound()) throw Error(Failure::bad_input, "the case was released already, or is a handle of another kind");
+    if (a_case && !a_case->tag.sound()) throw Error(Failure::bad_input, "the case was already released, or is a handle of another kind");
     static const Case defaults;
     return a_case ? a_case->settings : defaults;
 }

@@ -1,4 +1,4 @@
-// Contacts: levels, what they hold, and the deflection of the surface around them.
+// Contacts: levels, their results, and the deflection of the surface around them.
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
@@ -19,7 +19,7 @@ constexpr bool is_constant_of(std::string_view constant, std::string_view name) 
     return true;
 }
 
-// The levels' statuses in rsc.h are those of contact/level.hpp: the same values, the same names.
+// The level statuses of rsc.h have the values and names of contact/level.hpp.
 constexpr bool level_statuses_agree() {
     std::size_t listed = 0;
     bool agree = true;
@@ -43,12 +43,13 @@ void require_contact_keys(const Case& settings) {
                              "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
 }
 
-// Asperities, and points for elements, are made for one solver%model: a case that asks for the other is refused. 'auto' takes what there is.
+// Asperities, and points for elements, are made for one solver%model: a case with the other model is refused. 'auto' accepts both.
 void require_model(const SurfaceModel& on, const Case& settings, int argument) {
     if (settings.solver.model == Model::automatic) return;
     const bool elements = settings.solver.model == Model::elements;
-    if (elements && !on.points) refuse(argument, "a_case", "asks for solver%model = 'elements', but the asperities were made without it");
-    if (!elements && on.points) refuse(argument, "a_case", "asks for asperities, but these were made with solver%model = 'elements'");
+    if (elements && !on.points) refuse(argument, "a_case", "has solver%model = 'elements', but the asperities were made without it");
+    if (!elements && on.points)
+        refuse(argument, "a_case", "has solver%model = 'asperities', but these were made with solver%model = 'elements'");
 }
 
 const Level& level_of(const rsc_contact* contact) {
@@ -58,7 +59,7 @@ const Level& level_of(const rsc_contact* contact) {
     return *contact->known.level;
 }
 
-// Computes a level. After an exception the contact holds no result; a level that did not converge is kept, and the status says so.
+// Computes a level. After an exception the contact has no result; a level that did not converge is kept with that status.
 template <class Compute>
 void compute(rsc_contact& contact, Compute&& level) {
     contact.known.level.reset();
@@ -80,7 +81,7 @@ void put_finite(double* to, double value) {
 void tell_convergence(const rsc_contact& contact) {
     if (contact.known.level->status == LevelStatus::not_converged) {
         if (contact.known.level->fallback == rsc::Fallback::held)
-            throw Outcome{RSC_NOT_CONVERGED, "no state carries this force: the contact is held where its force is smallest"};
+            throw Outcome{RSC_NOT_CONVERGED, "no state has this force: the result is the level of smallest force"};
         throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
 }
@@ -105,7 +106,7 @@ double resistance_of(rsc_contact& contact) {
     return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
-// Quantities that are no plain members of a level, by the names of the result file (vectors by component).
+// Quantities that are not direct members of a level, by the names of the result file (vectors by component).
 struct Derived {
     std::string_view name;
     double (*of)(rsc_contact&);
@@ -122,8 +123,8 @@ constexpr Derived kDerived[] = {
     {"moment_y", [](rsc_contact& c) { return c.known.moment.y; }},
 };
 
-// Quantities of the result file that rsc_contact_value does not give: those of maps, which the library does not make, and vectors (their
-// components have names).
+// Quantities of the result file that rsc_contact_value does not return: those of maps, which the library does not compute, and vectors
+// (their components have names).
 bool of_map(std::string_view name) {
     return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" || name == "moment";
 }
@@ -163,7 +164,7 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
         require_contact_keys(settings);
         if (!settings.solids.layer_thickness.empty())
             refuse(7, "a_case", "has layers, which one modulus E* does not describe: use rsc_contact_create_from_case");
-        if (settings.indenter.shape != 0) refuse(7, "a_case", "asks for a shape other than a sphere: use rsc_contact_create_from_case");
+        if (settings.indenter.shape != 0) refuse(7, "a_case", "has a shape other than a sphere: use rsc_contact_create_from_case");
         const auto& on = asperities->model;
         require_model(*on, settings, 7);
         const rsc::Period period = rsc::period_of(settings, domain_of(settings, *on));
@@ -221,7 +222,7 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
     return guarded(2, [&] {
         require(contact, 1, "contact");
         require_finite(separation, 2, "separation");
-        // Asked again for the level it holds, it does not compute it again.
+        // The present level is not computed again.
         const rsc::Indenter& tip = contact->contact.indenter();
         const auto& known = contact->known;
         const bool same = known.level && known.level->separation == separation && known.x0 == tip.x0 && known.y0 == tip.y0 &&
@@ -246,7 +247,7 @@ int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation
         const bool pulls = contact->contact.pulls();
         if (!(force >= 0 || pulls) || !std::isfinite(force)) refuse(2, "force", "must be positive or zero, and finite");
         const double touch = contact->contact.first_touch();
-        if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere: no force can be carried");
+        if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
         compute(*contact, [&] { return force > 0 || pulls ? contact->contact.at_force(force) : contact->contact.at_separation(touch); });
         put(separation, contact->known.level->separation);
         tell_convergence(*contact);
@@ -296,7 +297,7 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
                            int64_t* large_contacts, int64_t* beyond_law, int64_t* edge_contacts) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
-        double dN_dZ0 = 0, W = 0;  // nothing is written before all is known to be a number
+        double dN_dZ0 = 0, W = 0;  // nothing is written until all values are known to be finite
         if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
         if (energy) put_finite(&W, contact->known.energy);
         put(separation, level.separation);
@@ -345,7 +346,7 @@ int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperi
 int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
-        if (contact->on->points) refuse(1, "contact", "has no asperities: it is made of elements");
+        if (contact->on->points) refuse(1, "contact", "has no asperities: it is solved by boundary elements");
         if (n != static_cast<int64_t>(contact->contact.asperities()->size()))
             refuse(2, "n", "must be the number of the contact's asperities (rsc_contact_asperities)");
         const auto spread = [&](double* output, const std::vector<double>& values) {
@@ -363,7 +364,7 @@ int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* c
     return constructed(0, asperities, "asperities", [&] {
         require(contact, 2, "contact");
         const rsc::Asperities* touched = contact->contact.asperities();
-        if (!touched) refuse(2, "contact", "has no asperities: it is made of elements");
+        if (!touched) refuse(2, "contact", "has no asperities: it is solved by boundary elements");
         rsc::SurfaceModel model;
         model.asperities = *touched;
         model.domain = contact->on->domain;
@@ -380,7 +381,7 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         const rsc::Level& level = level_of(contact);
         if (n < 0) refuse(2, "n", "must not be negative");
         if (contact->contact.pulls())
-            refuse(1, "contact", "sticks (solids%adhesion): the deflection around such spots is not available yet");
+            refuse(1, "contact", "has adhesion (solids%adhesion): the deflection around such spots is not available yet");
         if (n == 0) return;
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");

@@ -1,4 +1,4 @@
-// How a contact is made, copied, committed and rolled back.
+// Creation, copy, commit and rollback of a contact.
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
@@ -24,7 +24,7 @@ void require_place(const rsc_contact& contact, double x0, double y0) {
 
 namespace {
 
-// Earlier levels are better starts where the tip stays.
+// If the tip stays, earlier levels are kept as better initial guesses.
 void put_tip(rsc_contact& contact, double x0, double y0) {
     const Indenter& now = contact.contact.indenter();
     if (now.x0 != x0 || now.y0 != y0) contact.contact.move_tip(x0, y0);

@@ -31,7 +31,7 @@ void require_elastic(const rsc_contact& contact) {
     if (contact.contact.indenter().layers.count > 0) refuse(2, "contact", "has layers: friction is not available for them yet");
 }
 
-// Moves the tip of both contacts behind the path.
+// Moves the tip of both contacts of the load curve.
 void put_tip(rsc_friction& friction, const Vec2& tip) {
     const Indenter& now = friction.outer.contact.indenter();
     if (now.x0 == tip.x && now.y0 == tip.y) return;
@@ -40,7 +40,7 @@ void put_tip(rsc_friction& friction, const Vec2& tip) {
     friction.curve.forget();
 }
 
-// The share of the first level's force that its contacts carry in the second one, too.
+// The share of the first level's force on contacts that also exist in the second level.
 double shared_force(const Level& first, const Level& second) {
     double shared = 0;
     std::size_t k = 0;
@@ -51,7 +51,7 @@ double shared_force(const Level& first, const Level& second) {
     return std::min(1.0, shared / first.force);
 }
 
-// Runs what asks for levels, then tells whether all of them converged.
+// Calls a function that computes levels; throws RSC_NOT_CONVERGED if one of them did not converge.
 template <class Ask>
 void with_levels(rsc_friction& friction, Ask&& ask) {
     const long failed = friction.curve.failed();

@@ -7,7 +7,7 @@
 namespace rsc::api {
 namespace {
 
-// A plain array: nothing to allocate, nothing to destroy at the end of a thread.
+// A plain array, which needs no allocation and no destruction at the end of a thread.
 constexpr std::size_t kMessageSize = 4096;
 thread_local char last_message[kMessageSize];
 
@@ -23,7 +23,7 @@ const char* meaning(std::int32_t status) {
     case value: return text;
         RSC_STATUS_LIST(RSC_CASE)
 #undef RSC_CASE
-        default: return status < 0 ? "" : "not a status of rsc";
+        default: return status < 0 ? "" : "not a status code of rsc";
     }
 }
 
@@ -48,7 +48,7 @@ std::int32_t status_of(const Error& error, int input) noexcept {
 }
 
 void refuse(int argument, const char* name, const char* why) {
-    // By its name: other languages count arguments in their own ways.
+    // By name, because other languages number arguments differently.
     throw Refusal{argument, std::string("argument ") + name + " " + why};
 }
 
@@ -56,7 +56,7 @@ void require_finite(const double* values, std::int64_t n, int argument, const ch
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {
         if (!usable(values[k])) refuse(argument, name, (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
-        // NetCDF fills what was never written, or is masked, with this number; in single precision it differs in the eighth digit.
+        // NetCDF's value for unwritten or masked data; in single precision it differs in the eighth digit.
         constexpr double fill = 9.969209968386869e36;
         if (std::abs(values[k] / fill - 1) < 1e-6)
             refuse(argument, name, ("holds the fill value of NetCDF: entry " + std::to_string(k) + " is missing").c_str());
@@ -95,7 +95,7 @@ int32_t rsc_unlock(void) {
 }
 
 int32_t rsc_message(char* buffer, int64_t size, int64_t* length) {
-    // A refusal of this call must not replace the message it was to fetch.
+    // An error of this call must not replace the message.
     if (size < 0) return -2;
     if (!buffer && size > 0) return -1;
     return guarded(0, [&] { put_text(last_message, buffer, size, length, 1); });

@@ -1,7 +1,7 @@
 // Contacts and friction saved in files.
 //
-// A save is a line that says what it is, a checksum, and named entries: texts and arrays of numbers, as this machine stores them. What is
-// added to rsc later gets names of its own, so that later versions read what earlier ones saved.
+// The file has a line with its kind, a checksum, and named entries: texts and arrays of numbers in the machine's format. Later additions
+// get new names, so that later versions can read files of earlier ones.
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 constexpr const char* kBroken = "the file is damaged";
-constexpr double kFormat = 1;  // increased when an earlier version could no longer read the entries rightly
+constexpr double kFormat = 1;  // increased when earlier versions would misread the entries
 
 std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV-1a
     const auto* bytes = static_cast<const unsigned char*>(data);
@@ -25,7 +25,7 @@ std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV
 }
 constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;
 
-// Tells whether a contact stood on the same asperities, or points of a surface. Columns that are not there do not count.
+// Checksum of the asperities, or points of a surface, to recognise those of a saved contact. Missing columns are not included.
 double digest(const SurfaceModel& on) {
     std::uint64_t hash = kHash;
     for (const AsperityColumn& column : kAsperityColumns) {
@@ -107,7 +107,8 @@ void require_path(const char* path, int argument) {
     if (!*path) refuse(argument, "path", "must not be empty");
 }
 
-// --- what makes a contact ---------------------------------------------------------------------------------------------------------------
+// --- definition of a contact
+// ---------------------------------------------------------------------------------------------------------------
 
 void put_making(Entries& to, const rsc_contact& contact) {
     const Indenter& indenter = contact.contact.indenter();
@@ -135,7 +136,7 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
 
 // --- states -----------------------------------------------------------------------------------------------------------------------------
 
-// The arrays of a level: what they are called, and how to come to them.
+// Visits the arrays of a level with their names.
 template <class Visit>
 void visit_arrays(Level& level, Visit&& visit) {
     visit("asperity", level.asperity), visit("yields", level.yields);
@@ -174,7 +175,7 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
     Level level;
     level.separation = known[0];
     state.known = {{}, known[1], known[2], known[3], {known[4], known[5]}, {known[6], known[7]}};
-    for (const LevelQuantity& q : level_quantities()) {  // those that an earlier version did not know keep their defaults
+    for (const LevelQuantity& q : level_quantities()) {  // entries missing in files of earlier versions keep their defaults
         const std::string name = prefix + "level." + q.name;
         if (from.numbers.contains(name)) q.put(level, from.one(name));
         if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
@@ -230,7 +231,7 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
         put_state(entries, "", now);
         put_state(entries, "committed.", contact->committed);
         write(path, kContact, entries);
-        contact->contact.forget();  // what a restored one cannot start from, this one shall not either
+        contact->contact.forget();  // so that the saved and the restored contact start from the same state
         contact->recall(now.memory);
     });
 }

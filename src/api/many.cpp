@@ -1,4 +1,4 @@
-// Many contacts at once.
+// Functions on many contacts.
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"

@@ -28,7 +28,7 @@ void require_positive(const std::vector<double>& values, int argument, const cha
     }
 }
 
-// Two summits at one place would be one contact counted twice.
+// Two summits at one position would count one contact twice.
 void require_apart(const Asperities& a) {
     std::vector<std::size_t> order(a.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -38,7 +38,7 @@ void require_apart(const Asperities& a) {
     for (std::size_t k = 1; k < order.size(); ++k) {
         const std::size_t i = order[k - 1], j = order[k];
         if (a.x[i] == a.x[j] && a.y[i] == a.y[j]) {
-            refuse(3, "x", ("and y: entries " + std::to_string(i) + " and " + std::to_string(j) + " are at the same place").c_str());
+            refuse(3, "x", ("and y: entries " + std::to_string(i) + " and " + std::to_string(j) + " are at the same position").c_str());
         }
     }
 }

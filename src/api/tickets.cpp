@@ -15,7 +15,7 @@ struct Entry {
     void* handle;
     Kind kind;
     Place place;
-    bool settled;  // the ticket belongs to the place, which has used it
+    bool settled;  // the ticket belongs to the place, because the place has used it
 };
 
 void destroy(const Entry& entry) noexcept {
@@ -29,7 +29,7 @@ void destroy(const Entry& entry) noexcept {
     }
 }
 
-// A copy of what is behind the handle. Throws what the function's status says.
+// A copy of the object of a handle. Throws if the copy fails.
 void* copy(const Entry& entry) {
     const auto with = [&](auto* typed, auto* function) -> void* {
         decltype(typed) made = nullptr;
@@ -64,8 +64,8 @@ public:
         if (before.handle) destroy(before);
     }
 
-    // The entry of the ticket at a place, or one with a null handle. A ticket that was only just copied from now on belongs to this place, the
-    // first that uses it.
+    // The entry of the ticket at a place, or one with a null handle. A copied ticket belongs to the first place
+    // that uses it, and thus to this one.
     Entry find(Place place) {
         Entry before{}, found{};
         {
@@ -83,7 +83,7 @@ public:
         return found;
     }
 
-    // A new number for a ticket that belongs to the place and is about to be changed: bitwise copies of it must not show what it becomes.
+    // A new number for a ticket that belongs to the place and will be changed, so that bitwise copies of it do not refer to the change.
     void renew(std::int64_t* ticket) {
         const std::lock_guard lock(mutex_);
         auto entry = entries_.extract(*ticket);
@@ -92,14 +92,14 @@ public:
         entries_.insert(std::move(entry));
     }
 
-    // The same as find(), but the ticket does not come to belong to the place, which may be a temporary that the compiler made.
+    // As find(), but without a change of ownership, because the place may be a temporary of the compiler.
     Entry look(Place place) {
         const std::lock_guard lock(mutex_);
         const auto at = entries_.find(*place);
         return at == entries_.end() ? Entry{} : at->second;
     }
 
-    // Destroys what the ticket stands for if it belongs to this place; not if it belongs to another, or to none yet.
+    // Destroys the object of the ticket if it belongs to this place, but not if it belongs to another place or to none yet.
     void release(std::int64_t* ticket) {
         Entry found{};
         {
@@ -116,8 +116,8 @@ public:
     }
 
 private:
-    // Makes the ticket belong to the place. A ticket that belonged to it before was overwritten by an assignment of the compiler:
-    // its entry is returned, to be destroyed.
+    // Assigns the ticket to the place. A ticket that belonged to it before was overwritten by an assignment of the compiler;
+    // its entry is returned for destruction.
     Entry settle(std::int64_t number, Place place) {
         Entry before{};
         std::int64_t& owned = at_place_[place];
@@ -131,8 +131,8 @@ private:
 
     std::mutex mutex_;
     std::unordered_map<std::int64_t, Entry> entries_;
-    std::unordered_map<Place, std::int64_t> at_place_;  // of settled entries
-    std::int64_t last_ = 0x5253435f00000000;            // far from what uninitialised memory often holds
+    std::unordered_map<Place, std::int64_t> at_place_;  // tickets of settled entries
+    std::int64_t last_ = 0x5253435f00000000;            // unlike typical values of uninitialised memory
 };
 
 // Never destroyed, because objects may be released while the program ends.

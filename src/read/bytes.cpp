@@ -23,7 +23,7 @@ void check_grid(const std::string& path, std::size_t nx, std::size_t ny) {
     const std::string what = "a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points";
     if (nx < 3 || ny < 3) throw Error(Failure::bad_input, path + ": " + what + "; at least 3 x 3 are needed");
     if (std::max(nx, ny) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw Error(Failure::bad_input, path + ": " + what + "; at most 2147483647 a side are possible");
+        throw Error(Failure::bad_input, path + ": " + what + "; at most 2147483647 points a side are possible");
     check_memory(path, what, static_cast<double>(nx) * static_cast<double>(ny));
 }
 

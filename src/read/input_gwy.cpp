@@ -10,14 +10,14 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
 
-// A name and its value: where the bytes of the value are, and what they are.
+// A named value: its position in the bytes and its type.
 struct Component {
     std::string_view name;
     char type = 0;
     std::size_t at = 0, end = 0;
 };
 
-// Steps over a value of the given type.
+// Skips a value of the given type.
 void skip_object(ByteReader& in) {
     in.text("the name of an object");
     in.take(in.number<std::uint32_t>("the size of an object"), 1, "an object");
@@ -43,17 +43,17 @@ void skip(ByteReader& in, char type, const std::string& name) {
         case 'O':
             for (auto n = in.number<std::uint32_t>("the length of " + name); n > 0; --n) skip_object(in);
             break;
-        default: in.refuse(name + " is of a type that is not known, '" + printable(std::string_view(&type, 1)) + "'");
+        default: in.refuse(name + " has an unknown type, '" + printable(std::string_view(&type, 1)) + "'");
     }
 }
 
-// The components of the object whose name and size are next.
+// The components of the next object, beginning at its name and size.
 std::vector<Component> components(ByteReader& in, const std::string& wanted) {
     const std::string_view name = in.text("the name of an object");
     if (name != wanted) in.refuse("an object " + wanted + " was expected, not '" + printable(name) + "'");
     const std::size_t size = in.number<std::uint32_t>("the size of " + wanted);
     if (size > in.left())
-        in.refuse(wanted + " of " + std::to_string(size) + " bytes, but " + std::to_string(in.left()) + " are left; is the file whole?");
+        in.refuse(wanted + " of " + std::to_string(size) + " bytes, but " + std::to_string(in.left()) + " are left; is the file complete?");
     const std::size_t end = in.at() + size;
     std::vector<Component> all;
     while (in.at() < end) {
@@ -119,7 +119,7 @@ public:
             if (is("si_unit_z", 'o')) f.unit_z = unit(value);
             if (is("data", 'D')) f.data = value.take(value.number<std::uint32_t>("the length of data"), sizeof(double), "data");
         }
-        // Without extents Gwyddion takes 1.
+        // Gwyddion's default for missing extents is 1.
         if (f.Lx == 0) f.Lx = 1;
         if (f.Ly == 0) f.Ly = 1;
         return f;
@@ -147,7 +147,7 @@ private:
 };
 
 std::optional<double> factor_of(const std::string& unit, const std::string& length_unit) {
-    if (unit.empty()) return std::nullopt;  // a number is no length, whatever it is a number of
+    if (unit.empty()) return std::nullopt;  // pure numbers are not lengths, whatever the power of ten
     try {
         return length_factor(unit, length_unit);
     } catch (const Error&) {
@@ -178,9 +178,9 @@ HeightMap read_gwy(const std::string& path, const std::string& channel, const st
         names += (names.empty() ? "'" : ", '") + printable(title) + "' in '" + printable(field->unit_z) + "'";
         if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value() : title == channel)) chosen = n;
     }
-    if (names.empty()) refuse(path + ": holds no channel (image)");
+    if (names.empty()) refuse(path + ": contains no channel (image)");
     if (!chosen)
-        refuse(path + ": " + (channel.empty() ? "no channel holds heights" : "there is no channel '" + channel + "'") + "; there are " +
+        refuse(path + ": " + (channel.empty() ? "no channel contains heights" : "there is no channel '" + channel + "'") + "; there are " +
                names);
     const std::string base = "/" + std::to_string(*chosen);
     const Field field = *file.field(base + "/data");
@@ -201,7 +201,7 @@ HeightMap read_gwy(const std::string& path, const std::string& channel, const st
     for (std::size_t k = 0; k < points; ++k) map.data[k] = *factor_z * ByteReader::value<double>(field.data.data() + k * sizeof(double));
     if (const auto mask = file.field(base + "/mask")) {
         if (mask->nx != field.nx || mask->ny != field.ny || mask->data.size() != field.data.size())
-            refuse(name + ": its mask is not of the channel's size");
+            refuse(name + ": its mask and the channel differ in size");
         for (std::size_t k = 0; k < points; ++k)
             if (ByteReader::value<double>(mask->data.data() + k * sizeof(double)) > 0) map.data[k] = std::nan("");
     }

@@ -6,7 +6,7 @@
 #include "error.hpp"
 #include "format.hpp"
 
-// NetCDF asks for attributes that may not be there, and HDF5 tells each refusal on stderr; NetCDF silences it in the first thread alone.
+// NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr; NetCDF suppresses this in the first thread only.
 extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));
 
 namespace rsc {
@@ -48,13 +48,13 @@ void require_sound(const std::string& path) {
 
 namespace {
 
-// The grammar of the header is in the NetCDF user's guide, "File format specifications". Numbers are big-endian.
+// The header is described in the NetCDF user's guide, "File format specifications". Numbers are big-endian.
 class ClassicHeader {
 public:
     explicit ClassicHeader(const std::string& path)
         : path_(path), file_(path, std::ios::binary), length_(std::filesystem::file_size(path)) {}
 
-    // Bytes the file must have; 0 if it is of another kind.
+    // Required size of the file in bytes; 0 for another kind of file.
     std::uint64_t wanted_length() {
         char magic[4] = {};
         if (length_ < 4 || !file_.read(magic, 4) || std::memcmp(magic, "CDF", 3) != 0) return 0;
@@ -87,7 +87,7 @@ public:
             }
             attributes();
             v.bytes = times(v.bytes, size_of(number(4)));
-            count();  // the size as written is of no use for large variables
+            count();  // the stored size is not valid for large variables
             v.begin = number(version_ == 1 ? 4 : 8);
             variables.push_back(v);
         });
@@ -121,7 +121,7 @@ private:
     }
     std::uint64_t count() { return number(version_ == 5 ? 8 : 4); }
 
-    // A number of things in the header cannot be larger than the file.
+    // A count in the header cannot be larger than the file.
     std::uint64_t bounded(std::uint64_t n) const {
         if (n > length_) damaged();
         return n;
@@ -181,14 +181,14 @@ void check_classic_length(const std::string& path) {
     const std::uint64_t wanted = header.wanted_length();
     if (header.length() < wanted)
         throw Error(Failure::bad_input, path + ": ends at byte " + std::to_string(header.length()) + " of the " + std::to_string(wanted) +
-                                            " its header announces; the file is truncated");
+                                            " in its header; the file is truncated");
 }
 
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
 
-// Values that stand for "missing" in the variable as stored.
+// Stored values of the variable that mean "missing".
 bool has_default_fill(nc_type type) {
     return type == NC_FLOAT || type == NC_DOUBLE || type == NC_INT || type == NC_SHORT || type == NC_INT64;
 }
@@ -238,13 +238,13 @@ NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path
     require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
-    if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it whole? (" + nc_strerror(status) + ")");
+    if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it complete? (" + nc_strerror(status) + ")");
 }
 
 NetcdfInput::~NetcdfInput() { nc_close(id_); }
 
 void NetcdfInput::must(int status, const std::string& what) const {
-    if (status != NC_NOERR) refuse(path_ + ": " + what + " cannot be read; is the file whole? (" + nc_strerror(status) + ")");
+    if (status != NC_NOERR) refuse(path_ + ": " + what + " cannot be read; is the file complete? (" + nc_strerror(status) + ")");
 }
 
 std::string NetcdfInput::Variable::shape() const {
@@ -324,7 +324,7 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
     if (const auto fill = numbers_attribute(v, "_FillValue")) {
         missing.insert(missing.end(), fill->begin(), fill->end());
     } else if (has_default_fill(v.type)) {
-        // The fill value that the library leaves where nothing was written.
+        // The fill value of the library for unwritten values.
         const double standard = v.type == NC_FLOAT    ? static_cast<double>(NC_FILL_FLOAT)
                                 : v.type == NC_DOUBLE ? NC_FILL_DOUBLE
                                 : v.type == NC_INT    ? static_cast<double>(NC_FILL_INT)
@@ -347,7 +347,7 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
             continue;
         }
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            refuse(path_ + ": " + indices(v, i) + " is missing (it holds the fill value " + shown(stored) + "); every value must be known");
+            refuse(path_ + ": " + indices(v, i) + " is missing (it has the fill value  " + shown(stored) + "); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) refuse(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

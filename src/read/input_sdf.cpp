@@ -33,7 +33,7 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
     return map;
 }
 
-// A type's value for a missing point; NaN is missing in any case.
+// The value of a type for a missing point; NaN always means missing.
 template <class T>
 constexpr double missing_value() {
     return static_cast<double>(std::is_unsigned_v<T> ? std::numeric_limits<T>::max() : std::numeric_limits<T>::lowest());
@@ -68,7 +68,7 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
     // Before memory is allocated.
     if (h.nx > 0 && h.ny > 0 && in.left() / kSizes[h.type] / h.nx < h.ny)
         in.refuse(std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights of " + std::to_string(kSizes[h.type]) +
-                  " bytes each, but " + std::to_string(in.left()) + " bytes are left; is the file whole?");
+                  " bytes each, but " + std::to_string(in.left()) + " bytes are left; is the file complete?");
     double factor = 0;
     HeightMap map = prepare(path, h, length_unit, factor);
     // Some instruments (Olympus) write two more integers, 5 and 1, after the header.
@@ -85,7 +85,7 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
         case 6: take_values<std::int32_t>(in, map, factor); break;
         default: take_values<double>(in, map, factor); break;
     }
-    // A trailer of text may follow; more than that are heights that the header does not know.
+    // A text trailer may follow; more bytes are heights that are not in the header.
     constexpr std::size_t longest = std::size_t{1} << 16;
     if (in.left() > longest)
         in.refuse(std::to_string(in.left()) + " bytes follow the last of " + std::to_string(h.nx) + " x " + std::to_string(h.ny) +
@@ -93,7 +93,7 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
     return map;
 }
 
-// Words of a text, with the lines they are in.
+// Words of a text with their line numbers.
 class Words {
 public:
     Words(const std::string& path, std::string_view text) : path_(path), text_(text) {}
@@ -126,7 +126,7 @@ private:
     const std::string& path_;
     std::string_view text_;
     std::size_t at_ = 0;
-    long line_ = 0, ends_ = 0;  // of what was read last; line ends before the next
+    long line_ = 0, ends_ = 0;  // of the last word; line ends before the next word
 };
 
 std::string lower(std::string_view text) {
@@ -161,7 +161,7 @@ HeightMap read_text(const std::string& path, const std::string& bytes, const std
         value.remove_prefix(std::min(value.find_first_not_of("= \t"), value.size()));
         header[lower(line.substr(0, end))] = {value, words.line()};
     }
-    if (!data) refuse(path + ": the line '*' that ends the header is missing; is the file whole?");
+    if (!data) refuse(path + ": the line '*' that ends the header is missing; is the file complete?");
     const auto number = [&](const char* name, auto& value) {
         const auto found = header.find(lower(name));
         if (found == header.end()) refuse(path + ": the header has no " + std::string(name));
@@ -175,20 +175,20 @@ HeightMap read_text(const std::string& path, const std::string& bytes, const std
     if (header.count("compression")) number("Compression", h.compression);
     if (header.count("datatype")) number("DataType", h.type);
     if (header.count("checktype")) number("CheckType", h.check);
-    // A height takes two characters: absurd sizes are refused before memory is allocated.
+    // A height has at least two characters, so excessive sizes are refused before memory is allocated.
     if (h.nx > 0 && h.ny > bytes.size() / h.nx)
         refuse(path + ": " + std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights in a file of " + std::to_string(bytes.size()) +
-               " bytes; is the file whole?");
+               " bytes; is the file complete?");
     double factor = 0;
     HeightMap map = prepare(path, h, length_unit, factor);
-    // Writers of integers mark missing points by a number, too.
+    // Some writers of integers also mark missing points by a number.
     const double missing = h.type == 5 ? missing_value<std::int16_t>() : h.type == 6 ? missing_value<std::int32_t>() : std::nan("");
     const std::size_t points = h.nx * h.ny;
     for (std::size_t k = 0; k < points; ++k) {
         const std::string_view word = words.next_word();
         if (word.empty() || word[0] == '*')
             words.refuse_here(std::to_string(k) + " heights where " + std::to_string(h.nx) + " x " + std::to_string(h.ny) +
-                              " were expected; is the file whole?");
+                              " were expected; is the file complete?");
         double value = 0;
         const std::string small = lower(word.substr(0, 4));
         if (small == "bad" || small == "nan") {

@@ -57,7 +57,7 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
         } else {
             if (by_direction || heights)
                 throw Error(Failure::bad_input,
-                            "a text file has the radial spectrum alone; surface%twins = 'directional' and surface%twin_heights = "
+                            "a text file has only the radial spectrum; surface%twins = 'directional' and surface%twin_heights = "
                             "'measured' need the result file of a measured map");
             const TextTable table = read_table(path, 2);
             for (std::size_t i = 0; i < table.rows; ++i) wavenumber.push_back(table.values[2 * i]), psd.push_back(table.values[2 * i + 1]);

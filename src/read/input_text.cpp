@@ -7,7 +7,7 @@ namespace {
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
-// The separator of the numbers of a file, and its decimal mark; each is unknown (0) until first seen, and then the same throughout.
+// The separator of the numbers of a file, and its decimal mark; each is unknown (0) until first seen, and fixed afterwards.
 struct Style {
     char separator = 0;  // ' ', ',' or ';'
     char decimal = 0;    // '.' or ','
@@ -21,7 +21,7 @@ const char* name_of(char separator) { return separator == ' ' ? "blanks" : separ
     throw Error(Failure::bad_input, path + ":" + std::to_string(line) + ": " + what);
 }
 
-// A word as it may be shown in a message.
+// A word for a message.
 std::string shown(std::string_view word) {
     std::string s(word.substr(0, 40));
     for (char& c : s)
@@ -29,7 +29,7 @@ std::string shown(std::string_view word) {
     return "'" + s + (word.size() > 40 ? "...'" : "'");
 }
 
-// In any case of letters.
+// Comparison without case.
 bool is_missing(std::string_view word) {
     const auto is = [&](std::string_view other) {
         return std::equal(word.begin(), word.end(), other.begin(), other.end(), [](char a, char b) { return (a | 32) == b; });
@@ -39,7 +39,7 @@ bool is_missing(std::string_view word) {
 
 double number(std::string_view word, const std::string& path, long line, std::size_t column, Style& style) {
     const std::string place = shown(word) + " in column " + std::to_string(column);
-    // std::from_chars knows no plus sign before a number.
+    // std::from_chars does not accept a plus sign before a number.
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     std::string text(plus ? word.substr(1) : word);
     if (style.separator == ';') {
@@ -61,7 +61,7 @@ double number(std::string_view word, const std::string& path, long line, std::si
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = end == text.data() + text.size() && !text.empty();
-    // Out of range means too large, or so small that zero is the nearest double: the latter does no harm.
+    // Out of range means too large, or so small that the nearest double is zero, which is accepted.
     if (whole && error == std::errc::result_out_of_range && std::abs(std::strtod(text.c_str(), nullptr)) < 1.0) return 0.0;
     if (!whole || error != std::errc()) refuse(path, line, place + " is not a number");
     if (!std::isfinite(value))
@@ -78,15 +78,16 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
         if (style.separator == 0) style.separator = found, style.line = line;
         if (style.separator == found) return;
         const bool here = style.line == line;
-        // "0,01 0,02": what looks like two separators may be a decimal comma.
-        const std::string hint = style.separator != ';' && found != ';' ? "; decimal commas are read between semicolons only" : "";
+        // In "0,01 0,02" one of two apparent separators may be a decimal comma.
+        const std::string hint =
+            style.separator != ';' && found != ';' ? "; decimal commas are accepted only with semicolons as separators" : "";
         refuse(path, line,
                std::string(name_of(found)) + " before " + before + " where " +
                    (here ? std::string("the rest of the line") : "line " + std::to_string(style.line)) + " has " +
                    name_of(style.separator) + ": one separator is expected throughout" + hint);
     };
     std::size_t count = 0, i = 0;
-    char gap = 0;  // what was read since the last number
+    char gap = 0;  // separator since the last number
     if (semicolons) require(';', "the end");
     while (true) {
         while (i < text.size() && blank(text[i])) {
@@ -107,7 +108,7 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
         ++count;
         gap = 0;
     }
-    return count;  // a separator at the end of the line is forgiven
+    return count;  // a separator at the end of the line is accepted
 }
 
 }  // namespace
@@ -139,7 +140,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
     }
     if (file.bad()) throw Error(Failure::bad_input, path + ": reading failed after line " + std::to_string(line));
     table.rows = table.line.size();
-    if (table.rows == 0) throw Error(Failure::bad_input, path + ": holds no numbers");
+    if (table.rows == 0) throw Error(Failure::bad_input, path + ": contains no numbers");
     return table;
 }
 

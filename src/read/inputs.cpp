@@ -25,17 +25,17 @@ std::vector<std::string> matching_files(const std::string& name) {
         throw;
     }
     globfree(&found);
-    if (status == GLOB_NOSPACE) throw Error(Failure::no_memory, "no memory for the files of " + name);
+    if (status == GLOB_NOSPACE) throw Error(Failure::no_memory, "not enough memory for the files of  " + name);
     if (files.empty()) throw Error(Failure::bad_input, name + ": no file matches this pattern");
-    std::sort(files.begin(), files.end());  // not by the locale: the same everywhere
+    std::sort(files.begin(), files.end());  // independent of the locale
     return files;
 }
 
 namespace {
 
-constexpr double kUniform = 1e-6;      // of a step: how far a coordinate may be from where a uniform grid has it
-constexpr double kUniformText = 0.01;  // the same for coordinates in a text, which are rounded to its digits
-constexpr double kSameL = 1e-6;        // relative: how far nx dx may be from the L that was given
+constexpr double kUniform = 1e-6;      // tolerance of coordinates on a uniform grid, in steps
+constexpr double kUniformText = 0.01;  // the same for coordinates in text files, which are rounded
+constexpr double kSameL = 1e-6;        // relative tolerance of nx dx = L
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
 
@@ -43,7 +43,7 @@ void check_L(const std::string& path, double L) {
     if (!(L > 0 && std::isfinite(L))) refuse(path + ": L must be positive and finite, not " + text_of(L));
 }
 
-// nx dx must be the L that was given, if any.
+// nx dx must equal the given L, if any.
 void check_given_L(const std::string& path, const std::string& coordinate, int nx, double dx, std::optional<double> L) {
     if (!L) return;
     check_L(path, *L);
@@ -53,7 +53,7 @@ void check_given_L(const std::string& path, const std::string& coordinate, int n
                text_of(extent) + ", but L = " + text_of(*L) + " was given");
 }
 
-// The uniform grid that one coordinate of x y z triples lies on.
+// The uniform grid of one coordinate of x y z triples.
 struct TextAxis {
     double first = 0, step = 0;
     std::size_t count = 0;
@@ -88,7 +88,7 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
 }
 
 HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L, bool missing, const TextMap& text) {
-    if (text.pixel) refuse(path + ": three columns are read as x y z of a map, which say the step: surface%pixel is for a matrix");
+    if (text.pixel) refuse(path + ": three columns are read as x y z of a map, which define the step; surface%pixel is for a matrix");
     const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
     check_grid(path, x.count, y.count);
     HeightMap map = allocate_map(x.count, y.count);
@@ -159,7 +159,7 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     axis.first = c.front();
     axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
     if (!(axis.step > 0)) refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text_of(c.front()));
-    // Coordinates stored in single precision are as uniform as that allows.
+    // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (std::size_t i = 0; i < n; ++i) {
@@ -177,7 +177,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
         const auto named = file.find(channel);
         if (!named) refuse(file.path() + ": there is no variable '" + channel + "'");
         if (named->lengths.size() != 2 || !named->numeric())
-            refuse(file.path() + ": channel '" + channel + "': two dimensions of numbers were expected, not " + named->shape());
+            refuse(file.path() + ": channel '" + channel + "': a numeric variable of two dimensions was expected, not  " + named->shape());
         return *named;
     }
     if (const auto named = file.find("height")) {
@@ -193,11 +193,11 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
             maps.push_back(v);
         }
     if (maps.empty()) refuse(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
-    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and more than one other: " + names);
+    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and several others have two dimensions:  " + names);
     return maps[0];
 }
 
-// Factor from a variable's `units` to length_unit^power; none where it has no units.
+// Factor from a variable's `units` to length_unit^power; none if it has no units.
 std::optional<double> unit_factor(const NetcdfInput& file, const NetcdfInput::Variable& v, const std::string& length_unit, int power = 1) {
     const auto units = file.text_attribute(v, "units");
     if (!units) return std::nullopt;
@@ -208,8 +208,8 @@ std::optional<double> unit_factor(const NetcdfInput& file, const NetcdfInput::Va
     }
 }
 
-// Factors of heights, x and y. Heights in nanometres over micrometres are common, and a thousand times too steep when taken as they
-// are: where some have units and others none, the unit of those is not known.
+// Factors of heights, x and y. Heights in nanometres with coordinates in micrometres are common, and without conversion slopes would be
+// 1000 times too large. If only some variables have units, the unit of the others is unknown.
 struct Factors {
     double height = 1, x = 1, y = 1;
 };
@@ -229,7 +229,7 @@ Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heigh
     }
     if (with && without)
         refuse(file.path() + ": " + with->name + " is in '" + file.text_attribute(*with, "units").value_or("") + "', but " + without->name +
-               " has no attribute units, so that its unit is unknown");
+               " has no attribute units, so its unit is unknown");
     return {factor[0], factor[1], factor[2]};
 }
 
@@ -240,7 +240,7 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
     check_grid(path, variable.lengths[1], variable.lengths[0]);
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
-        refuse(path + ": " + variable.shape() + " has a coordinate variable for one dimension alone; for both or neither was expected");
+        refuse(path + ": " + variable.shape() + " has a coordinate variable for only one dimension; both or none were expected");
     if (!x && !L) refuse(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
     if (L) {
@@ -271,12 +271,12 @@ std::string first_bytes(const std::string& path) {
     return start;
 }
 
-// The formats of instruments, recognised by a file's first bytes. They contain sizes and units.
+// The formats of instruments, recognised by a file's first bytes. They include sizes and units.
 struct InstrumentFormat {
     const char* name;
     bool (*is)(const std::string& first_bytes);
     HeightMap (*read)(const std::string& path, const std::string& channel, const std::string& length_unit);
-    bool channels;  // a file holds several maps, each perhaps with a mask
+    bool channels;  // a file has several maps, possibly with masks
 };
 constexpr InstrumentFormat kInstrumentFormats[] = {
     {".gwy", is_gwy, read_gwy, true},
@@ -305,7 +305,7 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
         if (size && *size != v->lengths[0])
             refuse(path + ": " + v->shape() + ": " + std::to_string(*size) + " values as of asperity_x were expected");
         if (v->lengths[0] > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            refuse(path + ": " + v->shape() + ": more asperities than rsc can number");
+            refuse(path + ": " + v->shape() + ": more than 2147483647 asperities");
         check_memory(path, v->shape(), 8.0 * static_cast<double>(v->lengths[0]));
         size = v->lengths[0];
         values.resize(*size);
@@ -352,10 +352,10 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
     const InstrumentFormat* const instrument = found == std::end(kInstrumentFormats) ? nullptr : found;
     const bool channels = instrument && instrument->channels;
     if (!channel.empty() && !netcdf && !channels)
-        refuse(path + ": has no channels to choose '" + channel + "' from; only .gwy and NetCDF files have");
+        refuse(path + ": has no channel '" + channel + "'; only .gwy and NetCDF files have channels");
     if (!netcdf && !instrument) refuse_unknown(path, start);
     if ((netcdf || instrument) && text.any())
-        refuse(path + ": is no text: it says itself what surface%height_unit and surface%pixel are for");
+        refuse(path + ": is not a text file; surface%height_unit and surface%pixel are only for text files");
     HeightMap map = netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill)
                     : instrument ? instrument->read(path, channel, length_unit)
                                  : read_text_heights(path, L, fill, text, length_unit);
