@@ -168,7 +168,7 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), 1e-60), "t: the spacing must be from 1e-50 to 1e50, not 2e-61");
     REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0), "t: a height map of 5 x 2 points; at least 3 x 3 are needed");
-    REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "t: holds no numbers");
+    REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "t: contains no numbers");
     REFUSED(read_heights(write("t", ""), 1.0), "t: is empty");
     REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0),
             "t: neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" +

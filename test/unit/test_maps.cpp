@@ -82,8 +82,8 @@ void gwy() {
     REFUSED(in_micrometres(write("three.gwy", three), "Phase"), "there is no channel 'Phase'; there are");
     REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))), "no channel holds heights; there are 'A' in");
     REFUSED(in_micrometres(write("number.gwy", gwy_file(gwy_channel(0, "A", map, "")))),  // a number is no length
-            "number.gwy: no channel holds heights; there are 'A' in ''");
-    REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "none.gwy: holds no channel (image)");
+            "number.gwy: no channel contains heights; there are 'A' in ''");
+    REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "none.gwy: contains no channel (image)");
     REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))), "channel 'A': its sides are in 's', which is");
     // Missing points: NaN, or under the mask.
     Map hole = map;
@@ -101,7 +101,7 @@ void gwy() {
 
     std::string untitled;
     gwy_component(untitled, "/3/data", 'o', gwy_field(map, "m", "V"));
-    REFUSED(in_micrometres(write("one.gwy", gwy_file(untitled))), "one.gwy: no channel holds heights; there are 'channel 3' in 'V'");
+    REFUSED(in_micrometres(write("one.gwy", gwy_file(untitled))), "one.gwy: no channel contains heights; there are 'channel 3' in 'V'");
     // Sides that are not given are 1.
     for (const bool x : {true, false}) {
         std::string field = gwy_field(map, "m", "m");
@@ -129,10 +129,10 @@ void gwy() {
     small.ny = 3, small.z.resize(18);
     std::string badly = gwy_channel(0, "T", map);
     gwy_component(badly, "/0/mask", 'o', gwy_field(small, "m", ""));
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(badly))), "w.gwy: channel 'T': its mask is not of the channel's size");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(badly))), "w.gwy: channel 'T': its mask and the channel differ in size");
     std::string strange;
     gwy_component(strange, "/x", 'x', "");
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(strange))), "/x is of a type that is not known, 'x'");
+    REFUSED(in_micrometres(write("w.gwy", gwy_file(strange))), "/x has an unknown type, 'x'");
     REFUSED(in_micrometres(write("w.gwy", "GWYO" + whole.substr(4))), "a file of another version of Gwyddion (it");
     REFUSED(in_micrometres(write("w.gwy", "GWYP" + gwy_object("GwyBrick", ""))), "an object GwyContainer was expected, not 'GwyBrick'");
 }
@@ -200,7 +200,7 @@ void sdf() {
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "t.sdf:17: '1O4' is not a number");
     words.pop_back();
     words[6 + 4] = "104";
-    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), ": 23 heights where 6 x 4 were expected; is the file whole?");
+    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), ": 23 heights where 6 x 4 were expected; is the file complete?");
     words.resize(25, "0");
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "'0' after the last of 6 x 4 heights");
     words.resize(24);
@@ -217,7 +217,7 @@ void sdf() {
     packed[80] = 2;
     REFUSED(in_micrometres(write("t.sdf", packed)), "t.sdf: CheckType = 2: only 0 (none) is known");
     REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "mm"), "t.sdf: is no surface data file (ISO 25178-71)");
-    REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channels to choose 'Height' from;");
+    REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channel 'Height'; only");
     // What nobody knows.
     REFUSED(in_micrometres(write("t.plu", std::string("PLU\0\1\2", 6))), "neither NetCDF, .gwy, .sdf nor text.");
 }
