@@ -43,10 +43,10 @@ def maps(results, options):
         panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
     one = len(results) == 1
     quantities = [("map_area_fraction", "area fraction $A'$"), ("map_pressure", "pressure $p$")] if one else [("map_pressure", "pressure $p$")]
-    columns = len(panels) if one else int(np.ceil(np.sqrt(1.6 * len(panels))))
+    columns = len(panels) if one else int(np.ceil(np.sqrt((1.0 if len(panels) <= 9 else 1.6) * len(panels))))
     rows = -(-len(panels) // columns)
     size = options.width / columns
-    small = size < 40  # too small for a colour bar and axes of its own
+    small = size < 46  # too small for a colour bar and axes of its own
     figure, axes = plt.subplots(rows * len(quantities), columns, figsize=(options.width / 25.4, ((0.8 if not small else 1.05) * size * rows * len(quantities) + (14 if one else 8 * rows)) / 25.4),
                                 constrained_layout=True, squeeze=False)
     for axis in axes.ravel():

@@ -87,8 +87,9 @@ def spots(results, options):
     page = Page(options, 2, aspect=0.86)
     pixels = pixels_of(result, step)
     near = half / 4 if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
+    rim = bool(pixels) and a[big] > near  # the inside of the largest would be one colour
     image = None
-    for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big], y[big]])), (half, near)):
+    for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big] + rim * a[big], y[big]])), (half, near)):
         if "x" in result:  # stay on the surface where it is large enough
             side = float(result["map_cell_side"]) / 2
             ends = np.array([[result["x"][0] - side, result["x"][-1] + side], [result["y"][0] - side, result["y"][-1] + side]])
@@ -121,6 +122,6 @@ def spots(results, options):
         page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
     what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else "share of each cell in contact" if pixels else "true to size"
     page.axes[0].set_title(f"{x.size} spot{'s' if x.size > 1 else ''}" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))
-    page.axes[1].set_title(f"{'in' if pixels else 'around'} the largest: {what}")
+    page.axes[1].set_title(f"{'at the rim of' if rim else 'in' if pixels else 'around'} the largest: {what}")
     force = "" if result.control() == "force" else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"
     return page.finish(result.heading(f"Contact spots at {result.level_name(step)}{force}{result.warning(step)}"))

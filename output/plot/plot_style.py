@@ -68,7 +68,14 @@ def fitting(dimension, values):
     known = _SHOWN.get(dimension)
     if not known:
         return 1.0, re.sub(r"(?<=[A-Za-z)])(-?\d+)\b", r"$^{\1}$", dimension)
-    return max((unit for unit in known if unit[0] <= top * 1.0001), key=lambda unit: unit[0], default=known[0]) if top > 0 else min(known, key=lambda unit: abs(np.log10(unit[0])))
+    reach = 10.0 if dimension == "m2" else 1.0001  # 0.1 mm² rather than 100000 µm²
+    return max((unit for unit in known if unit[0] <= top * reach), key=lambda unit: unit[0], default=known[0]) if top > 0 else min(known, key=lambda unit: abs(np.log10(unit[0])))
+
+
+def middle(dimension, ends):
+    """The same for a logarithmic axis over decades: of the units within its ends the one nearest to its middle."""
+    within = [unit for unit in _SHOWN.get(dimension, []) if 0 < ends[0] <= unit[0] <= ends[1]]
+    return min(within, key=lambda unit: abs(np.log(unit[0] ** 2 / (ends[0] * ends[1])))) if within else fitting(dimension, ends)
 
 
 def amount(value, dimension, digits=3):
@@ -104,7 +111,7 @@ def label(axis, which, text, dimension=""):
     lo, hi = sorted(getattr(axis, f"get_{which}lim")())
     drawn = getattr(axis.dataLim, "interval" + which)  # the axis goes a little beyond it
     within = np.array([max(lo, drawn.min()), min(hi, drawn.max())]) if np.isfinite(drawn).all() else np.array([lo, hi])
-    size, unit = fitting(dimension, within)
+    size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
         for setter in (side.set_major_formatter, side.set_minor_formatter):
