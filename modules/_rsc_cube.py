@@ -6,7 +6,7 @@ from collections import namedtuple
 import netCDF4
 import numpy as np
 
-# variables: {name: (dimensions, values, attributes)}; keys: names of the variables that hold the values of the keys.
+# variables: {name: (dimensions, values, attributes)}; keys: names of the variables with the values of the keys.
 Cube = namedtuple("Cube", "variables keys attributes")
 
 
@@ -19,15 +19,15 @@ def _attributes(variable):
 
 
 def cube(path, check=lambda path: None):
-    """The Cube of a manifest. Members without a result yet are NaN. A variable that members have in different shapes is left out, as are lists of
-    asperities and contacts; a coordinate that differs between them keeps its values under its name with '_values'. check is called with the
+    """The Cube of a manifest. Members without a result yet are NaN. Variables of different shape in the members are omitted, as are lists of
+    asperities and contacts; a coordinate that differs between members is stored under its name with '_values'. check is called with the
     path of each member before it is opened. Raises OSError."""
     with netCDF4.Dataset(path) as file:
         keys = {name: (_plain(v[:]) if v.dtype.kind != "S" else np.array([str(t).strip("\0 '") for t in np.atleast_1d(netCDF4.chartostring(v[:]))]), _attributes(v))
                 for name, v in file.variables.items() if "key" in v.ncattrs()}
         members = [os.path.join(os.path.dirname(path), str(t).strip("\0 ")) for t in np.atleast_1d(netCDF4.chartostring(file["file"][:]))]
         attributes = {a: file.getncattr(a) for a in file.ncattrs()}
-    order = {name: list(dict.fromkeys(values.tolist())) for name, (values, _) in keys.items()}  # as they come
+    order = {name: list(dict.fromkeys(values.tolist())) for name, (values, _) in keys.items()}  # in order of appearance
     shape = tuple(len(values) for values in order.values())
     places = [tuple(order[name].index(keys[name][0][k].item()) for name in keys) for k in range(len(members))]
     grid = bool(keys) and np.prod(shape) == len(members) == len(set(places))

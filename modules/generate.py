@@ -2,15 +2,15 @@
 """Writes the parts of the bindings that follow from the C interface, from src/rsc.h and src/api/tickets.h.
 
     python3 modules/generate.py            writes the files below
-    python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale, or if rsc.f90 does not name a procedure
+    python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale, or if rsc.f90 lacks a procedure
 
     modules/generated/interface.inc   Fortran: status codes and interfaces of all C functions       (included by rsc.f90)
-    modules/generated/wrappers.inc    Fortran: the plain procedures of the derived types            (included by rsc.f90)
-    modules/generated/rsc77.inc       C: the plain subroutines of FORTRAN 77                        (included by rsc77.c)
+    modules/generated/wrappers.inc    Fortran: the generated procedures of the derived types            (included by rsc.f90)
+    modules/generated/rsc77.inc       C: the generated subroutines of FORTRAN 77                        (included by rsc77.c)
     modules/_rsc_h.py                 Python: status codes and the arguments of all C functions     (imported by rsc.py)
 
-They are part of the source: building and installing rsc needs no Python. A procedure that rsc.f90 or rsc77.c has by hand is not
-written here. What is optional is read from the comments of rsc.h ("may be null").
+They are part of the source: building and installing rsc needs no Python. Procedures written by hand in rsc.f90 or rsc77.c are not
+generated. Optional arguments are those that the comments of rsc.h mark as "may be null".
 """
 import os
 import re
@@ -20,7 +20,7 @@ import textwrap
 HERE = os.path.dirname(os.path.abspath(__file__))
 KINDS = ("case", "surface", "asperities", "contact", "friction")
 
-# The names in FORTRAN 77. An argument that FORTRAN 77 leaves out, and passes as null, stands behind the name.
+# The names in FORTRAN 77. Arguments that FORTRAN 77 omits, and passes as null, follow the name.
 NAMES_77 = {
     "rsccas": "case_create", "rscred": "case_read", "rscset": "case_set", "rscrun": "case_run",
     "rscsyn": "surface_synthesize", "rscsur": "surface_take", "rschgt": "surface_heights",
@@ -32,11 +32,11 @@ NAMES_77 = {
     "rsccom": "contact_commit", "rscrol": "contact_rollback", "rscsav": "contact_save", "rscrst": "contact_restore",
     "rscfsv": "friction_save", "rscfrs": "friction_restore", "rscftp": "friction_move_tip", "rscfri": "friction_create_from_case", "rscupd": "friction_update", "rsccmt": "friction_commit", "rscrbk": "friction_rollback",
 }
-# Whole arrays of objects are assigned by procedures of these names, which are not quite regular.
+# Names, not all regular, of the procedures that assign whole arrays of objects.
 PLURALS = {"case": "cases", "surface": "surfaces", "asperities": "asperities", "contact": "contacts", "friction": "frictions"}
-# Inputs that Fortran may leave out, with what they are then.
+# Inputs that are optional in Fortran, with their defaults.
 DEFAULTS = {"realization": "1"}
-# C functions that Fortran has under another name or as part of another procedure; they need no procedure of their own.
+# C functions that Fortran has under another name or within another procedure.
 ELSEWHERE = {"contact_result", "case_create", "case_set"}
 
 
@@ -126,7 +126,7 @@ def comment(text):
 
 
 def declarations(pairs):
-    """Lines `type :: a, b` of (type, variable), those of one type that follow each other together."""
+    """Lines `type :: a, b` of (type, variable), with consecutive variables of one type on one line."""
     lines = []
     for kind, variable in pairs:
         if lines and lines[-1][0] == kind:
@@ -137,7 +137,7 @@ def declarations(pairs):
 
 
 def interface_type(a):
-    """(declaration, variable) of an argument as C has it. Outputs are intent(inout): after a failure they keep their value."""
+    """(declaration, variable) of an argument for the C interface. Outputs are intent(inout): after a failure they keep their value."""
     optional = ", optional" if a.optional else ""
     if a.role == "callback":
         return "type(c_funptr), value", a.name
@@ -154,7 +154,7 @@ def interface_type(a):
 
 
 def interface(functions, constants):
-    lines = ["  !> Status codes, what is to be said about a level, and what is behind a ticket."]
+    lines = ["  !> Status codes of calls and levels, and kinds of tickets."]
     for name, value in constants:
         lines.append(f"  integer, parameter, public :: {name.lower()} = {value}" if "KIND" not in name else f"  integer(c_int32_t), parameter :: {name.lower()} = {value}")
     lines += ["", "  ! Outputs are intent(inout): they keep their value when the function fails.", "  interface"]
@@ -174,7 +174,7 @@ ERROR_ARGUMENTS = ["integer, intent(out), optional :: stat", "character(*), inte
 
 
 def wrapper(f):
-    """A procedure of a derived type that does no more than call its C function; None where there is no rule for it."""
+    """A procedure of a derived type that only calls its C function; None if there is no rule for its arguments."""
     arguments = f.arguments
     result, single = None, [a for a in arguments if a.role == "out"]
     if len(single) == 1 and not single[0].optional and not any(a.role == "array" for a in arguments):
@@ -313,7 +313,7 @@ def procedures_of(source):
 
 
 def wrappers(functions, source):
-    """The lines of wrappers.inc, and what is to be changed in rsc.f90 by hand."""
+    """The lines of wrappers.inc, and a list of changes to make in rsc.f90 by hand."""
     by_hand, lines, wanted = procedures_of(source), [], []
     for kind in KINDS:
         bound = re.search(rf"^  type :: rsc_{kind}\n.*?^  end type", source, flags=re.M | re.S)[0]
@@ -336,7 +336,7 @@ def wrappers(functions, source):
 
 # ---- FORTRAN 77 ----------------------------------------------------------------------------------------------------------------
 def subroutine_77(name, f, left_out):
-    """A subroutine of FORTRAN 77: everything by address, handles as INTEGER, lengths of texts behind all arguments."""
+    """A subroutine of FORTRAN 77: arguments by address, handles as INTEGER, lengths of texts after all arguments."""
     parameters, lengths, find, before, call, after, position = [], [], [], [], [], [], 0
     for k, a in enumerate(f.arguments):
         if a.name in left_out:
@@ -395,8 +395,8 @@ def python(functions, constants):
     lines += ['"""', ""]
     lines += [f"{name[4:]} = {value}" for name, value in constants]
     levels = ", ".join(f'"{name[10:].lower()}"' for name, _ in constants if name.startswith("RSC_LEVEL_"))
-    lines += ["", "#: What the status of a level means, by its number: the names in the variable `status` of a result file.", f"LEVELS = ({levels})"]
-    lines += ["", "#: What each function does, in a sentence.", "BRIEF = {"] + [f'    "{f.name}": {f.brief()!r},' for f in functions] + ["}"]
+    lines += ["", "#: Names of the statuses of a level, by number, as in the variable `status` of a result file.", f"LEVELS = ({levels})"]
+    lines += ["", "#: Description of each function in one sentence.", "BRIEF = {"] + [f'    "{f.name}": {f.brief()!r},' for f in functions] + ["}"]
     return lines
 
 
@@ -412,7 +412,7 @@ def main():
     files = {"generated/interface.inc": [f"! {note}", *interface(functions + tickets, constants + kinds)],
              "generated/wrappers.inc": [f"! {note}", *generated],
              "generated/rsc77.inc": ["/* clang-format off */", f"/* {note} */", *names_77(functions, c)],
-             "_rsc_h.py": ['"""What rsc.py knows of rsc.h.', "", note + '"""', "", *python(functions, constants)]}
+             "_rsc_h.py": ['"""Functions and status codes of rsc.h, for rsc.py.', "", note + '"""', "", *python(functions, constants)]}
     for name, lines in files.items():
         path, text = os.path.join(HERE, name), "\n".join(lines) + "\n"
         old = open(path, encoding="utf-8").read() if os.path.exists(path) else ""

@@ -1,4 +1,5 @@
-!> rsc in Fortran: the contact of a sphere with a rough surface of asperities. The same as rsc.h, which says more about every argument.
+!> rsc in Fortran: the contact of a sphere with a rough surface of asperities. It provides the functions of
+!> rsc.h; see there for details of every argument.
 !>
 !>     use rsc
 !>     type(rsc_asperities) :: asperities
@@ -8,29 +9,29 @@
 !>     call contact%indent(separation=0.02d0, force=N)
 !>     print *, N, contact%area(), contact%stiffness()
 !>
-!> Objects release what they hold when they go out of scope; creating one again releases what it held before, and assignment copies
-!> (a copied contact has its result and its path, too: one for another thread). Different
+!> Objects release their memory when they go out of scope; creating one again releases its former content, and assignment copies
+!> (a copied contact, for example for another thread, includes result and path). Different
 !> objects may be used by different threads at the same time.
 !>
 !> Arrays of objects (type(rsc_contact) :: list(n)) are assigned element by element: list = other, list(1:2) = other(3:4), list
-!> = one. Both sides must have the same size and be allocated; more = list and list = [list, one] do not allocate and stop with
-!> a message otherwise. This needs `use rsc` without only, or with assignment(=) in it.
+!> = one. Both sides must have the same size and be allocated; otherwise, as in more = list or list = [list, one], the program
+!> stops with a message. This needs `use rsc` without only, or with assignment(=) in it.
 !>
-!> In types of your own, and in parallel regions. Compilers copy objects bit by bit in some places. Such a copy shows the
-!> original as long as that exists and is not changed, gets its own object when it is changed itself, and releases nothing that
-!> is not its own. When the original is gone or was changed, errmsg says so. So these work: q = p and q = particle(1, x,
-!> contact) for types that hold objects, allocate with source=, functions that return such types, lists that grow element by
-!> element (longer(i) = list(i), then move_alloc), firstprivate and private. What private leaves behind is released when its
-!> place is used again.
+!> In your own types, and in parallel regions, compilers copy objects bit by bit in some places. Such a copy refers to the
+!> original as long as that exists and is not changed, gets its own object when it is changed itself, and does not release the
+!> original. If the original is gone or was changed, errmsg reports it. Therefore these work: q = p and q = particle(1, x,
+!> contact) for types that contain objects, allocate with source=, functions that return such types, lists that grow element by
+!> element (longer(i) = list(i), then move_alloc), firstprivate and private. Private copies are released when their
+!> memory is used again.
 !>
-!> Faults of gfortran 12 with whole arrays of types that hold objects. With a component type(rsc_contact) :: c, longer(1:n) =
-!> list crashes in code of gfortran's own, and list = [list, p] stops with a message. With a component that is an array of fixed
-!> size, type(rsc_contact) :: c(2), gfortran warns that it does not call the assignment of the type, and copies bit by bit. Use
-!> loops there, or hold a pointer in the type:
+!> Errors of gfortran 12 with whole arrays of types that contain objects. With a component type(rsc_contact) :: c, longer(1:n) =
+!> list crashes in gfortran's code, and list = [list, p] stops with a message. With a component that is an array of fixed
+!> size, type(rsc_contact) :: c(2), gfortran warns that it does not call the assignment of the type, and copies bit by bit. Use loops
+!> there, or a pointer in the type:
 !>     type(rsc_contact), pointer :: contact => null()    ! allocate(p%contact); assignment copies the pointer; deallocate it once
 !>
-!> Every procedure takes stat and errmsg like the statements of the language: with stat, a failure is told there (negative: an argument
-!> is wrong; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
+!> Every procedure has stat and errmsg like the statements of the language: with stat, a failure is reported in it (negative: wrong
+!> argument; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
 !> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
 !> stat = rsc_not_converged. Asperities count from 1.
 module rsc
@@ -43,13 +44,13 @@ module rsc
 
   include 'generated/interface.inc'
 
-  !> Options by the names of the namelist, 'group%key'; all at their defaults to begin with.
+  !> Options by the names of the namelist, 'group%key'; all initially at their defaults.
   type :: rsc_case
     private
     integer(c_int64_t) :: ticket = 0
   contains
     !> set(name, value): value is a real or an integer of either usual kind, an array of them, a logical, or text in namelist syntax
-    !> (with its quotes where it is a text). A default real is taken as the shortest decimal number it stands for: 0.1 is 0.1.
+    !> (with quotes if it is a text). A default real is converted to the shortest decimal number with that value: 0.1 is 0.1.
     generic :: set => set_text, set_real, set_single, set_integer, set_long, set_logical, set_reals, set_singles, set_integers
     procedure :: get => case_get
     procedure :: read => case_read
@@ -140,7 +141,7 @@ module rsc
     final :: contact_final
   end type
 
-  !> A contact with friction, led along any path of separations and slides. Assignment copies the path, too.
+  !> A contact with friction along any path of separations and slides. Assignment also copies the path.
   type :: rsc_friction
     private
     integer(c_int64_t) :: ticket = 0
@@ -165,7 +166,7 @@ module rsc
   end type
 
   abstract interface
-    !> Asked by run_watched whether to go on (0) or to stop: levels or realizations done of how many; data: what run_watched was given.
+    !> Called by run_watched; returns 0 to continue, otherwise the run stops. done, total: levels or realizations; data: of run_watched.
     function rsc_watch(done, total, data) bind(c) result(stop)
       import :: c_double, c_int32_t, c_ptr
       real(c_double), value :: done, total
@@ -174,7 +175,7 @@ module rsc
     end function
   end interface
 
-  !> Whole arrays of objects; a single one is assigned by its type.
+  !> Assignment of whole arrays of objects; single objects are assigned by their type.
   interface assignment(=)
     module procedure cases_set, cases_copy, surfaces_set, surfaces_copy
     module procedure asperities_set, asperities_copy_each, contacts_set, contacts_copy, frictions_set, frictions_copy
@@ -185,7 +186,7 @@ contains
 
   ! --- failures and text ---------------------------------------------------------------------------------------------------------
 
-  !> Tells the caller, or stops.
+  !> Reports a failure to the caller, or stops.
   subroutine finish(status, stat, errmsg)
     integer(c_int32_t), intent(in) :: status
     integer, intent(out), optional :: stat
@@ -196,7 +197,7 @@ contains
     message = last_message()
     if (status == rsc_no_memory) message = 'out of memory'
     if (index(message, 'must not be null') > 0) then
-      message = message // ': nothing was created in the object, or it is a bitwise copy of one gone or changed (see rsc.f90)'
+      message = message // ': the object was not created, or is a bitwise copy of one that was released or changed (see rsc.f90)'
     end if
     if (present(stat)) then
       if (present(errmsg)) errmsg = message
@@ -205,7 +206,7 @@ contains
     end if
   end subroutine
 
-  !> A mistake found on this side: no function of rsc.h was called.
+  !> An error detected before a function of rsc.h is called.
   subroutine refuse(message, stat, errmsg)
     character(*), intent(in) :: message
     integer, intent(out), optional :: stat
@@ -218,7 +219,7 @@ contains
     end if
   end subroutine
 
-  !> Stops where an array of objects is assigned to one that is not allocated or of another size: the language has no way to allocate it.
+  !> Stops if an array of objects is assigned to one that is not allocated or of another size: the language offers no way to allocate it.
   subroutine require_size(place, n, wanted)
     type(c_ptr), intent(in) :: place
     integer, intent(in) :: n, wanted
@@ -226,7 +227,7 @@ contains
     if (n /= wanted) error stop 'rsc: arrays of objects must be of one size to be assigned'
   end subroutine
 
-  !> The handle behind a ticket, for reading; null if there is none.
+  !> The handle of a ticket, for reading; null if there is none.
   function reading(ticket) result(handle)
     integer(c_int64_t), intent(in) :: ticket
     type(c_ptr) :: handle
@@ -235,7 +236,7 @@ contains
     status = rsc_ticket_read(ticket, handle)
   end function
 
-  !> For changing: an object that shows what another one owns gets its own.
+  !> The handle of a ticket, for changing; an object that refers to the handle of another one gets its own copy.
   function changing(ticket) result(handle)
     integer(c_int64_t), intent(inout) :: ticket
     type(c_ptr) :: handle
@@ -244,7 +245,7 @@ contains
     status = rsc_ticket_change(ticket, handle)
   end function
 
-  !> Room for n values; none after a failure, so that the array has a size.
+  !> Allocates n values, or none after a failure, so that the array has a size.
   subroutine make_room(array, n, status)
     real(c_double), allocatable, intent(out) :: array(:)
     integer(c_int64_t), intent(in) :: n
@@ -257,7 +258,7 @@ contains
     if (.not. allocated(array)) allocate (array(0))
   end subroutine
 
-  !> What a constructor made, if it did.
+  !> Stores the handle of a constructor, if it succeeded.
   subroutine keep(ticket, kind, handle, status)
     integer(c_int64_t), intent(inout) :: ticket
     integer(c_int32_t), intent(in) :: kind
@@ -283,7 +284,7 @@ contains
     if (rsc_version(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) text = joined(buffer, length)
   end function
 
-  !> The names of all keys, 'group%key', with blanks at their ends; what get, set and ./rsc --describe know.
+  !> The names of all keys, 'group%key', padded with blanks, as for get, set and ./rsc --describe.
   function rsc_keys() result(names)
     character(:), allocatable :: names(:)
     character(kind=c_char) :: buffer(64)
@@ -321,7 +322,7 @@ contains
 
   ! --- case ------------------------------------------------------------------------------------------------------------------------
 
-  !> The case to be changed, made if there is none yet.
+  !> The handle of the case for changing, created if there is none yet.
   subroutine case_ready(self, handle, status)
     class(rsc_case), intent(inout) :: self
     type(c_ptr), intent(out) :: handle
@@ -334,7 +335,7 @@ contains
     call keep(self%ticket, rsc_kind_case, handle, status)
   end subroutine
 
-  !> The case to be read; where nothing was set, one that stands for the defaults, to be destroyed afterwards.
+  !> The handle of the case for reading; if nothing was set, a temporary case of defaults, to be destroyed afterwards.
   subroutine case_as_is(self, handle, defaults, status)
     class(rsc_case), intent(in) :: self
     type(c_ptr), intent(out) :: handle, defaults
@@ -359,7 +360,7 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> Runs the case and asks `watch` about ten times a second whether to go on; stat is rsc_stopped where it said no. data: for watch.
+  !> Runs the case and calls `watch` about ten times a second; stat is rsc_stopped if it stopped the run. data: for watch.
   subroutine case_run_watched(self, watch, data, failed_levels, stat, errmsg)
     class(rsc_case), intent(in) :: self
     procedure(rsc_watch) :: watch
@@ -377,7 +378,7 @@ contains
     status = rsc_case_destroy(defaults)
   end subroutine
 
-  !> A number in namelist syntax, every bit of it.
+  !> A number in namelist syntax, exact to the last bit.
   function of_real(value) result(text)
     real(c_double), intent(in) :: value
     character(32) :: text
@@ -385,7 +386,7 @@ contains
     text = adjustl(text)
   end function
 
-  !> The shortest decimal number that is this one in single precision.
+  !> The shortest decimal number that equals this one in single precision.
   function of_single(value) result(text)
     real(c_float), intent(in) :: value
     character(32) :: text, form
@@ -496,7 +497,7 @@ contains
     call self%set_text(name, merge('.true. ', '.false.', value), stat, errmsg)
   end subroutine
 
-  !> The value of a key in namelist syntax, as set takes it; empty if the key is not set.
+  !> The value of a key in namelist syntax, as for set; empty if the key is not set.
   function case_get(self, name, stat, errmsg) result(value)
     class(rsc_case), intent(in) :: self
     character(*), intent(in) :: name
@@ -524,7 +525,7 @@ contains
     call finish(status, stat, errmsg)
   end function
 
-  !> Takes all keys from namelist text, defaults where it says nothing.
+  !> Sets all keys from namelist text; keys that are not in it get their defaults.
   subroutine case_read(self, text, stat, errmsg)
     class(rsc_case), intent(inout) :: self
     character(*), intent(in) :: text
@@ -537,7 +538,7 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> The same from a file.
+  !> Sets all keys from a namelist file.
   subroutine case_read_file(self, path, stat, errmsg)
     class(rsc_case), intent(inout) :: self
     character(*), intent(in) :: path
@@ -603,7 +604,7 @@ contains
 
   ! --- surface -----------------------------------------------------------------------------------------------------------------------
 
-  !> Given heights z(i,j), measured from z = 0; periodic: whether the surface wraps around (it does not by default).
+  !> A surface of heights z(i,j), measured from z = 0; periodic: .false. by default.
   subroutine surface_take(self, z, dx, dy, x0, y0, periodic, stat, errmsg)
     class(rsc_surface), intent(inout) :: self
     real(c_double), intent(in) :: z(:,:)
@@ -743,7 +744,7 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> The same for every asperity, 0 where there is no contact; the arrays are as long as there are asperities.
+  !> Force, radius and penetration of every asperity, 0 where there is no contact; the arrays have the size of the number of asperities.
   subroutine contact_per_asperity(self, force, radius, penetration, stat, errmsg)
     class(rsc_contact), intent(in) :: self
     real(c_double), intent(out), contiguous, optional :: force(:), radius(:), penetration(:)
@@ -755,7 +756,7 @@ contains
     type(c_ptr) :: own
     n = self%asperities
     own = c_null_ptr
-    if (rsc_contact_asperities(own, reading(self%ticket)) == 0) then  ! those of now: a tip that moved may touch others
+    if (rsc_contact_asperities(own, reading(self%ticket)) == 0) then  ! present asperities: after a move of the tip others may touch
       status = rsc_asperities_count(own, n)
       status = rsc_asperities_destroy(own)
     end if
@@ -770,7 +771,8 @@ contains
     call finish(rsc_contact_per_asperity(reading(self%ticket), n, force, radius, penetration), stat, errmsg)
   end subroutine
 
-  !> Presses many contacts with a force each, shared out among threads (0: all the machine has); the separations, and what press tells of each.
+  !> Presses many contacts with a force each, distributed among threads (0: all of the machine); returns the separations and statuses of
+  !> press.
   subroutine rsc_press_all(contacts, force, separation, threads, each, stat, errmsg)
     type(rsc_contact), intent(inout) :: contacts(:)
     real(c_double), intent(in) :: force(:)
@@ -786,7 +788,8 @@ contains
                 errmsg)
   end subroutine
 
-  !> Indents many contacts to a separation each, shared out among threads (0: all the machine has); the forces, and what indent tells of each.
+  !> Indents many contacts to a separation each, distributed among threads (0: all of the machine); returns the forces and statuses of
+  !> indent.
   subroutine rsc_indent_all(contacts, separation, force, threads, each, stat, errmsg)
     type(rsc_contact), intent(inout) :: contacts(:)
     real(c_double), intent(in) :: separation(:)
@@ -802,7 +805,8 @@ contains
                 errmsg)
   end subroutine
 
-  !> A step of many contacts: tips moved to (x0, y0), then each brought under a force (by_force) or to a separation; what is wanted of the answer.
+  !> A step of many contacts: moves tips to (x0, y0), then applies a force (by_force) or a separation to each; returns the requested
+  !> results.
   subroutine rsc_step_all(contacts, by_force, value, x0, y0, separation, force, stiffness, lateral_x, lateral_y, moment_x, &
                           moment_y, level_status, threads, each, stat, errmsg)
     type(rsc_contact), intent(inout) :: contacts(:)
@@ -868,7 +872,7 @@ contains
 
   ! --- friction ------------------------------------------------------------------------------------------------------------------------
 
-  !> m = 4 G*/E* of two bodies, from their Young's moduli (infinite: rigid) and Poisson's ratios: tangential over normal stiffness.
+  !> m = 4 G*/E* of two bodies, the ratio of tangential to normal stiffness, from Young's moduli (infinite: rigid) and Poisson's ratios.
   function rsc_stiffness_ratio(E, nu, stat, errmsg) result(ratio)
     real(c_double), intent(in) :: E(2), nu(2)
     integer, intent(out), optional :: stat
@@ -878,7 +882,7 @@ contains
     call finish(rsc_tangential_ratio(E, nu, ratio), stat, errmsg)
   end function
 
-  !> dQ/d(x, y) of a further slide the way that slips now: k(i, j) = dQ_i/dx_j.
+  !> Tangential stiffness for a further slide in the present direction of slip: k(i, j) = dQ_i/dx_j.
   function friction_stiffness(self, stat, errmsg) result(k)
     class(rsc_friction), intent(inout) :: self
     integer, intent(out), optional :: stat
@@ -888,7 +892,7 @@ contains
     call finish(rsc_friction_stiffness(changing(self%ticket), k(1, 1), k(1, 2), k(2, 1), k(2, 2)), stat, errmsg)
   end function
 
-  !> The spots of the last update: number of the asperity, radius of the spot and of its part that sticks, share of Q.
+  !> The spots of the last update: number of the asperity, contact radius, radius of the stick area, share of Q.
   subroutine friction_spots(self, asperity, radius, stick_radius, force_x, force_y, stat, errmsg)
     class(rsc_friction), intent(inout) :: self
     integer, intent(out), allocatable, optional :: asperity(:)

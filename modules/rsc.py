@@ -1,5 +1,5 @@
-"""rsc for Python: the elastic contact of a sphere with a rough surface of asperities. The same as rsc.h, which says more about
-every argument.
+"""rsc for Python: the elastic contact of a sphere with a rough surface of asperities. It provides all functions of rsc.h;
+see there for details of every argument.
 
     import rsc
     case = rsc.Case({"surface": {"sigma": 0.01, "n": 1024, "L_lambda_s": 256}})
@@ -8,19 +8,19 @@ every argument.
     force = contact.indent(separation=0.02)
     print(force, contact.area, contact.stiffness())
 
-Needs numpy and librsc, nothing else; nothing is compiled. librsc is looked for in the environment variable RSC_LIBRARY (its full
-path), then beside this file's installation (or in build/ of a clone), then where the system looks for libraries.
+Needs numpy and librsc, nothing else; nothing is compiled. librsc is searched for in the environment variable RSC_LIBRARY (its full
+path), then beside the installation of this file (or in build/ of a clone), then in the library path of the system.
 
-Units are yours, as long as they are consistent: [length], [force], moduli in [force/length^2]. Arrays are numpy arrays of float64;
+Any consistent units may be used: [length], [force], moduli in [force/length^2]. Arrays are numpy arrays of float64;
 two-dimensional ones are [y, x], x running fastest. A list or tuple of numbers is converted; a numpy array of another dtype, shape
-or order is refused, so that nothing is copied behind your back (what the library keeps is copied once). Indices count from 0.
+or order is refused, to avoid hidden copies (data stored by the library are copied once). Indices count from 0.
 
-Errors: Error with the library's message; ArgumentError, which is a ValueError, too, where an argument is wrong, its name in the
-message; NotConverged where the solver did not reach its tolerance (the last iterate can be read).
+Errors: Error with the library's message; ArgumentError, which is also a ValueError, for a wrong argument, with its name in the
+message; NotConverged if the solver did not reach its tolerance (the last iterate can be read).
 
-Objects hold memory of the library until close(), the end of a `with` block, or garbage collection. A call on a closed object is a
-ValueError. Calls let other Python threads run: different objects work side by side; on one object, calls that only read run side by
-side, and one that changes it waits for the others.
+Objects own memory of the library until close(), the end of a `with` block, or garbage collection. A call on a closed object raises
+ValueError. Calls release the GIL: calls on different objects run in parallel, as do read-only calls on one object; a call that changes
+an object waits for the others.
 """
 
 import collections
@@ -45,8 +45,8 @@ __all__ = ["Case", "Surface", "Asperities", "Contact", "Friction", "Error", "Arg
            "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "press_all", "indent_all", "step_all", "lock", "version", "keys"]
 
 # ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
-# What each function of rsc.h takes, as it declares it (all return int32_t). From it follow the ctypes, the checks of the arguments by
-# name, and whether an object is read (const) or changed by the call.
+# The arguments of each function, as declared in rsc.h (all return int32_t). They determine the ctypes, the checks of the arguments by
+# name, and whether a call reads (const) or changes an object.
 _Argument = collections.namedtuple("_Argument", "const type stars name")
 _INTEGERS = {"int32_t": (ctypes.c_int32, np.int32, 2**31), "int64_t": (ctypes.c_int64, np.int64, 2**63)}
 
@@ -65,8 +65,8 @@ class ArgumentError(Error, ValueError):
 
 
 class NotConverged(Error):
-    """The solver did not reach its tolerance. The object holds the last iterate, which can be read; after Case.run the file is written,
-    and error.failed_levels says how many levels failed."""
+    """The solver did not reach its tolerance. The last iterate of the object can be read; after Case.run the file is written,
+    and error.failed_levels is the number of levels that failed."""
 
     failed_levels = None
 
@@ -87,8 +87,8 @@ _FUNCTIONS = _parse(_rsc_h.PROTOTYPES)
 
 
 def _ctype(argument):
-    """What ctypes is told: numbers by value; everything else is an address, made and checked by _convert."""
-    if argument.stars or argument.type.startswith("rsc_"):  # an address, or a function to be called back
+    """The argument types for ctypes: numbers by value; everything else is an address, created and checked by _convert."""
+    if argument.stars or argument.type.startswith("rsc_"):  # an address, or a callback
         return ctypes.c_void_p
     return ctypes.c_double if argument.type == "double" else _INTEGERS[argument.type][0]
 
@@ -120,7 +120,7 @@ def _load():
         try:
             function = getattr(library, name)
         except AttributeError:
-            raise ImportError(f"rsc: {path} has no function {name}: it is of another version than rsc.py") from None
+            raise ImportError(f"rsc: {path} has no function {name}: its version differs from that of rsc.py") from None
         function.argtypes = [_ctype(a) for a in arguments]
         function.restype = ctypes.c_int32
     return library, path
@@ -132,7 +132,7 @@ _Watch = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_double, ctyp
 
 # ---- one call ------------------------------------------------------------------------------------------------------------------
 class _Lock:
-    """Many readers or one writer. A writer that waits lets no further readers in."""
+    """Lock for many readers or one writer. A waiting writer blocks new readers."""
 
     def __init__(self):
         self._gate, self._busy, self._count = threading.Lock(), threading.Lock(), threading.Lock()
@@ -159,7 +159,7 @@ class _Lock:
 
 
 class _Object:
-    """What owns a handle of the library."""
+    """Owner of a handle of the library."""
 
     _kind = None  # "case" of rsc_case
 
@@ -174,11 +174,11 @@ class _Object:
         return self
 
     def copy(self):
-        """Another object of the same content, independent of this one; one for another thread. Raises Error (no memory), ValueError (closed)."""
+        """An independent copy of this object, for example for another thread. Raises Error (no memory), ValueError (closed)."""
         return type(self)._make(f"rsc_{self._kind}_copy", self)
 
     def close(self):
-        """Gives the memory back, waiting for calls of other threads on this object. Closing twice is allowed; any other use afterwards is a
+        """Releases the memory, after calls of other threads on this object. Closing twice is allowed; any other use afterwards raises
         ValueError."""
         if getattr(self, "_handle", None):
             self._lock.acquire(shared=False)
@@ -200,11 +200,11 @@ class _Object:
         self.close()
 
     def __del__(self):
-        with contextlib.suppress(Exception):  # the interpreter may be going down
+        with contextlib.suppress(Exception):  # the interpreter may be shutting down
             self.close()
 
     def __reduce__(self):
-        raise TypeError(f"rsc.{type(self).__name__} cannot be pickled: it lives in this process; pickle the text of its case or its arrays")
+        raise TypeError(f"rsc.{type(self).__name__} cannot be pickled, because it belongs to this process; pickle the text of its case or its arrays")
 
     def __copy__(self):
         return self.copy()
@@ -218,7 +218,7 @@ def _refuse(name, what):
 
 
 def _array(name, value, shape=None, dtype=np.float64):
-    """The array itself if it can be handed over as it is; lists and numbers are converted. 1-D slices with a stride are copied."""
+    """The array itself if it needs no conversion; lists and numbers are converted. 1-D slices with a stride are copied."""
     if not isinstance(value, np.ndarray):
         try:
             value = np.array(value, dtype=dtype)
@@ -235,9 +235,9 @@ def _array(name, value, shape=None, dtype=np.float64):
 
 
 def _convert(argument, value):
-    """A Python value as ctypes takes it, and what has to live until the call is over."""
+    """A Python value converted for ctypes, and objects that must exist until the end of the call."""
     name, kind = argument.name, argument.type
-    if argument.stars == 0 and kind.startswith("rsc_"):  # a function that is called back
+    if argument.stars == 0 and kind.startswith("rsc_"):  # a callback
         return ctypes.cast(value, ctypes.c_void_p), value
     if argument.stars == 0:
         if kind == "double":
@@ -266,7 +266,7 @@ def _convert(argument, value):
         return ctypes.addressof(text), text
     if isinstance(value, np.ndarray):
         if np.ma.is_masked(value):
-            _refuse(name, "some of its values are masked: fill them, or leave them out")
+            _refuse(name, "some of its values are masked: fill or remove them")
         wanted = np.float64 if kind == "double" else _INTEGERS[kind][1]
         if value.dtype != wanted:
             _refuse(name, f"an array of {np.dtype(wanted).name} is expected, not of {value.dtype}")
@@ -281,14 +281,14 @@ def _convert(argument, value):
 
 
 def _handles(value):
-    """What the library knows an object by, or a list of them."""
+    """The handle of an object, or a list of handles."""
     if isinstance(value, list):
         return (ctypes.c_void_p * len(value))(*[one._handle.value for one in value])
     return value._handle if isinstance(value, _Object) else value
 
 
 def _call(function, *values):
-    """Calls a function of rsc.h: converts and checks the values, holds the objects among them, raises what went wrong."""
+    """Calls a function of rsc.h: converts and checks the values, locks the objects among them, raises errors."""
     arguments = _FUNCTIONS[function]
     converted, alive, objects = [], [], []
     for argument, value in zip(arguments, values):
@@ -326,7 +326,7 @@ def _call(function, *values):
 
 
 def _text(function, *values):
-    """The text that a function writes into a buffer."""
+    """The text output of a function."""
     size = 4096
     while True:
         buffer, length = ctypes.create_string_buffer(size), ctypes.c_int64()
@@ -337,7 +337,7 @@ def _text(function, *values):
 
 
 def _numbers(function, first, names):
-    """The scalar outputs of a function that has an object and then outputs only, as a tuple of the type `names`."""
+    """The scalar outputs of a function whose arguments are an object and outputs, as a tuple of the type `names`."""
     outputs = [ctypes.c_double() if a.type == "double" else _INTEGERS[a.type][0]() for a in _FUNCTIONS[function][1:]]
     _call(function, first, *outputs)
     return names(*[o.value for o in outputs])
@@ -350,26 +350,26 @@ def _number(function, *values):
     return output.value
 
 
-# ---- what calls return ---------------------------------------------------------------------------------------------------------
+# ---- results of calls ---------------------------------------------------------------------------------------------------------
 def _record(name, fields, doc):
     kind = collections.namedtuple(name, fields)
     kind.__doc__ = doc
     return kind
 
 
-Grid = _record("Grid", "nx ny dx dy x0 y0 periodic", "The grid of a surface: points nx, ny; steps dx, dy and place x0, y0 of the first point [length]; periodic.")
+Grid = _record("Grid", "nx ny dx dy x0 y0 periodic", "The grid of a surface: points nx, ny; steps dx, dy and position x0, y0 of the first point [length]; periodic.")
 Moments = _record("Moments", "m0 m2 m4", "Spectral moments of a surface: m0 [length^2], m2 [1], m4 [1/length^2]; the rms slope is sqrt(2 m2).")
-Summits = _record("Summits", "x y z radius", "Asperities: places x, y, heights z and radii, arrays of shape (n,) [length].")
+Summits = _record("Summits", "x y z radius", "Asperities: positions x, y, heights z and radii, arrays of shape (n,) [length].")
 Curvatures = _record("Curvatures", "kappa1 kappa2 angle", "Principal curvatures kappa1 >= kappa2 [1/length] of asperities and the direction of the "
                      "kappa2 axis from x [rad]; arrays of shape (n,).")
-Level = _record("Level", "status candidates iterations overlapping_pairs residual", "How a level was reached: status (its name: rsc.LEVELS[status]); candidates, "
-                "asperities the sphere would penetrate without interaction; iterations; overlapping pairs of spots; relative residual [1].")
-Spots = _record("Spots", "asperity force radius penetration", "Contacts: indices of the asperities from 0 (int32; None where all asperities are meant), force [force], "
+Level = _record("Level", "status candidates iterations overlapping_pairs residual", "Solver data of a level: status (its name: rsc.LEVELS[status]); candidates, "
+    "number of asperities that the sphere would penetrate without interaction; iterations; overlapping pairs of spots; relative residual [1].")
+Spots = _record("Spots", "asperity force radius penetration", "Contacts: indices of the asperities from 0 (int32; None for all asperities), force [force], "
                 "contact radius a, the area being pi a^2 [length], and penetration [length]; arrays of shape (n,).")
-FrictionState = _record("FrictionState", "separation x y force force_x force_y energy tangential_energy lost stick_separation", "Where the path of a Friction has led: separation Z0 and slide x, y [length]; force N, tangential force Q as force_x, force_y [force]; elastic energy of the normal problem and of the slide, work lost to friction since the path began [force length]; the separation whose spots stick [length].")
-SpotSlip = _record("SpotSlip", "asperity radius stick_radius force_x force_y", "Arrays, a value a spot: index of the asperity, contact radius, radius of the part that sticks [length], share of the tangential force [force].")
+FrictionState = _record("FrictionState", "separation x y force force_x force_y energy tangential_energy lost stick_separation", "State of the path of a Friction: separation Z0 and slide x, y [length]; force N, tangential force Q as force_x, force_y [force]; elastic energy of the normal problem and of the slide, work lost to friction since the start of the path [force length]; separation at which the contact area would equal the stick area [length].")
+SpotSlip = _record("SpotSlip", "asperity radius stick_radius force_x force_y", "Arrays with one value for each spot: index of the asperity, contact radius, radius of the part that sticks [length], share of the tangential force [force].")
 Answer = _record("Answer", "separation force stiffness area energy lateral_x lateral_y status contacts overlapping_pairs large_contacts beyond_law edge_contacts",
-                 "The answer of a level: see Contact.answer.")
+                 "The results of a level: see Contact.answer.")
 _Result = collections.namedtuple("_Result", "separation force area contacts")
 _Tip = collections.namedtuple("_Tip", "x0 y0")
 
@@ -401,7 +401,7 @@ def _namelist_value(name, value):
 
 
 def _python_value(text):
-    """The value of a key as the library gives it, in Python's types."""
+    """The value of a key from the text of the library, in Python's types."""
     values = []
     for token in re.findall(r"'(?:[^']|'')*'|[^,\s]+", text):
         if token.startswith("'"):
@@ -416,12 +416,12 @@ def _python_value(text):
 
 
 class Case(_Object):
-    """Every option, by the names of the program's namelist (rsc --describe); all at their defaults to begin with.
+    """Every option, by the names of the program's namelist (rsc --describe); all initially at their defaults.
 
     Case(source): source is a dictionary {"surface": {"sigma": 0.01}} or {"surface%sigma": 0.01}, a namelist text as the program reads it
     ("&surface sigma=0.01 /"), another Case, or None. Values are numbers, texts, True, False, or lists of these.
     case["surface%sigma"] reads a value (None: not set; a tuple: several) and sets it. str(case) is the whole case as a namelist.
-    Raises ArgumentError with a line for every key or value that is refused."""
+    Raises ArgumentError with a line for every invalid key or value."""
 
     _kind = "case"
 
@@ -438,12 +438,12 @@ class Case(_Object):
             self.update(source)
 
     def read(self, text):
-        """Replaces all keys by what the namelist `text` says, defaults where it says nothing. Raises ArgumentError, the case then being
+        """Sets all keys from the namelist `text`; keys that are not in it get their defaults. Raises ArgumentError; the case is then
         unchanged."""
         _call("rsc_case_read", self, text)
 
     def read_file(self, path):
-        """The same from the file `path`. Raises ArgumentError as read does, and for a file that cannot be read."""
+        """Sets all keys from the namelist in the file `path`. Raises ArgumentError as read does, and for a file that cannot be read."""
         _call("rsc_case_read_file", self, os.fspath(path))
 
     def update(self, source):
@@ -468,7 +468,7 @@ class Case(_Object):
         return _python_value(_text("rsc_case_get", self, name))
 
     def text(self):
-        """All keys with their values, as namelist text that the program and read() take."""
+        """All keys with their values, as namelist text for the program and read()."""
         return _text("rsc_case_text", self)
 
     __str__ = text
@@ -481,16 +481,16 @@ class Case(_Object):
     def run(self, file=None, progress=None):
         """Runs the case as the program does, writes its result file and returns the path of it; read(path) reads it. Prints nothing.
         file: path of the result file; by default that of the key output%file. Paths are relative to the working directory. progress: called
-        as progress(done, total) by this thread some twenty times a second: levels, or realizations where there are several. What it raises
-        stops the run and is raised here, as Ctrl-C does; then no result is written.
-        Raises ArgumentError for a case that is refused, NotConverged if some levels did not converge (the file is written; the number is
-        error.failed_levels), Error for a file that cannot be written or memory that is refused."""
+        as progress(done, total) by this thread about twenty times a second, with numbers of levels, or of realizations if there are several. Its
+        exceptions, and Ctrl-C, stop the run and are raised again; then no result is written.
+        Raises ArgumentError for an invalid case, NotConverged if some levels did not converge (the file is written; the number is
+        error.failed_levels), Error for a file that cannot be written or lack of memory."""
         case = self
         if file is not None:
             case = self.copy()
             case["output%file"] = os.fspath(file)
-        # Python answers to Ctrl-C in its main thread only, and not while that is in the library: another one runs the case.
-        # Not Thread.join: where Ctrl-C interrupts that, Python 3.11 takes the thread for one that has ended.
+        # Python handles Ctrl-C only in its main thread, and not during a library call; therefore another thread runs the case.
+        # Not Thread.join: if Ctrl-C interrupts it, Python 3.11 considers the thread as ended.
         failed, stop, done, seen, raised = ctypes.c_int64(), threading.Event(), threading.Event(), [], []
 
         def watch(done, total, _):
@@ -522,35 +522,35 @@ class Case(_Object):
 
 # ---- surfaces ------------------------------------------------------------------------------------------------------------------
 class Surface(_Object):
-    """Heights on a regular grid: made by synthesize or take."""
+    """Heights on a regular grid, created by synthesize or take."""
 
     _kind = "surface"
 
     @classmethod
     def synthesize(cls, case=None, realization=1):
-        """A random surface by the keys of &surface and run%seed: the same as realization number `realization` of the program. It is periodic,
-        on x = i L/n, y = j L/n. case: None for the defaults. Raises ArgumentError for keys that are refused, Error (no memory)."""
+        """A random surface from the keys of &surface and run%seed, identical to realization number `realization` of the program. It is periodic,
+        on x = i L/n, y = j L/n. case: None for the defaults. Raises ArgumentError for invalid keys, Error (no memory)."""
         return cls._make("rsc_surface_synthesize", case, realization)
 
     @classmethod
     def take(cls, heights, dx, dy=None, x0=0.0, y0=0.0, periodic=False):
-        """A surface of given heights, copied. Separations are measured from z = 0: see detrend.
+        """A surface from an array of heights, which is copied. Separations are measured from z = 0: see detrend.
         heights: float64, shape (ny, nx), C order, finite, 3 points or more each way [length]; dx, dy: grid steps > 0, dy = dx by default
-        [length]; x0, y0: place of the first point [length]; periodic: whether the surface wraps around.
-        Raises ArgumentError naming what is wrong, Error (no memory)."""
+        [length]; x0, y0: position of the first point [length]; periodic: True for a periodic surface.
+        Raises ArgumentError with the name of the wrong argument, Error (no memory)."""
         heights = _array("heights", heights, (None, None))
         ny, nx = heights.shape
         return cls._make("rsc_surface_take", nx, ny, dx, dx if dy is None else dy, x0, y0, bool(periodic), heights)
 
     def detrend(self, how="plane"):
-        """Subtracts a form fitted by least squares. how: 'none', 'mean', 'plane', 'quadratic' or 'sphere'. Returns the rms height left
-        [length]. Raises ArgumentError for another word, or a sphere that does not fit."""
+        """Subtracts a form fitted by least squares. how: 'none', 'mean', 'plane', 'quadratic' or 'sphere'. Returns the remaining rms height
+        [length]. Raises ArgumentError for another word, or a sphere that cannot be fitted."""
         rms = ctypes.c_double()
         _call("rsc_surface_detrend", self, how, rms)
         return rms.value
 
     def filter(self, cutoff):
-        """Gaussian low-pass filter (ISO 16610-61): half of a wave of length cutoff > 0 [length] is left. Raises ArgumentError."""
+        """Gaussian low-pass filter (ISO 16610-61): waves of length cutoff > 0 [length] keep half of their amplitude. Raises ArgumentError."""
         _call("rsc_surface_filter", self, cutoff)
 
     def grid(self):
@@ -559,7 +559,7 @@ class Surface(_Object):
         return g._replace(periodic=bool(g.periodic))
 
     def heights(self, out=None):
-        """The heights [length], shape (ny, nx). out: an array of float64 of that shape to be filled instead of a new one. Raises ArgumentError if
+        """The heights [length], shape (ny, nx). out: an array of float64 of that shape to fill instead of a new one. Raises ArgumentError if
         it does not fit."""
         grid = self.grid()
         out = np.empty((grid.ny, grid.nx)) if out is None else _output("out", out, (grid.ny, grid.nx))
@@ -581,13 +581,13 @@ def _output(name, array, shape):
 
 # ---- asperities ----------------------------------------------------------------------------------------------------------------
 class Asperities(_Object):
-    """Summits: places, heights, radii and perhaps curvatures. Made by find, make or take; they never change. len(asperities) is their number."""
+    """Summits: positions, heights, radii and possibly curvatures. Created by find, make or take; immutable. len(asperities) is their number."""
 
     _kind = "asperities"
 
     @classmethod
     def find(cls, surface, case=None):
-        """The summits of a surface. surface: a Surface; case: asperities%curvature and asperities%law decide on how, None for the defaults.
+        """The summits of a surface. surface: a Surface; case: asperities%curvature and asperities%law select the method, None for the defaults.
         Raises ArgumentError for a surface without summits or one too coarse for the law, Error (no memory)."""
         return cls._make("rsc_asperities_find", surface, case)
 
@@ -599,9 +599,9 @@ class Asperities(_Object):
 
     @classmethod
     def take(cls, x, y, z, radius, kappa1=None, kappa2=None, angle=None, biharmonic=None):
-        """Given asperities, copied. x, y, z, radius: float64, shape (n,), radius > 0 [length]; kappa1 >= kappa2 > 0: principal curvatures
+        """Asperities from arrays, which are copied. x, y, z, radius: float64, shape (n,), radius > 0 [length]; kappa1 >= kappa2 > 0: principal curvatures
         [1/length] and angle: direction of the kappa2 axis from x [rad], all three or none; biharmonic: nabla^4 z at the summits
-        [1/length^3], where the law needs it. Raises ArgumentError naming the array that is wrong, Error (no memory)."""
+        [1/length^3], if the law needs it. Raises ArgumentError with the name of the wrong array, Error (no memory)."""
         x = _array("x", x, (None,))
         rest = {"y": y, "z": z, "radius": radius, "kappa1": kappa1, "kappa2": kappa2, "angle": angle, "biharmonic": biharmonic}
         arrays = [None if v is None and k not in ("y", "z", "radius") else _array(k, v, (x.size,)) for k, v in rest.items()]
@@ -611,13 +611,13 @@ class Asperities(_Object):
         return _number("rsc_asperities_count", self)
 
     def get(self):
-        """Places, heights and radii, Summits: arrays of shape (n,) [length]. Raises ValueError if closed."""
+        """Positions, heights and radii, Summits: arrays of shape (n,) [length]. Raises ValueError if closed."""
         arrays = Summits(*np.empty((4, len(self))))
         _call("rsc_asperities_get", self, len(self), *arrays)
         return arrays
 
     def curvatures(self):
-        """Principal curvatures, Curvatures: arrays of shape (n,) [1/length], [rad]. Raises ArgumentError for asperities that were given without."""
+        """Principal curvatures, Curvatures: arrays of shape (n,) [1/length], [rad]. Raises ArgumentError for asperities without curvatures."""
         arrays = Curvatures(*np.empty((3, len(self))))
         _call("rsc_asperities_curvatures", self, len(self), *arrays)
         return arrays
@@ -629,8 +629,8 @@ class Contact(_Object):
     computed.
 
     Contact(asperities, E_star, R, x0, y0, case): E_star: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [force/length^2]; R: radius, inf for a flat
-    [length]; x0, y0: place of the tip [length]; case: keys of &solver, asperities%law, indentation%selection, ...; None for the defaults.
-    Raises ArgumentError naming what is wrong, Error (no memory). Contact.from_case takes E*, R and the tip from a case."""
+    [length]; x0, y0: position of the tip [length]; case: keys of &solver, asperities%law, indentation%selection, ...; None for the defaults.
+    Raises ArgumentError with the name of the wrong argument, Error (no memory). Contact.from_case takes E*, R and the tip from a case."""
 
     _kind = "contact"
 
@@ -645,29 +645,29 @@ class Contact(_Object):
         return cls._make("rsc_contact_create_from_case", _given("asperities", asperities), case)
 
     def asperities(self):
-        """The asperities it is made of, which the indices of spots() mean: those it was made from or, with law = 'elliptic' or
-        'fourth_order' on a surface, the summits of the difference between surface and indenter with the tip where it is now. Raises
+        """The asperities to which the indices of spots() refer: those of the constructor or, with law = 'elliptic' or
+        'fourth_order' on a surface, the summits of the difference between surface and indenter for the present position of the tip. Raises
         ArgumentError for a contact of elements, ValueError (closed)."""
         return Asperities._make("rsc_contact_asperities", self)
 
     def copy(self):
-        """A contact that is independent of this one, with its last level, its path and its committed state. Raises Error (no memory), ValueError
+        """An independent copy of this contact, with its last level, its path and its committed state. Raises Error (no memory), ValueError
         (closed)."""
         return super().copy()
 
     def indent(self, separation, time=None):
-        """Computes the contact at a separation and returns the force [force]. The answer depends on the separation and the tip alone, unless
-        the case has hardness or a body that relaxes.
+        """Computes the contact at a separation and returns the force [force]. The result depends on the separation and the tip only, unless
+        the case has hardness, adhesion or a body that relaxes.
         separation: Z0, height of the tip above z = 0 [length]; time: of the level, for a body that relaxes (solids%relaxation_share): loads
-        change linearly with it from the last level; None: that of the last level [time]. Raises ArgumentError if one is not finite, or the
+        change linearly with time from the last level; None: the time of the last level [time]. Raises ArgumentError if one is not finite, or the
         time is before the last level; NotConverged (the last iterate can be read), Error."""
         self._at(time)
         return _number("rsc_contact_indent", self, separation)
 
     def press(self, force, time=None):
         """Finds the separation at which the sphere carries a force, computes the contact there, and returns the separation Z0 [length].
-        force: N >= 0; 0 gives the separation of first touch [force]; time: as for indent. Raises ArgumentError if it is negative or not
-        finite, or no asperity lies under the sphere; NotConverged (also if the force jumps over N), Error."""
+        force: N >= 0; 0 gives the separation of first touch [force]; time: as for indent. Raises ArgumentError if the force is negative or not
+        finite, or no asperity is under the sphere; NotConverged (also if the force jumps over N), Error."""
         self._at(time)
         return _number("rsc_contact_press", self, force)
 
@@ -678,7 +678,7 @@ class Contact(_Object):
     def curve(self, separations=None, forces=None, progress=None):
         """A level for each of the separations [length], or of the forces [force] (one of the two, shape (n,)). Returns a dictionary of arrays of
         shape (n,), named as in a result file: separation [length], force [force], contact_area [length^2], contacts, status. Levels that did
-        not converge have status 4 and are no error here. progress: called as progress(done, n) after each level; what it raises ends the
+        not converge have status 4 and raise no error here. progress: called as progress(done, n) after each level; an exception ends the
         curve. Raises ArgumentError as indent and press do."""
         if (separations is None) == (forces is None):
             _refuse("separations", "either separations or forces are expected")
@@ -720,12 +720,12 @@ class Contact(_Object):
         return self._result().contacts
 
     def level(self):
-        """How the last level was reached, a Level. Raises Error (no result)."""
+        """Solver data of the last level, a Level. Raises Error (no result)."""
         return _numbers("rsc_contact_level", self, Level)
 
     def answer(self):
         """The last level in one call, an Answer: separation Z0 [length], force N [force], stiffness dN/dZ0 [force/length], area A [length^2],
-        energy W [force length], lateral_x and lateral_y, the force that pushes the sphere sideways, -dW/d(x0, y0) [force], status (of
+        energy W [force length], lateral_x and lateral_y, the lateral force on the sphere, -dW/d(x0, y0) [force], status (of
         LEVELS), and numbers: contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts. Raises Error (no result)."""
         return _numbers("rsc_contact_answer", self, Answer)
 
@@ -744,8 +744,8 @@ class Contact(_Object):
 
     @property
     def tip(self):
-        """The place (x0, y0) of the tip [length]. Setting it moves the sphere sideways; results stay those of the last level until the next one.
-        Raises ArgumentError if it is not finite."""
+        """The position (x0, y0) of the tip [length]. Setting it moves the sphere sideways; results remain those of the last level until the next
+        one. Raises ArgumentError if it is not finite."""
         return tuple(_numbers("rsc_contact_tip", self, _Tip))
 
     @tip.setter
@@ -754,15 +754,15 @@ class Contact(_Object):
         _call("rsc_contact_move_tip", self, float(place[0]), float(place[1]))
 
     def commit(self):
-        """Keeps tip, last level and what the path has left (solids%hardness) for rollback(). Raises Error (no memory)."""
+        """Stores tip, last level and loading history (solids%hardness, solids%adhesion) for rollback(). Raises Error (no memory)."""
         _call("rsc_contact_commit", self)
 
     def rollback(self):
-        """Goes back to the state of the last commit(), or to that of a new contact. Raises Error."""
+        """Restores the state of the last commit(), or that of the new contact. Raises Error."""
         _call("rsc_contact_rollback", self)
 
     def first_touch(self):
-        """The separation at which the sphere, coming down, touches its first asperity [length]. Raises ArgumentError if none lies under it."""
+        """The separation of first contact in loading [length]. Raises ArgumentError if no asperity is under the sphere."""
         return _number("rsc_contact_first_touch", self)
 
     def spots(self):
@@ -773,7 +773,7 @@ class Contact(_Object):
         return spots
 
     def per_asperity(self):
-        """The same for every asperity, Spots without `asperity`: arrays of shape (len(asperities),), 0 where there is no contact. Raises Error
+        """Results of every asperity, Spots without `asperity`: arrays of shape (len(asperities),), 0 where there is no contact. Raises Error
         (no result)."""
         n = len(self.asperities())
         spots = Spots(None, *np.empty((3, n)))
@@ -781,18 +781,18 @@ class Contact(_Object):
         return spots
 
     def save(self, path):
-        """Saves tip, options, last level, path and committed state in a file, from which restore() goes on as this contact does. path: of the
-        file; one that is there is replaced only if it is a save. Raises Error (file)."""
+        """Saves tip, options, last level, path and committed state in a file, from which restore() continues as this contact does. path: of the
+        file; an existing file is replaced only if it is a save. Raises Error (file)."""
         _call("rsc_contact_save", self, os.fspath(path))
 
     @classmethod
     def restore(cls, asperities, path):
-        """The contact of such a file. asperities: those it was saved with; path: of the file. Raises ArgumentError for other asperities or another
-        file, Error."""
+        """Reads a contact from a file of save(). asperities: those it was saved with; path: of the file. Raises ArgumentError for other
+        asperities or another file, Error."""
         return cls._make("rsc_contact_restore", _given("asperities", asperities), os.fspath(path))
 
     def deflection(self, x, y):
-        """The lowering of the surface by the contact forces [length], positive down, in the shape of x. x, y: places [length], numbers or
+        """The deflection of the surface by the contact forces [length], positive down, in the shape of x. x, y: positions [length], numbers or
         arrays of float64 of equal shape. Raises ArgumentError if they are not finite or differ in shape, Error (no result)."""
         x = _array("x", x)
         y = _array("y", y, x.shape)
@@ -803,11 +803,11 @@ class Contact(_Object):
 
 # ---- friction ------------------------------------------------------------------------------------------------------------------
 class Friction(_Object):
-    """A contact with friction, led along any path of separations and slides (x, y). What is assumed: rsc.h, section friction.
+    """A contact with friction along any path of separations and slides (x, y). For the assumptions see rsc.h, section friction.
 
-    Friction(contact, mu, ratio): contact: a Contact, whose asperities, sphere, tip and options are taken; mu: coefficient of friction >= 0;
-    ratio: m = 4 G*/E*, see stiffness_ratio. Raises ArgumentError naming what is wrong, Error (no memory). Friction.from_case takes mu and m
-    from a case. copy() copies the path, too."""
+    Friction(contact, mu, ratio): contact: a Contact, for its asperities, sphere, tip and options; mu: coefficient of friction >= 0;
+    ratio: m = 4 G*/E*, see stiffness_ratio. Raises ArgumentError with the name of the wrong argument, Error (no memory). Friction.from_case takes mu
+    and m from a case. copy() also copies the path."""
 
     _kind = "friction"
 
@@ -822,36 +822,38 @@ class Friction(_Object):
         return cls._make("rsc_friction_create_from_case", _given("contact", contact), case)
 
     def update(self, separation, x=0.0, y=0.0):
-        """Leads the contact on a straight path to (separation, x, y) and returns (N, Q_x, Q_y, work lost on the way). The first call says where
-        the path begins. separation: Z0; x, y: slide, of which differences count [length]. Q points along the slide at first: the sphere is
-        pushed by -Q. Raises ArgumentError if a number is not finite, NotConverged (the state is that of the last iterates), Error."""
+        """Moves the contact on a straight path to (separation, x, y) and returns (N, Q_x, Q_y, work lost in this step). The first call defines
+        the start of the path. separation: Z0; x, y: slide, of which only differences matter [length]. Q is initially along the slide: the
+        force on the sphere is -Q. Raises ArgumentError if a number is not finite, NotConverged (the state is that of the last iterates), Error."""
         outputs = [ctypes.c_double() for _ in range(4)]
         _call("rsc_friction_update", self, separation, x, y, *outputs)
         return tuple(o.value for o in outputs)
 
     def state(self):
-        """Where the path has led, FrictionState. Raises Error (no result) before the first update."""
+        """State of the path, a FrictionState. Raises Error (no result) before the first update."""
         return _numbers("rsc_friction_state", self, FrictionState)
 
     def move_tip(self, x0, y0):
-        """Moves the tip, for a sphere that rolls onto other asperities, at the separation of the last update: those that carry at both places keep
-        their share of the tangential force, the rest is lost (rsc.h). x0, y0: the new place [length]. Raises ArgumentError, NotConverged, Error."""
+        """Moves the tip at the separation of the last update, for a sphere that rolls onto other asperities: those in contact at both positions
+        keep their share of the tangential force, the rest is lost (rsc.h). x0, y0: the new position [length]. Raises ArgumentError,
+        NotConverged, Error."""
         _call("rsc_friction_move_tip", self, x0, y0)
 
     def stiffness(self):
-        """dQ/d(x, y) of a further slide the way that slips now, an array of shape (2, 2) [force/length]. Raises NotConverged, Error."""
+        """Tangential stiffness dQ/d(x, y) for a further slide in the present direction of slip, an array of shape (2, 2) [force/length]. Raises
+        NotConverged, Error."""
         return np.array(_numbers("rsc_friction_stiffness", self, lambda *k: k)).reshape(2, 2)
 
     def commit(self):
-        """Keeps the state for rollback(). Raises Error (no memory)."""
+        """Stores the state for rollback(). Raises Error (no memory)."""
         _call("rsc_friction_commit", self)
 
     def rollback(self):
-        """Goes back to the last commit. Raises Error (no memory)."""
+        """Restores the state of the last commit. Raises Error (no memory)."""
         _call("rsc_friction_rollback", self)
 
     def first_loading(self, slide):
-        """Q of a contact pressed to the last separation at rest and then slid [force], in the shape of slide; the path is not touched. slide: >= 0,
+        """Tangential force Q of a contact pressed to the last separation without slide and then slid [force], in the shape of slide; the path is not changed. slide: >= 0,
         float64, shape (n,) [length]. Raises ArgumentError for a slide that is negative or not finite, NotConverged, Error (no result without
         contact)."""
         slide = _array("slide", slide, (None,))
@@ -860,18 +862,18 @@ class Friction(_Object):
         return force
 
     def slide(self, force):
-        """The slide that takes the force Q on first loading [length]. force: 0 <= Q <= mu N [force]. Raises ArgumentError out of range,
+        """The slide of first loading at which the tangential force is Q [length]. force: 0 <= Q <= mu N [force]. Raises ArgumentError out of range,
         NotConverged, Error (no result without contact)."""
         return _number("rsc_friction_slide", self, force)
 
     def full_slip(self):
-        """The slide at which all slips on first loading [length] and the force mu N [force]. Raises Error (no result without contact)."""
+        """The slide of full slip in first loading [length] and the force mu N [force]. Raises Error (no result without contact)."""
         return _numbers("rsc_friction_full_slip", self, lambda *values: values)
 
     def spots(self):
         """Friction at the spots of the last update by increasing index of asperity, SpotSlip. Raises NotConverged, Error (no result)."""
         count = ctypes.c_int64()
-        with contextlib.suppress(ArgumentError):  # asks for the number only
+        with contextlib.suppress(ArgumentError):  # only for the number
             _call("rsc_friction_spots", self, 0, count, None, None, None, None, None)
         n = count.value
         spots = SpotSlip(np.empty(n, np.int32), *np.empty((4, n)))
@@ -879,18 +881,18 @@ class Friction(_Object):
         return spots
 
     def save(self, path):
-        """Keeps the path and the committed state in a file, from which restore() goes on bit for bit. path: of the file. Raises Error (file)."""
+        """Saves the path and the committed state in a file, from which restore() continues bit for bit. path: of the file. Raises Error (file)."""
         _call("rsc_friction_save", self, os.fspath(path))
 
     @classmethod
     def restore(cls, asperities, path):
-        """The friction of such a file. asperities: those it was saved with; path: of the file. Raises ArgumentError for other asperities or another
-        file, Error."""
+        """Reads friction from a file of save(). asperities: those it was saved with; path: of the file. Raises ArgumentError for other
+        asperities or another file, Error."""
         return cls._make("rsc_friction_restore", _given("asperities", asperities), os.fspath(path))
 
 
 def stiffness_ratio(E, nu):
-    """m = 4 G*/E* of two bodies, the tangential over the normal stiffness of any of their contacts. E: two Young's moduli, inf: rigid
+    """m = 4 G*/E* of two bodies, the ratio of tangential to normal stiffness of any of their contacts. E: two Young's moduli, inf: rigid
     [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError naming what is wrong."""
     return _number("rsc_stiffness_ratio", _array("E", E, (2,)), _array("nu", nu, (2,)))
 
@@ -903,12 +905,12 @@ def _given(name, value):
 
 # ---- results and studies -------------------------------------------------------------------------------------------------------
 def read(path, xarray=None):
-    """Reads a result file. path: of the file. xarray: True for an xarray.Dataset (which needs Debian's python3-xarray), False for a
-    dictionary {variable: numpy array} with the file's attributes under the empty name ""; None, the default, for the Dataset where xarray
-    is installed. Of the manifest of a study, its members as one cube: every variable that all of them have, with a first dimension for
-    each key that varies (where the members are no full grid of its values, or differ in one key's values side by side: one, 'member'), which
-    holds the key's values. Needs netCDF4 (Debian's python3-netcdf4). Shapes, units and meanings are those of the file (ncdump -h); absent values of
-    reals are NaN. Raises Error if the file cannot be read, ImportError if a package is missing."""
+    """Reads a result file. path: its path. xarray: True for an xarray.Dataset (which needs Debian's python3-xarray), False for a
+    dictionary {variable: numpy array} with the file's attributes under the empty name ""; None, the default, for the Dataset if xarray
+    is installed. For the manifest of a study, the members are read as one cube: every variable that all of them have gets a dimension for each
+    key that varies, with the values of the key; if the members do not form a full grid, one dimension 'member'. Needs netCDF4 (Debian's
+    python3-netcdf4). Shapes, units and meanings are those of the file (ncdump -h); missing reals are NaN. Raises Error if the file cannot be
+    read, ImportError if a package is missing."""
     path = os.fspath(path)
     import netCDF4
 
@@ -941,7 +943,7 @@ def read(path, xarray=None):
 
 
 def _cube(path, dataset):
-    """The members of a study as one: a Dataset, or a dictionary of arrays with {name: dimensions} under the name "dimensions"."""
+    """The members of a study as one object: a Dataset, or a dictionary of arrays with {name: dimensions} under the name "dimensions"."""
     import _rsc_cube
 
     try:
@@ -958,7 +960,7 @@ def _cube(path, dataset):
 
 
 def _check_sound(path):
-    """The last line of a result is a checksum of all before it: looked at before HDF5 gets the file, which crashes on some damaged ones."""
+    """Checks the checksum in the last line of a result before HDF5 opens the file, because HDF5 crashes on some damaged files."""
     start = b"\nrsc: CRC-32 of all before this line: "
     try:
         with open(path, "rb") as file:
@@ -975,13 +977,13 @@ def _check_sound(path):
                 part = file.read(min(left, 1 << 20))
                 crc, left = zlib.crc32(part, crc), left - len(part)
     except OSError:
-        return  # told where it is read
+        return  # reported when it is read
     if line != start + b"%08x\n" % crc:
-        raise Error(f"{path}: is damaged, or was changed since rsc wrote it: its checksum does not hold", FILE)
+        raise Error(f"{path}: is damaged, or was changed since rsc wrote it: its checksum is wrong", FILE)
 
 
 def _filled(values):
-    """Absent reals as NaN; absent whole numbers keep the file's fill value."""
+    """Missing reals as NaN; missing integers keep the fill value of the file."""
     if np.ma.isMaskedArray(values) and values.dtype.kind == "f":
         return np.ma.filled(values, np.nan)
     return np.ma.getdata(values)
@@ -989,8 +991,8 @@ def _filled(values):
 
 @contextlib.contextmanager
 def lock():
-    """with rsc.lock(): keeps rsc out of NetCDF and HDF5, and out of FFTW's planner, while this thread uses them (netCDF4, h5py): they are not made
-    for several threads. read() takes it itself."""
+    """with rsc.lock(): prevents rsc from calling NetCDF, HDF5 and FFTW's planner while this thread uses them (netCDF4, h5py), because they are
+    not thread-safe. read() takes the lock itself."""
     _call("rsc_lock")
     try:
         yield
@@ -999,24 +1001,24 @@ def lock():
 
 
 def press_all(contacts, forces, threads=0):
-    """Contact.press for many contacts, shared out among threads. contacts: different Contacts; forces: N >= 0 of each, shape (n,) [force];
-    threads: how many, 0 for all the machine has (the answers do not depend on it). Returns (separations, statuses), arrays of shape (n,):
-    Z0 of each [length], NaN where there is none, and SUCCESS, NOT_CONVERGED or another status of rsc.h for each. Raises ArgumentError for a
-    contact given twice, a force that is negative or not finite, or a contact without asperities below its sphere."""
+    """Contact.press for many contacts, distributed among threads. contacts: different Contacts; forces: N >= 0 of each, shape (n,) [force];
+    threads: their number, 0 for all of the machine (results do not depend on it). Returns (separations, statuses), arrays of shape (n,):
+    Z0 of each [length], NaN after a failure, and SUCCESS, NOT_CONVERGED or another status of rsc.h for each. Raises ArgumentError for a
+    contact given twice, a force that is negative or not finite, or a contact without asperities under its sphere."""
     return _all("rsc_contacts_press", contacts, "forces", forces, threads)
 
 
 def indent_all(contacts, separations, threads=0):
     """Contact.indent for many contacts, as press_all. contacts: different Contacts; separations: Z0 of each, shape (n,) [length];
-    threads: how many, 0 for all. Returns (forces, statuses): N of each [force]. Raises ArgumentError as press_all does."""
+    threads: their number, 0 for all. Returns (forces, statuses): N of each [force]. Raises ArgumentError as press_all does."""
     return _all("rsc_contacts_indent", contacts, "separations", separations, threads)
 
 
 def step_all(contacts, forces=None, separations=None, tips=None, stiffness=False, threads=0):
     """A step of many contacts: each tip moved to tips, then pressed with forces or indented to separations, one of the two. contacts: different
-    Contacts; forces, separations: shape (n,); tips: shape (n, 2), None to leave them [length]; stiffness: whether it is wanted; threads: how many,
-    0 for all. Returns a dictionary of arrays of shape (n,): separation, force, stiffness if wanted, lateral_x, lateral_y, moment_x, moment_y,
-    NaN where there is no answer, level_status, and status, as press_all's. Raises ArgumentError."""
+    Contacts; forces, separations: shape (n,); tips: shape (n, 2), None to leave them [length]; stiffness: True to compute it; threads: their
+    number, 0 for all. Returns a dictionary of arrays of shape (n,): separation, force, stiffness if requested, lateral_x, lateral_y, moment_x,
+    moment_y, NaN if there is no result, level_status, and status, as press_all's. Raises ArgumentError."""
     contacts = list(contacts)
     if (forces is None) == (separations is None):
         _refuse("forces, separations", "one of the two is expected")
@@ -1054,12 +1056,12 @@ def _all(function, contacts, name, values, threads):
 
 
 def study(case, over, run, mode="product", threads=1, progress=None):
-    """Runs a function on every member of a study and returns a list of (values, what it returned), in the order of the members.
-    case: a Case, or what Case() takes; over: {"surface%sigma": [0.005, 0.01], ...}, lists of values for keys; run: called as
-    run(member) with a Case of the member's own, for instance a function that returns a contact's curve; mode: 'product' for every
-    combination (the last key fastest), 'zip' for the lists side by side; threads: how many members at a time; progress: called as
-    progress(done, n, values) after each member, always in the caller's thread. What run or progress raise ends the study and is raised here.
-    Raises ArgumentError for keys or values that are refused, before anything runs."""
+    """Runs a function on every member of a study and returns a list of (values, result), in the order of the members.
+    case: a Case, or an argument of Case(); over: {"surface%sigma": [0.005, 0.01], ...}, lists of values for keys; run: called as
+    run(member) with the Case of the member, for instance a function that returns a contact's curve; mode: 'product' for every
+    combination (the last key varying fastest), 'zip' for the k-th values of all lists together; threads: number of members at a time; progress:
+    called as progress(done, n, values) after each member, always in the caller's thread. Exceptions of run and progress end the study and are
+    raised again. Raises ArgumentError for invalid keys or values, before anything runs."""
     case = Case(case)
     lists = [list(values) for values in over.values()]
     if mode == "zip":
@@ -1094,10 +1096,10 @@ def study(case, over, run, mode="product", threads=1, progress=None):
     return [(values, result) for (values, _), result in zip(members, results)]
 
 
-# ---- functions of rsc.h that no class above has by hand ------------------------------------------------------------------------
+# ---- functions of rsc.h without a method above ------------------------------------------------------------------------
 def _plain(function):
-    """A method that does no more than call `function`: inputs as arguments; returns its output, a tuple of several, None without any.
-    None where there is no rule for its arguments."""
+    """A method that only calls `function`: inputs as arguments; returns its output, a tuple of several outputs, or None without outputs.
+    None if there is no rule for its arguments."""
     rest = _FUNCTIONS[function][1:]
     inputs = [a for a in rest if a.stars == 0 or a.const]
     outputs = [a for a in rest if a.stars == 1 and not a.const]
@@ -1113,7 +1115,7 @@ def _plain(function):
         return tuple(o.value for o in made) if len(made) > 1 else made[0].value if made else None
 
     method.__name__ = function[4:].partition("_")[2]
-    method.__doc__ = f"{_rsc_h.BRIEF[function]} values: {', '.join(a.name for a in inputs) or 'none'}. Returns {', '.join(a.name for a in outputs) or 'nothing'}. Raises as rsc.h says of {function}."
+    method.__doc__ = f"{_rsc_h.BRIEF[function]} values: {', '.join(a.name for a in inputs) or 'none'}. Returns {', '.join(a.name for a in outputs) or 'nothing'}. Errors: see {function} in rsc.h."
     return method
 
 

@@ -1,14 +1,14 @@
-/* rsc for fixed-form FORTRAN 77, and whatever else has no derived types: every call is a subroutine with a name of six letters, every object an
- * INTEGER. modules/README has the list and an example.
+/* rsc for fixed-form FORTRAN 77 and other languages without derived types: every call is a subroutine with a name of six letters, every object
+ * an INTEGER. For the list and an example see modules/README.
  *
  *     CALL RSCIND(ICON, Z0, FORCE, IERR)
  *
- * INTEGER is 4 bytes and DOUBLE PRECISION 8, as compilers have them unless told otherwise; RSCINT tells whether it is. Arrays and scalars go by address; of a CHARACTER the
- * length follows all arguments by value, as gfortran and flang pass it; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the
- * i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG says why. Outputs keep what they held after a failure, but for
- * IERR = 1 (not converged). Indices count from 1. A handle of 0 is none: for a case, the defaults.
+ * INTEGER has 4 bytes and DOUBLE PRECISION 8, the default of compilers; RSCINT checks it. Arrays and scalars are passed by address; the length of
+ * a CHARACTER follows all arguments by value, as with gfortran and flang; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the
+ * i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG returns the message. Outputs keep their values after a failure,
+ * except for IERR = 1 (not converged). Indices count from 1. A handle of 0 means none: for a case, the defaults.
  *
- * Different handles may be used by different threads at the same time, as rsc.h says; the table of handles has a lock of its own.
+ * Different handles may be used by different threads at the same time, as rsc.h says; the table of handles has its own lock.
  */
 #include <pthread.h>
 #include <stdlib.h>
@@ -19,14 +19,14 @@
 enum kind { FREE, CASE, SURFACE, ASPERITIES, CONTACT, FRICTION };
 struct entry {
     enum kind kind;
-    int32_t generation; /* how many objects had this entry before */
+    int32_t generation; /* number of earlier objects with this entry */
     void* object;
 };
 static struct entry* table;
 static int32_t entries;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* What is wrong with a handle, for RSCMSG; empty where the library itself has the last word. */
+/* The error of a handle, for RSCMSG; empty if the message is that of the library. */
 static _Thread_local char own_message[100];
 
 static int32_t refuse(int32_t argument, const char* why) {
@@ -34,12 +34,12 @@ static int32_t refuse(int32_t argument, const char* why) {
     return -argument;
 }
 
-/* A handle holds the number of its entry, from 1, and the generation above it: a handle that was deleted is none even where its entry is used
- * again. */
+/* A handle consists of the number of its entry, from 1, and in higher bits the generation, so that a deleted handle is invalid even if its
+ * entry is used again. */
 #define INDEX_BITS 20
 #define GENERATIONS 2047
 
-/* The entry of a handle, or one that is free. If `take`, the entry is free afterwards. */
+/* The entry of a handle, or a free entry. With `take` the entry is free afterwards. */
 static struct entry entry_of(int32_t handle, int take) {
     struct entry found = {FREE, 0, NULL};
     const int32_t k = (handle & ((1 << INDEX_BITS) - 1)) - 1;
@@ -52,13 +52,13 @@ static struct entry entry_of(int32_t handle, int take) {
     return found;
 }
 
-/* The object of a handle; null if it is none of that kind. */
+/* The object of a handle; null if it is not of that kind. */
 static void* object_of(int32_t handle, enum kind kind) {
     const struct entry entry = entry_of(handle, 0);
     return entry.kind == kind ? entry.object : NULL;
 }
 
-/* Puts an object into the table; 0 if there is no memory for it. */
+/* Adds an object to the table; 0 if there is no memory for it. */
 static int32_t enter(enum kind kind, void* object) {
     int32_t handle = 0;
     pthread_mutex_lock(&lock);
@@ -95,7 +95,7 @@ static void destroy(enum kind kind, void* object) {
     }
 }
 
-/* A C text of a CHARACTER without its trailing blanks; null if there is no memory. */
+/* A C string from a CHARACTER without its trailing blanks; null if there is no memory. */
 static char* text_of(const char* characters, size_t length) {
     while (length > 0 && characters[length - 1] == ' ') --length;
     char* text = malloc(length + 1);
@@ -106,7 +106,7 @@ static char* text_of(const char* characters, size_t length) {
     return text;
 }
 
-/* Fills a CHARACTER: cut or filled with blanks. */
+/* Copies text to a CHARACTER, truncated or padded with blanks. */
 static void put_text(const char* text, char* characters, size_t length) {
     const size_t n = strlen(text);
     memcpy(characters, text, n < length ? n : length);
@@ -127,7 +127,7 @@ static void put_text(const char* text, char* characters, size_t length) {
         *ierr = refuse(argument, "not a handle of a case, or one that was deleted"); \
         return;                                                                      \
     }
-/* Ends a constructor: the new object gets a handle. */
+/* Ends a constructor: assigns a handle to the new object. */
 #define ENTER(kind, made, handle)                  \
     if (*ierr == 0) {                              \
         const int32_t entered = enter(kind, made); \
@@ -227,6 +227,6 @@ RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, d
     for (int64_t k = 0; *ierr == 0 && k < contacts; ++k) ++asperity[k];
 }
 
-/* ---- what does no more than call its function ------------------------------------------------------------------------------- */
+/* ---- subroutines that only call their function ------------------------------------------------------------------------------- */
 
 #include "generated/rsc77.inc"

@@ -11,14 +11,14 @@
 !>       print *, r%asperity_x(r%contact_asperity(first:last)), r%contact_force(first:last)
 !>     end associate
 !>
-!> Every other variable of the file by its name, as a list of numbers, the first index of the Fortran array running fastest:
+!> Every other variable of the file is available by name, as a list of numbers with the first index of the Fortran array running fastest:
 !>
 !>     call r%names(list)                                 ! character(:), allocatable :: list(:)
 !>     call r%get('friction_force', values, shape)        ! real(real64), allocatable :: values(:); integer, allocatable :: shape(:)
 !>     field = reshape(values, [shape(1), shape(2), shape(3)])
 !>
-!> What a file does not hold (contacts of a campaign, heights not asked for) is an array of size zero here. A value that is absent
-!> (the deviation over a single realization) is rsc_absent; ask rsc_is_absent(value).
+!> Data that a file does not contain (contacts of a campaign, heights not requested) are arrays of size zero here. A missing value
+!> (the deviation over a single realization) is rsc_absent; test it by rsc_is_absent(value).
 module rsc_results
   use, intrinsic :: iso_fortran_env, only: real64, int32, int64, error_unit
   use netcdf
@@ -78,12 +78,12 @@ module rsc_results
     procedure :: get => get_by_name
   end type rsc_result
 
-  !> Reads one variable whole, whatever its shape; of size zero if the file does not have it.
+  !> Reads one whole variable of any shape; size zero if the file does not have it.
   interface get
     module procedure get_real0, get_real1, get_real2, get_real3, get_int1, get_int2
   end interface get
 
-  !> The file being read, and the first failure: everything after it does nothing.
+  !> The file being read, and the first failure, after which all calls do nothing.
   type :: reader
     integer :: id = -1
     integer :: status = nf90_noerr
@@ -92,8 +92,8 @@ module rsc_results
 
 contains
 
-  !> Reads the result file `file` into `result`. With `stat` a failure is reported in it (0: read; otherwise not zero, and `result` is
-  !> not to be used) and, as text, in `errmsg`, which otherwise keeps its value; without `stat` a failure stops the program with its message.
+  !> Reads the result file `file` into `result`. With `stat` a failure is reported in it (0: success; otherwise `result` is
+!> invalid) and, as text, in `errmsg`, which otherwise keeps its value; without `stat` a failure stops the program with its message.
   subroutine rsc_read_result(file, result, stat, errmsg)
     character(*), intent(in) :: file
     type(rsc_result), intent(out) :: result
@@ -118,7 +118,7 @@ contains
     call tell(r, file, stat, errmsg)
   end subroutine rsc_read_result
 
-  !> What went wrong, if anything did.
+  !> The message of the first failure, if any.
   subroutine tell(r, file, stat, errmsg)
     type(reader), intent(in) :: r
     character(*), intent(in) :: file
@@ -137,7 +137,7 @@ contains
     end if
   end subroutine tell
 
-  !> The names of all variables of the file, with blanks at their ends.
+  !> The names of all variables of the file, padded with blanks.
   subroutine names_of_variables(self, list, stat, errmsg)
     class(rsc_result), intent(in) :: self
     character(:), allocatable, intent(out) :: list(:)
@@ -158,7 +158,7 @@ contains
     call tell(r, self%file, stat, errmsg)
   end subroutine names_of_variables
 
-  !> The numbers of any variable, in the order of Fortran's arrays of that shape; a scalar has the shape [1]. Of texts the bytes.
+  !> The numbers of any variable, in the order of a Fortran array of that shape; a scalar has the shape [1]. For texts, the bytes.
   subroutine get_by_name(self, name, values, shape, stat, errmsg)
     class(rsc_result), intent(in) :: self
     character(*), intent(in) :: name
@@ -206,7 +206,7 @@ contains
     if (allocated(result%file)) r%status = nf90_open(result%file, nf90_nowrite, r%id)
   end subroutine open_again
 
-  !> Is it the fill value? No result comes near it.
+  !> True for the fill value, which is far from any result.
   elemental logical function rsc_is_absent(value)
     real(real64), intent(in) :: value
     rsc_is_absent = value > 0.99_real64 * rsc_absent
@@ -224,8 +224,8 @@ contains
     if (allocated(self%force)) n = size(self%force, 1)
   end function number_of_steps
 
-  !> The last line of a result is a checksum (CRC-32) of all bytes before it. Looked at before HDF5 gets the file, which crashes on some
-  !> damaged ones.
+  !> Checks the checksum (CRC-32) in the last line of a result before HDF5 opens the file, because HDF5 crashes on some
+!> damaged files.
   subroutine check_sound(r, file)
     type(reader), intent(inout) :: r
     character(*), intent(in) :: file
@@ -238,7 +238,7 @@ contains
     character(8) :: digits
     integer :: unit, k, j, n, problem
     open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=problem)
-    if (problem /= 0) return  ! told where NetCDF opens it
+    if (problem /= 0) return  ! reported when NetCDF opens it
     inquire (unit=unit, size=left)
     left = left - len(line)
     if (left > 0) read (unit, pos=left + 1, iostat=problem) line
@@ -273,7 +273,7 @@ contains
     r%what = 'which is damaged, or was changed since rsc wrote it: its checksum does not hold'
   end subroutine check_sound
 
-  !> Another NetCDF file is refused by name rather than read as an empty result.
+  !> Refuses other NetCDF files, which would be read as empty results.
   subroutine check_kind(r)
     type(reader), intent(inout) :: r
     integer :: varid
@@ -408,7 +408,7 @@ contains
     call get(r, 'height_y', a%height_y)
   end subroutine get_contacts
 
-  !> The shape of a variable as Fortran sees it, padded with ones to `rank`; zeros if the file does not have it.
+  !> The shape of a variable in Fortran's order, padded with ones to `rank`; zeros if the file does not have it.
   subroutine inquire_variable(r, name, rank, varid, shape)
     type(reader), intent(inout) :: r
     character(*), intent(in) :: name
@@ -434,7 +434,7 @@ contains
     call note(r, name)
   end subroutine inquire_variable
 
-  !> Remembers at which variable the first failure happened.
+  !> Records the variable of the first failure.
   subroutine note(r, name)
     type(reader), intent(inout) :: r
     character(*), intent(in) :: name

@@ -93,7 +93,7 @@ class Arguments(unittest.TestCase):
         for kind in (rsc.Surface, rsc.Asperities):
             with self.assertRaisesRegex(TypeError, f"^rsc.{kind.__name__}: use one of its class methods$"):
                 kind()
-        with self.assertRaisesRegex(TypeError, "^rsc.Case cannot be pickled: it lives in this process; pickle the text of its case or its arrays$"):
+        with self.assertRaisesRegex(TypeError, "^rsc.Case cannot be pickled, because it belongs to this process; pickle the text of its case or its arrays$"):
             pickle.dumps(rsc.Case())
         self.assertIsNot(copy.copy(indented()), copy.deepcopy(indented()))
         self.assertEqual(copy.deepcopy(rsc.Case({"surface%n": 64}))["surface%n"], 64)
