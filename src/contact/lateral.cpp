@@ -3,8 +3,8 @@
 namespace rsc {
 namespace {
 
-// Calls add(dx, dy, f) for every force of a level, with its offset from the tip: pixels where there are any. Between smooth flats that
-// repeat these are the contacts, whose places lie within one period.
+// Calls add(dx, dy, f) for every force of a level, with its offset from the tip. The forces are those of pixels, if any; for smooth
+// periodic flats those of contacts, which lie within one period.
 template <class Add>
 void for_each_force(const Indenter& indenter, const Level& level, Add add) {
     const LevelPixels& pixels = level.pixels;

@@ -12,7 +12,7 @@ struct Squares {
     double ee, el, ll;
 };
 Squares squares(double x) {
-    constexpr double small = 1e-2;  // below, the fractions lose digits
+    constexpr double small = 1e-2;  // below, the fractions suffer from cancellation
     const double one = x > 0 ? -std::expm1(-x) / x : 1.0, two = x > 0 ? -std::expm1(-2 * x) / (2 * x) : 1.0;
     if (x < small) return {two, 0.5 - x * (0.5 - x * (7 / 24.0 - x / 8)), 1 / 3.0 - x * (0.25 - x * (7 / 60.0 - x / 24))};
     return {two, (one - two) / x, (1 - 2 * one + two) / (x * x)};
@@ -48,7 +48,7 @@ void LoadMemory::accept(std::span<const std::int32_t> where, std::span<const dou
         const auto [rate, flow] = creep_.retardations()[k];
         const auto [stay, a, b] = passage_.lags[k];
         const double y0d = dot(y_[k], d), yf = yf_[k], yy = yy_[k];
-        // Lost: y'' K y' over the flow, where y' = alpha exp(-rate t) + beta (1 - exp(-rate t))/rate.
+        // Dissipated: the integral of y'K y'/flow with the rate of change y' = alpha exp(-rate t) + beta (1 - exp(-rate t))/rate.
         const Squares mean = squares(rate * passage_.dt);
         const double alpha2 = flow * flow * f00 - 2 * flow * rate * yf + rate * rate * yy,
                      both = flow * (flow * (f01 - f00) - rate * (y0d - yf)), beta2 = flow * flow * (f11 - 2 * f01 + f00);
@@ -84,7 +84,7 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     const double count = numbers.size() >= head ? numbers[0] : -1;
     if (!(count >= 0 && count <= 2147483647.0) || numbers.size() < head + static_cast<std::size_t>(count) * (2 + terms) ||
         std::any_of(numbers.begin(), numbers.end(), [](double v) { return !std::isfinite(v); }))
-        throw Error(Failure::bad_input, "this is no memory of loads");
+        throw Error(Failure::bad_input, "the state of the loads is invalid");
     const auto n = static_cast<std::size_t>(count);
     const double* next = numbers.data() + 1;
     const auto take = [&](std::vector<double>& to, std::size_t size) { to.assign(next, next + size), next += size; };
@@ -94,14 +94,14 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     take(f_, n);
     for (auto& y : y_) take(y, n);
     if (!std::is_sorted(places_.begin(), places_.end()) || (n > 0 && places_[0] < 0))
-        throw Error(Failure::bad_input, "this is no memory of loads");
+        throw Error(Failure::bad_input, "the state of the loads is invalid");
     return static_cast<std::size_t>(next - numbers.data());
 }
 
 void recall_loads(LoadMemory& loads, const std::vector<double>& memory, const HeightMap& map) {
     if (memory.empty() || loads.read(std::span(memory).subspan(1)) + 1 != memory.size() ||
         (!loads.places().empty() && loads.places().back() / map.nx >= map.ny))
-        throw Error(Failure::bad_input, "this is no memory of loads on this map");
+        throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
 }
 
 }  // namespace rsc

@@ -9,8 +9,8 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Sides of each pixel without a neighbour under pressure: those of the contacts' borders. Where the map itself ends, the contact's border
-// is not known to be.
+// Number of sides of each pixel without a neighbour under pressure, the borders of contacts. Sides on the border of the map are not
+// counted, since the contact may continue beyond.
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bool periodic) {
     std::vector<int> open(pixels.size(), 4);
     std::vector<std::size_t> begin(at(ny) + 1, 0);
@@ -37,7 +37,7 @@ std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bo
     return open;
 }
 
-// Pixels of a contact: half of all pixels belong to contacts of no more.
+// Number of pixels N such that half of all pixels belong to contacts of at most N pixels.
 template <class Sums>
 double median_by_area(const Sums& sums) {
     std::vector<long> sizes;
@@ -56,15 +56,15 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
     require_sound(indenter);
     if (!(options.tolerance > 0)) throw Error(Failure::bad_input, "the tolerance must be positive");
     if (heights.nx < 1 || heights.ny < 1 || !(heights.dx > 0) || !(heights.dy > 0))
-        throw Error(Failure::bad_input, "elements: the map of heights is empty");
+        throw Error(Failure::bad_input, "boundary elements: the map of heights is empty");
     constexpr double thinnest = 32;
     if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
-        throw Error(Failure::bad_input, "elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
+        throw Error(Failure::bad_input, "boundary elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
                                             " are longer than 32 times their width");
     if (!(options.hardness.H0 > 0)) throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
     if (std::isfinite(options.hardness.H0) && options.hardness.length != 0)
         throw Error(Failure::bad_input,
-                    "solids%size_effect: elements have no radius to scale the hardness by; give the hardness that holds");
+                    "solids%size_effect: boundary elements have no radius that could scale the hardness; set the effective hardness");
     return heights;
 }
 
@@ -76,11 +76,11 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     const std::vector<int> open = open_sides(touching, map.nx, map.ny, periodic);
     struct Sum {
         double p = 0, px = 0, py = 0, highest = 0, own = 0;
-        long pixels = 0, hard = 0, border = 0;  // at the hardness; sides without a neighbour, of those that are not
+        long pixels = 0, hard = 0, border = 0;  // hard: pixels at the hardness; border: sides without a neighbour of the other pixels
         Pixel peak{0, 0};
     };
     std::vector<Sum> sums(at(contacts));
-    double extreme = 0;  // pixels
+    double extreme = 0;  // number of pixels
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
         s.p += pressure[k];
@@ -91,7 +91,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
         if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = touching[k];
     }
-    // Places are counted from the highest pressure, to the nearest of all images.
+    // Positions relative to the highest pressure, to the nearest image.
     const auto nearest = [&](int offset, int n) {
         if (!periodic) return offset;
         if (2 * offset > n) return offset - n;

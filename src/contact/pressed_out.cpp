@@ -32,7 +32,7 @@ PressedOut pressed_out_of(const HeightMap& map, const std::vector<double>& tripl
     for (std::size_t k = 0; k + 2 < triples.size(); k += 3) {
         if (!(triples[k] >= 0 && triples[k] < map.nx && triples[k + 1] >= 0 && triples[k + 1] < map.ny && triples[k + 2] > 0 &&
               triples[k + 2] < 1e50))
-            throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
+            throw Error(Failure::bad_input, "the state does not belong to a contact of this surface");
         pressed.add(static_cast<int>(triples[k]), static_cast<int>(triples[k + 1]), triples[k + 2]);
     }
     return pressed;

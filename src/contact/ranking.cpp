@@ -9,7 +9,7 @@ bool comes_first(const Ranking::Entry& a, const Ranking::Entry& b) {
     return a.height != b.height ? a.height > b.height : a.asperity < b.asperity;
 }
 
-// By insertion, which is the fastest way where few entries changed places; with std::sort once it takes many moves.
+// Insertion sort, which is the fastest if few entries changed places; falls back to std::sort after many moves.
 void sort_nearly_sorted(std::vector<Ranking::Entry>::iterator first, std::vector<Ranking::Entry>::iterator last) {
     auto steps = 8 * (last - first);
     for (auto e = first; e != last; ++e) {
@@ -42,8 +42,8 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     }
 }
 
-// Upper bound of the asperities not sorted yet. Where the indenter's face is more than highest_z - highest_rest above the tip
-// now, z itself keeps what is there below highest_rest; elsewhere the face fell by so much at most.
+// Upper bound of the heights of unsorted asperities. They cannot exceed highest_rest where the face is now more than highest_z -
+// highest_rest above the tip; elsewhere the face has fallen by at most most_fallen().
 double Ranking::bound_on_rest() const {
     const double d = std::hypot(now_.x0 - x_rest_, now_.y0 - y_rest_);
     if (!(d > 0)) return highest_rest_;
@@ -75,7 +75,7 @@ std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
     const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
     auto end = rest;
     if (x_rest_ == now_.x0 && y_rest_ == now_.y0 && highest_rest_ > Z0) {
-        // Sorts a quarter deeper than requested, so that a series of levels sorts a few times only.
+        // Sorts a quarter deeper than requested, so that a series of levels sorts only a few times.
         const double threshold = Z0 - 0.25 * (highest() - Z0);
         end = std::partition(rest, entries_.end(), [threshold](const Entry& e) { return e.height > threshold; });
         std::sort(rest, end, comes_first);

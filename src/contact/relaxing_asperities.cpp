@@ -8,7 +8,7 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// B f of forces at the first of the points, at all of them.
+// B f at all points, for forces f at the first f.size() points.
 std::vector<double> deflections(Products& products, const std::vector<double>& x, const std::vector<double>& y,
                                 const std::vector<double>& f, double tolerance) {
     std::vector<double> phi(x.size(), 0.0);
@@ -51,7 +51,7 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
     for (int i : set.asperity)
         if (std::isnan(lowered_[at(i)])) missing.push_back(i);
     if (!missing.empty()) {
-        // Where loads were, deflections come with their sources: no place stands in the list twice.
+        // At loaded points, deflections are computed together with the sources, so that no point occurs twice.
         std::vector<double> x, y;
         add_places(x, y, places);
         std::vector<int> sorted = places, elsewhere;
@@ -84,7 +84,7 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     add_places(x, y, law_.touched());
     const auto deflected_by = [&](const std::vector<double>& f) {
         std::vector<double> phi = deflections(products, x, y, f, tolerance_);
-        // What the kernel was raised by is no deflection of the body (Kernel::shift()).
+        // The constant Kernel::shift() is not a deflection of the body.
         const double shift = products.kernel().shift() * std::accumulate(f.begin(), f.end(), 0.0);
         for (double& d : phi) d -= shift;
         return phi;
@@ -98,7 +98,7 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
         stored += 0.5 * creep_.retardations()[k].rate / creep_.retardations()[k].flow * dot(retarded[k], dy);
         for (std::size_t i = 0; i < load.size(); ++i) load[i] += retarded[k][i], d[i] += dy[i];
     }
-    // The work f' dd of the step, by the trapezoidal rule; what was touched for the first time had no load before.
+    // Work f' dd of the step by the trapezoidal rule; asperities touched for the first time had no load before.
     force_.resize(f.size(), 0.0), load_.resize(f.size(), 0.0);
     const double held = dot(f, d);
     lost_ += 0.5 * (held + dot(force_, d) - dot(df, load_) - held_) - (stored - stored_);
@@ -113,7 +113,7 @@ void RelaxingAsperities::write(std::vector<double>& numbers) const {
 }
 
 void RelaxingAsperities::read(std::span<const double> numbers) {
-    if (numbers.size() < 3) throw Error(Failure::bad_input, "this is no memory of these asperities");
+    if (numbers.size() < 3) throw Error(Failure::bad_input, "the state does not belong to these asperities");
     law_.read(numbers.subspan(3));
     stored_ = numbers[0], lost_ = numbers[1], held_ = numbers[2];
     load_ = force_ = law_.forces();

@@ -16,7 +16,7 @@ struct Ellipse {
     Vector centre, axis;  // axis: unit vector along the major semi-axis
     double major, minor;
     Vector in_axes(const Vector& v) const { return {v.x * axis.x + v.y * axis.y, v.y * axis.x - v.x * axis.y}; }
-    // Half its extent along a unit vector.
+    // Half the extent along a unit vector.
     double extent(const Vector& direction) const {
         const Vector d = in_axes(direction);
         return std::sqrt(major * major * d.x * d.x + minor * minor * d.y * d.y);
@@ -28,9 +28,9 @@ struct Interval {
 };
 
 constexpr double kStart = 0.3,
-                 kEnd = kStart + 2 * pi;  // of the parameter t along a border; not 0, where spots often touch exactly
+                 kEnd = kStart + 2 * pi;  // range of the parameter t along a border; not from 0, where spots often touch
 
-// Along a border: finer than its extrema against another, four at most, usually are apart.
+// Sample points along a border, denser than the (at most four) extrema of f usually are.
 struct Samples {
     static constexpr std::size_t count = 33;  // both ends
     std::array<double, count> t;
@@ -47,8 +47,8 @@ const Samples& samples() {
     return all;
 }
 
-// The part of the border of p inside q. With p's point at t being centre + (major cos t, minor sin t) in its axes, the border of q is
-// f(t) = |c + u cos t + v sin t|^2 - 1 = 0, a trigonometric polynomial of second degree: four roots at most.
+// Part of the border of p inside q. For the points centre + (major cos t, minor sin t) on the border of p, the border of q is at the roots
+// of f(t) = |c + u cos t + v sin t|^2 - 1, a trigonometric polynomial of second degree with at most four roots.
 class Border {
 public:
     Border(const Ellipse& p, const Ellipse& q) {
@@ -79,7 +79,7 @@ public:
                 else
                     from = t;
             } else if (sinks != in && sinks != (slopes[k] < 0) && std::abs(values[k]) < 0.08 * scale_) {
-                // An extremum between the two may reach beyond 0 (f'' is at most 4 scale_): two more roots, but for a mere touch.
+                // An extremum between two samples may cross 0 (f'' is at most 4 scale_), which gives two more roots unless it only touches.
                 const double top = root(low, high, 0.5 * (low + high), sinks, slope), f_top = ask({std::cos(top), std::sin(top)}).f;
                 if ((f_top < 0) == in || std::abs(f_top) < 1e-13 * scale_) continue;
                 const double first = root(low, top, 0.5 * (low + top), in, value), last = root(top, high, 0.5 * (top + high), !in, value);
@@ -102,8 +102,8 @@ private:
         return {dot(w, w) - 1, dot(w, slope), dot(slope, slope) - dot(w, turned)};
     }
 
-    // Newton's method from a place t between two where the signs of a function differ, and bisection where it leaves them; the
-    // function is below 0 at the first if it `rises`. `of` gives it and its slope.
+    // Newton's method from t between two points of different sign, with bisection if it leaves this interval. The function is negative at
+    // `low` if it `rises`; `of` returns value and slope.
     template <class F>
     double root(double low, double high, double t, bool rises, F of) const {
         for (int k = 0; k < 100; ++k) {
@@ -119,10 +119,10 @@ private:
         return t;
     }
     Vector c_, u_, v_;
-    double scale_;  // of the terms of f
+    double scale_;  // magnitude of the terms of f
 };
 
-// (1/2) the integral of x dy - y dx along the border from one parameter to another, about an origin near it.
+// Half the integral of x dy - y dx along the border between two parameters, about an origin near it.
 double swept(const Ellipse& e, const Vector& origin, double from, double to) {
     const double along = e.major * (std::cos(to) - std::cos(from)), across = e.minor * (std::sin(to) - std::sin(from));
     const double x = e.centre.x - origin.x, y = e.centre.y - origin.y;
@@ -155,21 +155,21 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     const auto radius = [&](std::size_t i) { return std::sqrt(spots[i].major * spots[i].minor); };
     if (close) *close = std::count_if(pairs.begin(), pairs.end(), [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
 
-    // Spot by spot, what those before it do not cover: each in its own frame, so that it does not matter what repeats where.
+    // Computes for each spot the area not covered by earlier ones, in its own frame, so that periodic images need no special treatment.
     struct Cover : Interval {
         std::size_t by;
     };
     struct Before {
         std::size_t spot;
-        Vector centre;  // seen from the later one
+        Vector centre;  // relative to the later spot
     };
     struct Place {
         Ellipse ellipse;
-        std::vector<Cover> covered;  // of the border
+        std::vector<Cover> covered;  // covered parts of the border
         std::vector<Before> before;
     };
     constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> place_of(n, none);  // of a spot among those with others near
+    std::vector<std::size_t> place_of(n, none);  // index in `places` of a spot that has close neighbours
     std::vector<Place> places;
     const auto place = [&](std::size_t i) {
         if (place_of[i] == none) {
@@ -201,7 +201,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     for (Place& p : places)
         std::sort(p.covered.begin(), p.covered.end(),
                   [](const Cover& a, const Cover& b) { return a.from != b.from ? a.from < b.from : a.by < b.by; });
-    // Area swept along a part of the border of p, seen from the origin, as far as spots before number `later` do not cover it.
+    // Area swept by a part of the border of p about the origin, where it is not covered by spots before number `later`.
     const auto open_part = [&](const Place& p, const Vector& centre, Interval part, std::size_t later) {
         Ellipse e = p.ellipse;
         e.centre = centre;
@@ -214,7 +214,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         }
         return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
     };
-    std::vector<double> covered(places.size(), 0.0);  // of a spot by those before it
+    std::vector<double> covered(places.size(), 0.0);  // area of a spot covered by earlier ones
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& p = places[k];
         if (p.before.empty()) continue;
@@ -227,7 +227,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         area -= covered[k];
     }
     if (own) {
-        // Places are numbered as pairs name them, not as the spots are.
+        // Places are numbered in the order in which they occur in pairs, not as the spots.
         own->clear();
         for (std::size_t i = 0; i < n; ++i)
             own->push_back(pi * spots[i].major * spots[i].minor - (place_of[i] == none ? 0.0 : covered[place_of[i]]));

@@ -28,7 +28,7 @@ void EarlierLevels::remember_passed(double Z0, const Candidates& candidates, con
 }
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities) {
-    if (past_.empty()) return;  // moved twice without a level between: what was carried before is kept
+    if (past_.empty()) return;  // moved twice without a level between; the carried state is kept
     for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
     carried_.known.clear();
     if (unique_ && v.size() == at(candidates.size())) {
@@ -97,7 +97,7 @@ std::optional<double> EarlierLevels::likely_separation(double first_touch) const
 Vector cold_start(const Law& law, Products& products, const WorkingSet& candidates) {
     const int n = candidates.size();
     Vector start(at(n)), F(at(n)), D(at(n)), W(at(n)), active_F, phi(at(n));
-    Vector x, y;  // of those that carry
+    Vector x, y;  // positions of points with force
     std::vector<int> active;
     double low = 0, high = candidates.g0.front();
     for (double g : candidates.g0) high = std::max(high, g);

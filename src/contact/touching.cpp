@@ -39,9 +39,9 @@ Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter)
         BodyAbove::Form f = face.at(a.x[i], a.y[i]);
         if (!std::isfinite(f.height)) f = {};
         double xx = hxx + f.xx, yy = hyy + f.yy, xy = hxy + f.xy, determinant = xx * yy - xy * xy;
-        if (!(determinant > 0 && xx > 0)) f = {}, xx = hxx, yy = hyy, xy = hxy, determinant = k1 * k2;  // under a face that curves away
+        if (!(determinant > 0 && xx > 0)) f = {}, xx = hxx, yy = hyy, xy = hxy, determinant = k1 * k2;  // no summit under this face
         double dx = -(yy * f.x - xy * f.y) / determinant, dy = -(xx * f.y - xy * f.x) / determinant;
-        // No further than to where the summit's own profile ends (law.hpp: q^2 = biharmonic/(kappa1 + kappa2)).
+        // The displacement is limited to the range of the summit's profile (law.hpp: q^2 = biharmonic/(kappa1 + kappa2)).
         const double q = a.biharmonic.empty() ? 0 : std::sqrt(std::max(0.0, a.biharmonic[i] / (k1 + k2))), way = q * std::hypot(dx, dy);
         if (way > 1) dx /= way, dy /= way;
         const double z = a.z[i] - 0.5 * (hxx * dx * dx + 2 * hxy * dx * dy + hyy * dy * dy);
@@ -53,7 +53,7 @@ Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter)
 }
 
 void add_flanks(Asperities& found, const Asperities& of_surface, double spacing) {
-    constexpr double kNear = 0.4, kWidest = 0.8;  // of the spacing; found by trial against elements
+    constexpr double kNear = 0.4, kWidest = 0.8;  // relative to the spacing; calibrated with boundary elements
     if (!(spacing > 0)) return;
     using Cell = std::pair<long, long>;
     const auto cell = [spacing](double x, double y) {
@@ -72,7 +72,7 @@ void add_flanks(Asperities& found, const Asperities& of_surface, double spacing)
         if (near(of_surface.x[i], of_surface.y[i], kNear * spacing)) continue;
         for (const AsperityColumn& column : kAsperityColumns)
             if (!(of_surface.*column.values).empty()) (found.*column.values).push_back((of_surface.*column.values)[i]);
-        // Its contact, q a = pi at the widest (law/law.hpp), is not wider than what there is of the surface for a summit.
+        // Limits the largest contact width, q a = pi (law/law.hpp), to the spacing of the summits.
         const double q = std::numbers::pi / (spacing * kWidest);
         if (!found.biharmonic.empty())
             found.biharmonic.back() = std::max(found.biharmonic.back(), q * q * (found.kappa1.back() + found.kappa2.back()));

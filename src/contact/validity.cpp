@@ -8,8 +8,8 @@ namespace {
 // Distance to the border, negative outside.
 double inside(const Rectangle& r, double x, double y) { return std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y}); }
 
-// Area of the smallest disc about the tip that holds all spots, or all pixels where there are any; no more than the surface has. Two flats
-// that repeat have the area of their period.
+// Area of the smallest disc about the tip that contains all spots (or all pixels, if any), at most the area of the surface; for periodic
+// flats the area of the period.
 double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
     if (indenter.period.finite()) return indenter.period.area();
     double radius = 0;
@@ -23,7 +23,7 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
-// Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
+// Counts contacts whose distance from the border is less than <d> or their radius, and those with a pixel on it.
 void count_edges(Level& level, const SolverOptions& options) {
     level.edge_contacts = 0;
     if (!options.surface.known()) return;
@@ -42,8 +42,8 @@ void count_edges(Level& level, const SolverOptions& options) {
 }  // namespace
 
 bool exceeds_nominal_area(const LevelValues& level) {
-    constexpr double rounding = 1e-9;  // one spot under the tip has the nominal area itself
-    return level.nominal_area > 0 && level.area > (1 + rounding) * level.nominal_area;  // elements have no such disc
+    constexpr double rounding = 1e-9;  // the area of one spot under the tip equals the nominal area
+    return level.nominal_area > 0 && level.area > (1 + rounding) * level.nominal_area;  // 0: not defined
 }
 
 void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options) {
@@ -59,7 +59,7 @@ void judge_range(Level& level, const Indenter& indenter, const SolverOptions& op
         level.wide_contacts = level.a.empty() ? 0 : static_cast<double>(wide) / static_cast<double>(level.a.size());
     }
     const bool too_deep = options.sigma > 0 && level.separation < kLowestSeparation * options.sigma;
-    // Large contacts, and those beyond the law, are in the expected error where there is one.
+    // The expected error, if known, includes the effect of large contacts and of those beyond the law.
     const bool far_off =
         std::isnan(level.force_error_expected) ? level.large_contacts > 0 || level.beyond_law > 0 : level.force_error_expected > kMuchError;
     if (far_off || level.wide_contacts > 0 || level.edge_contacts > 0 || exceeds_nominal_area(level) || too_deep)

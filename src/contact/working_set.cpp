@@ -13,7 +13,7 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
     };
     draw(start);
     bool settle = !options.rough_start;
-    bool saddle = false;  // all that touch are in, and it was no minimum
+    bool saddle = false;  // all touching candidates are included, but the solution is not a minimum
     auto& [v, force, slope] = solution;
     v = start;
     NewtonOutcome total;
@@ -70,7 +70,7 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
         }
         bool complete = true;
         for (std::size_t k = 0; k < outside.size(); ++k) {
-            // Single precision decides only what it can: within its error of touching, the point joins the working set.
+            // Points within the error of single precision of touching are added to the working set.
             if (v[outside[k]] > -1e-4 * phi[k]) {
                 in[outside[k]] = 1;
                 complete = false;

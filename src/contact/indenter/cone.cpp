@@ -15,7 +15,7 @@ public:
     double height(double x, double y) const override { return slope_ * std::sqrt(x * x + y * y); }
     Vec2 gradient(double x, double y) const override {
         const double rho = std::sqrt(x * x + y * y);
-        return rho > 0 ? Vec2{slope_ * x / rho, slope_ * y / rho} : Vec2{};  // the mean over the tip itself
+        return rho > 0 ? Vec2{slope_ * x / rho, slope_ * y / rho} : Vec2{};  // mean over the tip
     }
     Tensor curvature(double x, double y) const override {
         const double rho2 = x * x + y * y, cube = rho2 * std::sqrt(rho2);
@@ -42,7 +42,7 @@ private:
 }  // namespace
 
 std::shared_ptr<const IndenterShape> make_cone(const char* name, const ShapeKeys& keys) {
-    if (!(keys.slope > 0) || std::isinf(keys.slope)) throw Error(Failure::bad_input, "the cone's slope must be positive and finite");
+    if (!(keys.slope > 0) || std::isinf(keys.slope)) throw Error(Failure::bad_input, "the slope of the cone must be positive and finite");
     return std::make_shared<Cone>(name, keys);
 }
 

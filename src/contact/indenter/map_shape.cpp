@@ -1,6 +1,5 @@
-// A second rough body: s = -z2, its heights being upwards positive as the first one's are. The middle of its points is above the tip's place, and Z0 is the
-// separation of the two mean planes. Between its points it is interpolated by polynomials through the points around, as summits of measured
-// maps are (rough/detection.hpp).
+// A second rough body, s = -z2, with heights z2 positive upwards like those of the first. Its centre is above the tip position, and Z0 is
+// the separation of the two mean planes. Between grid points it is interpolated by polynomials, like measured maps in rough/detection.hpp.
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
@@ -13,8 +12,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kReach = 6;          // points on either side
-constexpr int kBlock = 16;         // points of a side of the blocks whose highest points are kept
-constexpr double kOnPoint = 1e-9;  // so near to a point, in steps, a place is the point
+constexpr int kBlock = 16;         // side of the blocks whose highest points are stored [points]
+constexpr double kOnPoint = 1e-9;  // distance within which an offset is a grid point [steps]
 
 class MapShape final : public IndenterShape {
 public:
@@ -80,7 +79,7 @@ public:
     }
 
 private:
-    // A place along one axis: the points first ... first + 2 reach and their weights for each derivative.
+    // Interpolation along one axis: points first ... first + 2 reach and their weights for each derivative.
     struct Along {
         int first = 0, reach = -1;
         double t = 0;
@@ -88,7 +87,7 @@ private:
         alignas(64) double weight[Stencil::kOrders][Stencil::kTaps];
     };
 
-    // False beyond the outermost points by more than half a step. The result of the last call is reused for the same place.
+    // Returns false more than half a step beyond the outermost points. The result of the last call is reused for the same offset.
     bool place(double offset, double step, int n, int orders, Along& along) const {
         const double at = offset / step + 0.5 * (n - 1);
         if (!map_.periodic && !(at >= -0.5 - kOnPoint && at <= n - 0.5 + kOnPoint)) return false;
@@ -126,7 +125,8 @@ private:
 
     static int wrapped(int i, int n) { return (i % n + n) % n; }
 
-    // The highest that each block may reach: its points and those around, and a quarter of their range for what lies between points.
+    // Upper bounds of the heights of blocks: the highest point in and around a block plus a quarter of the range, for values between
+    // points.
     void find_tops() {
         for (int bj = 0; bj < blocks_y_; ++bj)
             for (int bi = 0; bi < blocks_x_; ++bi) {
@@ -147,7 +147,7 @@ private:
 }  // namespace
 
 std::shared_ptr<const IndenterShape> make_map_shape(const char* name, const ShapeKeys& keys) {
-    if (!keys.map || keys.map->nx < 3 || keys.map->ny < 3) throw Error(Failure::bad_input, "body 2 needs a map of 3 x 3 points or more");
+    if (!keys.map || keys.map->nx < 3 || keys.map->ny < 3) throw Error(Failure::bad_input, "body 2 needs a map of at least 3 x 3 points");
     return std::make_shared<MapShape>(name, keys);
 }
 

@@ -1,5 +1,5 @@
-// The paraboloid with two principal radii: two crossed cylinders, a roller, a ball in a groove. One radius Infinity is a cylinder, which
-// goes on to the border of the surface.
+// Paraboloid with two principal radii: two crossed cylinders, a roller, a ball in a groove. If one radius is Infinity it is a cylinder,
+// which extends to the border of the surface.
 
 #include "contact/indenter/shapes.hpp"
 #include "contact/law/ellipse.hpp"
@@ -33,7 +33,7 @@ public:
     }
     double lowest(const Box& box) const override {
         if (!std::isfinite(box.x0) || !std::isfinite(box.x1) || !std::isfinite(box.y0) || !std::isfinite(box.y1)) return 0;
-        const auto least_square = [&](double a, double b) {  // of a x + b y over the box
+        const auto least_square = [&](double a, double b) {  // smallest (a x + b y)^2 over the box
             const double middle = a * 0.5 * (box.x0 + box.x1) + b * 0.5 * (box.y0 + box.y1);
             const double half = std::abs(a) * 0.5 * (box.x1 - box.x0) + std::abs(b) * 0.5 * (box.y1 - box.y0);
             const double least = std::max(0.0, std::abs(middle) - half);
@@ -41,14 +41,14 @@ public:
         };
         return 0.5 * (k1_ * least_square(c_, s_) + k2_ * least_square(-s_, c_)) * (1 - 1e-12);
     }
-    // s(q + d) - s(q) = q.C d + d.C d/2 with q.C d <= sqrt(q.C q) sqrt(d.C d).
+    // Uses s(q + d) - s(q) = q.C d + d.C d/2 and q.C d <= sqrt(q.C q) sqrt(d.C d).
     double most_fallen(double way, double drop) const override {
         const double m = std::sqrt(std::max(k1_, k2_)) * way;
         return std::sqrt(2 * std::max(0.0, drop)) * m + 0.5 * m * m;
     }
     bool round() const override { return k1_ == k2_; }
     double hertz_radius() const override { return round() ? keys().radii[0] : std::numeric_limits<double>::quiet_NaN(); }
-    // Hertz's ellipse (Johnson 1985, section 4.2); none for a cylinder, whose approach depends on its length.
+    // Elliptic Hertz contact (Johnson 1985, section 4.2); empty for a cylinder, whose approach depends on its length.
     std::optional<SmoothContact> smooth(double E_star) const override {
         if (!(k1_ > 0 && k2_ > 0)) return std::nullopt;
         const EllipseFactors f = ellipse_factors(std::max(k1_, k2_) / std::min(k1_, k2_));
@@ -73,7 +73,7 @@ private:
 
 std::shared_ptr<const IndenterShape> make_paraboloid(const char* name, const ShapeKeys& keys) {
     for (const double R : keys.radii)
-        if (!(R > 0)) throw Error(Failure::bad_input, "the paraboloid's radii must be positive (Infinity: straight)");
+        if (!(R > 0)) throw Error(Failure::bad_input, "the radii of the paraboloid must be positive (Infinity: straight)");
     if (std::isinf(keys.radii[0]) && std::isinf(keys.radii[1]))
         throw Error(Failure::bad_input,
                     "indenter%radii = Infinity, Infinity is a flat: use shape = 'sphere' and solids%R = Infinity, Infinity");

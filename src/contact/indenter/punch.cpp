@@ -1,4 +1,4 @@
-// The flat-ended round punch, its rim sharp or rounded: s = 0 up to the radius a, then r - sqrt(r^2 - (rho - a)^2), nothing beyond a + r.
+// Flat-ended round punch with a sharp or rounded rim: s = 0 up to the radius a, s = r - sqrt(r^2 - (rho - a)^2) up to a + r.
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
@@ -35,7 +35,7 @@ public:
     double lowest(const Box& box) const override { return height(std::clamp(0.0, box.x0, box.x1), std::clamp(0.0, box.y0, box.y1)); }
     double reach() const override { return a_ + r_; }
     bool round() const override { return true; }
-    // The sharp one: N = 2 E* a u on all of its end.
+    // Sharp rim only: N = 2 E* a u over the whole flat end.
     std::optional<SmoothContact> smooth(double E_star) const override {
         if (r_ > 0) return std::nullopt;
         return SmoothContact{2 * E_star * a_, 1, std::numbers::pi * a_ * a_, 0};
@@ -45,16 +45,17 @@ public:
     }
 
 private:
-    double beyond(double x, double y) const { return std::sqrt(x * x + y * y) - a_; }  // the flat end
+    double beyond(double x, double y) const { return std::sqrt(x * x + y * y) - a_; }  // distance outside the flat end
     double a_, r_;
 };
 
 }  // namespace
 
 std::shared_ptr<const IndenterShape> make_punch(const char* name, const ShapeKeys& keys) {
-    if (!(keys.radius > 0) || std::isinf(keys.radius)) throw Error(Failure::bad_input, "the punch's radius must be positive and finite");
+    if (!(keys.radius > 0) || std::isinf(keys.radius))
+        throw Error(Failure::bad_input, "the radius of the punch must be positive and finite");
     if (!(keys.rim_radius >= 0) || std::isinf(keys.rim_radius))
-        throw Error(Failure::bad_input, "the punch's rim_radius must be zero (sharp) or positive, and finite");
+        throw Error(Failure::bad_input, "the rim_radius of the punch must be finite and not negative (0: sharp)");
     return std::make_shared<Punch>(name, keys);
 }
 

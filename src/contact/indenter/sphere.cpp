@@ -1,4 +1,4 @@
-// The sphere, exactly: s = R - sqrt(R^2 - rho^2); and the flat, its limit.
+// Sphere without approximation, s = R - sqrt(R^2 - rho^2), and the flat as its limit.
 
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
@@ -28,7 +28,7 @@ public:
         return {(square + x * x) / cube, x * y / cube, (square + y * y) / cube};
     }
     double lowest(const Box& box) const override { return height(std::clamp(0.0, box.x0, box.x1), std::clamp(0.0, box.y0, box.y1)); }
-    // s falls by s(rho + way) - s(rho) at most, which grows with rho; s <= drop is rho <= sqrt(drop (2 R - drop)).
+    // s decreases by at most s(rho + way) - s(rho), which grows with rho; s <= drop means rho <= sqrt(drop (2 R - drop)).
     double most_fallen(double way, double drop) const override {
         const double rho = drop < R_ ? std::sqrt(std::max(0.0, drop * (2 * R_ - drop))) : R_, before = rho + way;
         return before < R_ ? of_square(before * before) - of_square(rho * rho) : kInfinity;
@@ -43,7 +43,7 @@ public:
     std::vector<Vec2> outline(double height) const override { return circle(std::sqrt(std::max(0.0, height * (2 * R_ - height)))); }
 
 private:
-    double of_square(double rho2) const {  // R - sqrt(R^2 - rho^2) without its cancellation
+    double of_square(double rho2) const {  // R - sqrt(R^2 - rho^2) without cancellation
         return rho2 > R_ * R_ ? kInfinity : rho2 / (R_ + std::sqrt(R_ * R_ - rho2));
     }
     double R_;
@@ -67,7 +67,7 @@ public:
 }  // namespace
 
 std::shared_ptr<const IndenterShape> make_sphere(const char* name, const ShapeKeys& keys) {
-    if (!(keys.R > 0)) throw Error(Failure::bad_input, "the sphere's radius must be positive (Infinity: flat)");
+    if (!(keys.R > 0)) throw Error(Failure::bad_input, "the radius of the sphere must be positive (Infinity: flat)");
     if (std::isinf(keys.R)) return std::make_shared<Flat>(name, keys);
     return std::make_shared<Sphere>(name, keys);
 }

@@ -13,12 +13,12 @@ namespace {
 constexpr int kDegree = SquareTable::kDegree, kOctavePieces = SquareTable::kPiecesPerOctave;
 constexpr std::size_t kPieces = SquareTable::kPieces;
 
-// A double y >= 1 holds the number of its piece in its exponent and the first three bits of its mantissa; what is left is where in the piece.
+// For y >= 1, the exponent and the first three bits of the mantissa number the piece; the other bits are the position within it.
 constexpr int kShift = 52 - 3;
 constexpr std::uint64_t kFirst = std::uint64_t{1023} << 3, kRest = (std::uint64_t{1} << kShift) - 1, kOne = std::uint64_t{1023} << 52;
 constexpr double kMiddle = 1 + 0.5 / kOctavePieces;
 
-constexpr std::size_t kBlock = 64;  // sources at once
+constexpr std::size_t kBlock = 64;  // sources processed together
 
 struct Task {
     double x, y, inverse_square;
@@ -50,8 +50,8 @@ RSC_DISPATCH(table_values, table_body, (const Task& task), (task))
 SquareTable::SquareTable(double unit, const std::function<double(double)>& value)
     : unit_(unit), inverse_square_(1 / (unit * unit)), coefficient_((kDegree + 1) * kPieces), sum_(kPieces) {
     constexpr int nodes = kDegree + 1;
-    constexpr double half = 0.5 / kOctavePieces;  // of a piece, in its octave
-    // Newton's divided differences at Chebyshev's points, turned into powers.
+    constexpr double half = 0.5 / kOctavePieces;  // half width of a piece relative to its octave
+    // Interpolation at Chebyshev points by Newton's divided differences, converted to powers.
     double place[nodes];
     for (int i = 0; i < nodes; ++i) place[i] = half * std::cos(std::numbers::pi * (i + 0.5) / nodes);
     double before = 0;
@@ -94,7 +94,7 @@ double SquareTable::moment(double t) const {
 
 void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
                       const double* f, double* to) const {
-    // Among the same points a value serves both ways: block j of sources then takes from the targets before it what they take from it.
+    // If sources and targets are the same points, each value is used for both directions of a pair.
     const bool same = xt == xs && yt == ys && n_targets == n_sources;
     double x[kBlock], y[kBlock], force[kBlock], value[kBlock], back[kBlock];
     for (std::size_t j = 0; j < n_sources; j += kBlock) {
@@ -118,8 +118,8 @@ void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt,
 SmoothPart::SmoothPart(const std::function<double(double)>& s, std::function<double(double)> share, double scale)
     : table_(scale, s), share_(std::move(share)) {}
 
-// The integral over the rectangle from 0 to (s, t): in polar coordinates, one triangle beside each axis. With x = s the far side of a
-// triangle and y = x sinh(v), its part is the integral of moment(x cosh v)/cosh v dv.
+// Integral over the rectangle from 0 to (s, t), in polar coordinates by one triangle at each axis. For a triangle with the far side x = s
+// and y = x sinh(v) it is the integral of moment(x cosh v)/cosh v dv.
 double SmoothPart::corner(double s, double t) const {
     const double x = std::abs(s), y = std::abs(t);
     const auto triangle = [this](double side, double end) {
@@ -138,8 +138,7 @@ double SmoothPart::corner(double s, double t) const {
 }
 
 double SmoothPart::over_rectangle(double x, double y, double a, double b) const {
-    // Far away s is as smooth over the rectangle as 1/d is, and Gauss's rule of three points a side is exact to 1e-10 of it; so it is
-    // where s hardly changes over the rectangle.
+    // Far away, and where s hardly changes over the rectangle, the Gauss rule of 3 x 3 points has a relative error of 1e-10.
     constexpr double far = 16, narrow = 0.05;
     const double side = 2 * std::max(a, b);
     if (x * x + y * y <= far * far * side * side && side > narrow * scale())
@@ -157,10 +156,10 @@ double SmoothPart::over_rectangle(double x, double y, double a, double b) const 
 
 Substrate::Substrate(double E_star, std::shared_ptr<const SmoothPart> smooth) : E_star_(E_star), smooth_(std::move(smooth)) {
     if (!smooth_) return;
-    // Close by 1/(pi E* d) prevails, far away both are as 1/d.
+    // 1/(pi E* d) dominates at small distances; far away both terms are proportional to 1/d.
     for (double d = 0.01 * smooth_->scale(); d < 1e4 * smooth_->scale(); d *= 1.01)
         bulge_ = std::max(bulge_, 0 - near() / d - smooth_->at(d));
-    bulge_ *= 1 + 1e-3;  // between the places asked
+    bulge_ *= 1 + 1e-3;  // margin for maxima between the sampled distances
 }
 
 double Substrate::near() const { return 1 / (std::numbers::pi * E_star_); }
@@ -197,7 +196,7 @@ public:
 class PeriodicKernel final : public Kernel {
 public:
     PeriodicKernel(Substrate substrate, Period period) : Kernel(substrate, substrate.near()), lattice_(period) {
-        if (smooth()) throw Error(Failure::bad_input, "layers between two flats need solver%model = 'elements'");
+        if (smooth()) throw Error(Failure::bad_input, "layers between two flats require solver%model = 'elements'");
     }
     double at(double dx, double dy) const override { return near() * (lattice_.at(dx, dy) - lattice_.least()); }
     double self() const override { return near() * (lattice_.self() - lattice_.least()); }

@@ -10,7 +10,7 @@ using std::numbers::pi;
 
 constexpr double kSmallErfc = 6;  // erfc(6) = 2e-17
 
-// Ewald's sum on a cell of sides a and b with a b = 1, its parameter sqrt(pi): both parts then end after the same few terms.
+// Ewald sum on a cell of sides a and b with a b = 1 and the parameter sqrt(pi), for which both parts need the same small number of terms.
 class Ewald {
 public:
     Ewald(double a, double b) : a_(a), b_(b) {
@@ -27,7 +27,7 @@ public:
             }
     }
 
-    // At (x, y) in [0, a/2] x [0, b/2], less 1/d of the images at (0, 0), (a, 0), (0, b), (a, b).
+    // Potential at (x, y) in [0, a/2] x [0, b/2] minus 1/d of the images at (0, 0), (a, 0), (0, b), (a, b).
     double rest(double x, double y) const {
         double sum = -2;  // background
         for (int m = -images_x_; m <= images_x_; ++m)
@@ -54,7 +54,7 @@ private:
 
 constexpr int kNodes = 28;
 
-// Turns values at Chebyshev nodes cos(pi (i + 1/2)/n), `stride` apart, into coefficients of Chebyshev polynomials.
+// Converts values at Chebyshev nodes cos(pi (i + 1/2)/n), `stride` apart, to coefficients of Chebyshev polynomials.
 void chebyshev(double* values, std::size_t stride) {
     double result[kNodes];
     for (int k = 0; k < kNodes; ++k) {
@@ -65,7 +65,7 @@ void chebyshev(double* values, std::size_t stride) {
     for (int k = 0; k < kNodes; ++k) values[static_cast<std::size_t>(k) * stride] = result[k];
 }
 
-// Turns coefficients of Chebyshev polynomials up to a degree into those of powers.
+// Converts coefficients of Chebyshev polynomials up to a degree to those of powers.
 void powers(double* values, std::size_t stride, int degree) {
     double sum[kNodes] = {}, t0[kNodes] = {1}, t1[kNodes] = {0, 1}, t2[kNodes];
     for (int k = 0; k <= degree; ++k) {
@@ -76,7 +76,7 @@ void powers(double* values, std::size_t stride, int degree) {
     for (int m = 0; m <= degree; ++m) values[static_cast<std::size_t>(m) * stride] = sum[m];
 }
 
-constexpr std::size_t kBlock = 64;  // sources at once
+constexpr std::size_t kBlock = 64;  // sources processed together
 
 struct Task {
     double Lx, Ly, x, y;  // of the target
@@ -86,7 +86,7 @@ struct Task {
     double* value;  // Gamma of kBlock sources
 };
 
-// The nearest whole number by way of a sum that leaves no room for fractions.
+// Nearest integer, by adding a number so large that fractions are rounded off.
 RSC_ALWAYS_INLINE double whole(double t) {
     constexpr double big = 0x1.8p52;
     return (t + big) - big;
@@ -125,7 +125,7 @@ Lattice::Lattice(Period period) : period_(period) {
     const double longer = std::max(period.x, period.y), shorter = std::min(period.x, period.y);
     if (!(shorter > 0) || !period.finite()) throw Error(Failure::bad_input, "the sides of a periodic surface must be positive and finite");
     if (longer > kMostAspect * shorter) {
-        throw Error(Failure::bad_input, "a periodic surface with sides " + std::to_string(period.x) + " and " + std::to_string(period.y) +
+        throw Error(Failure::bad_input, "periodic surface of sides " + std::to_string(period.x) + " and " + std::to_string(period.y) +
                                             ": the longer may be at most 4 times the shorter");
     }
     const double unit = std::sqrt(period.x) * std::sqrt(period.y), a = period.x / unit, b = period.y / unit;
@@ -138,7 +138,7 @@ Lattice::Lattice(Period period) : period_(period) {
         }
     for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k * kNodes], 1);
     for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k], kNodes);
-    const auto tail = [&](int degree) {  // what is left out
+    const auto tail = [&](int degree) {  // magnitude of the truncated terms
         double sum = 0;
         for (int i = 0; i < kNodes; ++i)
             for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j) sum += std::abs(table[static_cast<std::size_t>(i * kNodes + j)]);

@@ -9,7 +9,7 @@ namespace rsc {
 namespace {
 
 using Matrix = std::array<std::array<double, 4>, 4>;
-struct Compliance {  // displacements (along, down) of tractions (shear, normal) over 2 mu of the material above
+struct Compliance {  // displacements (along, down) per traction (shear, normal) over 2 mu of the material above
     double aa, ab, bb;
 };
 
@@ -21,7 +21,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
     return c;
 }
 
-// x cosh x - sinh x, times exp(-x).
+// (x cosh x - sinh x) exp(-x).
 double cosh_less_sinh(double x, double ch, double sh) {
     if (x > 0.5) return x * ch - sh;
     double sum = 0, term = x * x * x / 3;  // sum of x^(2k+1) 2k/(2k+1)!
@@ -32,8 +32,8 @@ double cosh_less_sinh(double x, double ch, double sh) {
     return sum * std::exp(-x);
 }
 
-// exp(-A x - x) of the state's equations y' = A y, y = (u, w, shear/2mu, normal/2mu), depth in 1/k. The eigenvalues of A are 1 and -1, each
-// twice: with N = A^2 - I, N^2 = 0, exp(-A x) = cosh x + x sinh x N/2 - A [sinh x + (x cosh x - sinh x) N/2].
+// exp(-A x - x) for the state equations y' = A y, y = (u, w, shear/2mu, normal/2mu), with depths in units of 1/k. A has the double
+// eigenvalues 1 and -1; with N = A^2 - I, N^2 = 0: exp(-A x) = cosh x + x sinh x N/2 - A [sinh x + (x cosh x - sinh x) N/2].
 Matrix carried_up(double nu, double x) {
     const double p = nu / (1 - nu);
     const Matrix A = {{{0, 1, 2, 0}, {-p, 0, 0, (1 - 2 * nu) / (1 - nu)}, {1 / (1 - nu), 0, 0, p}, {0, 0, -1, 0}}};
@@ -62,11 +62,11 @@ void require_usable(const LayeredBody& body) {
     }
 }
 
-// Beyond so many top thicknesses over k, T is 1 to rounding.
+// For larger k times the thickness of the top layer, T is 1 to rounding.
 constexpr double kShallow = 22;
 
-// Coefficients of T - 1 = sum a_n exp(-k z) L_n(2 k z), n < count: a_n = 2 z int (T - 1) exp(-k z) L_n(2 k z) dk, over sqrt(k), in which the
-// phase of L_n grows evenly.
+// Coefficients of T - 1 = sum a_n exp(-k z) L_n(2 k z), n < count: a_n = 2 z int (T - 1) exp(-k z) L_n(2 k z) dk, integrated over sqrt(k),
+// in which the phase of L_n grows uniformly.
 std::vector<double> laguerre(const LayeredBody& body, double z, int count) {
     constexpr int nodes = 20;
     using Gauss = boost::math::quadrature::gauss<double, nodes>;
@@ -80,7 +80,7 @@ std::vector<double> laguerre(const LayeredBody& body, double z, int count) {
             const double at = i % 2 ? -Gauss::abscissa()[m] : Gauss::abscissa()[m];
             const double q = half * (2 * panel + 1 + at), k = q * q;
             const double weight = Gauss::weights()[m] * half * 2 * q * 2 * z * (layered_answer(body, k) - 1);
-            // Long: exp(-k z) of the longest series is below the range of double, and what follows is not.
+            // Long double, because exp(-k z) of the longest series underflows in double, but its products do not.
             const long double y = 2 * static_cast<long double>(k) * z;
             long double before = std::exp(-y / 2), now = (1 - y) * before;
             a[0] += weight * static_cast<double>(before);
@@ -97,7 +97,7 @@ struct Series {
     double z;
     std::vector<double> a;
 
-    // sum of a_n P_n(u)/R.
+    // Sum of a_n P_n(u)/R.
     double at(double d) const {
         const double R = std::hypot(d, z), u = (d - z) * (d + z) / (R * R);
         double before = 1, now = u, sum = a[0];
@@ -110,8 +110,8 @@ struct Series {
     }
 };
 
-// A series that converges, at the depth z where few terms serve best. The modes that matter lie near k z = 1: a stiff layer on a soft base
-// bends over lengths far greater than its thickness.
+// Finds a depth z for which the series converges in few terms. The important modes are near k z = 1: a stiff layer on a soft base bends
+// over lengths much larger than its thickness.
 Series expand(const LayeredBody& body) {
     constexpr double tolerance = 2e-11, step = 1.6;
     constexpr int shortest = 48, longest = 3072, tail = 8;
@@ -136,14 +136,14 @@ Series expand(const LayeredBody& body) {
         low = best / step, high = best * step * 1.01;
     }
     throw Error(Failure::bad_input,
-                format("the layers and the body below them differ too much in stiffness or thickness for a series of %d terms", longest));
+                format("the layers and the base differ too much in stiffness or thickness for a series of %d terms", longest));
 }
 
 }  // namespace
 
 double layered_answer(const LayeredBody& body, double k) {
     if (body.count == 0 || k * body.layer[0].thickness > kShallow) return 1;
-    // A half-space answers with -2 (1 - nu), 1 - 2 nu over 2 mu (Johnson 1985, section 2.3); a rigid one with nothing.
+    // Compliances of a half-space: -2 (1 - nu) and 1 - 2 nu over 2 mu (Johnson 1985, section 2.3); 0 if rigid.
     const bool rigid = std::isinf(body.E);
     Compliance c{};
     double mu = shear_modulus(body.E, body.nu);
@@ -154,12 +154,12 @@ double layered_answer(const LayeredBody& body, double k) {
         const double x = k * layer.thickness;
         c = {c.aa * ratio, c.ab * ratio, c.bb * ratio};
         mu = own;
-        if (x > 300) {  // nothing of what lies below is felt
+        if (x > 300) {  // no effect of the material below
             c = {-2 * (1 - layer.nu), 1 - 2 * layer.nu, -2 * (1 - layer.nu)};
             continue;
         }
         const Matrix P = carried_up(layer.nu, x);
-        double up[4][2];  // the state at the top for unit tractions at the bottom
+        double up[4][2];  // state at the top for unit tractions at the bottom
         for (std::size_t i = 0; i < 4; ++i) {
             up[i][0] = P[i][0] * c.aa + P[i][1] * c.ab + P[i][2];
             up[i][1] = P[i][0] * c.ab + P[i][1] * c.bb + P[i][3];
@@ -175,7 +175,7 @@ std::shared_ptr<const SmoothPart> make_layers(const LayeredBody& body, double E_
     require_usable(body);
     const double E_1 = plane_modulus(body.layer[0].E, body.layer[0].nu), near = 1 / (std::numbers::pi * E_1);
     const Series series = expand(body);
-    // T is smooth in k, and SquareTable takes a square: that of sqrt(k). Its first pieces are far narrower than 1/z.
+    // T is smooth in k, so the table uses the square of sqrt(k). Its first pieces are much narrower than 1/z.
     constexpr double pieces = 100;
     const auto answer = std::make_shared<const SquareTable>(
         std::sqrt(1 / (pieces * series.z)), [&](double root) { return layered_answer(body, std::max(root * root, 1e-9 / series.z)) - 1; });

@@ -8,7 +8,7 @@ void PairSums::assign(std::size_t n, const double* x, const double* y) {
     y_.assign(y, y + n);
 }
 
-// From sums of f/d to those of f G.
+// Converts sums of f/d to sums of f G.
 void PairSums::scale_and_add(std::size_t n, const double* x, const double* y, const double* f, double* phi) const {
     const double near = kernel_->near();
     for (std::size_t k = 0; k < n; ++k) phi[k] *= near;
@@ -37,7 +37,7 @@ void PairSums::apply_single(const double* f, double* phi) const {
     if (kernel_->none()) return apply(f, phi);
     const std::size_t n = x_.size();
     static thread_local std::vector<float> force, sum;
-    // Forces are scaled to order one: in single precision they might underflow in the user's units.
+    // Forces are scaled to order one, because they might underflow in single precision in the user's units.
     double largest = 0;
     for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(f[k]));
     const double unit = largest > 0 ? largest : 1.0;

@@ -7,8 +7,8 @@ namespace rsc {
 
 namespace {
 
-// Tiles: a set of columns stays in the first-level cache while the rows pass, and single precision sums stay short enough to keep
-// their digits; they are gathered in double precision.
+// Tile size: a set of columns stays in the first-level cache for all rows, and single-precision partial sums, accumulated in double
+// precision, stay short enough to be accurate.
 constexpr std::size_t kTile = 512;
 
 std::size_t padded(std::size_t n) { return (n + kPairPadding - 1) / kPairPadding * kPairPadding; }
@@ -28,8 +28,7 @@ void enclose(Box& box, std::size_t n, const double* x, const double* y, const ch
     }
 }
 
-// A power of two (exact to multiply by) that brings the extent between 1/2 and 1, where single precision estimates neither
-// overflow nor underflow.
+// Power of two that scales the extent to between 1/2 and 1, where single-precision estimates neither overflow nor underflow.
 double unit_scale(const Box& box) {
     const double extent = box.extent();
     if (!(extent > 0)) return 1;
@@ -37,12 +36,12 @@ double unit_scale(const Box& box) {
     return std::ldexp(1.0, std::clamp(-std::ilogb(extent) - 1, -1022, 1022));
 }
 
-// Units per length of the fixed-point coordinates; the differences fit in 31 bits.
+// Scale of the fixed-point coordinates, whose differences fit in 31 bits.
 double fixed_scale(const Box& box) { return box.extent() > 0 ? std::min(0x1.fffffep30 / box.extent(), 0x1p1000) : 1; }
 
 std::int32_t fixed(double x, double origin, double scale) { return static_cast<std::int32_t>(std::lround((x - origin) * scale)); }
 
-// Copies with pads: the last point again, without force.
+// Copies with padding by the last point without force.
 template <class T, class F>
 void fill(std::vector<T>& to, std::size_t n, F value) {
     to.resize(padded(n));
@@ -57,7 +56,7 @@ double largest(std::size_t n, const T* f) {
     return static_cast<double>(largest);
 }
 
-// Single precision forces are taken relative to the largest, so that no product underflows.
+// Single-precision forces are scaled by the largest, so that no product underflows.
 double force_unit(double largest) {
     return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::clamp(std::ilogb(largest), -1020, 1020)) : 1;
 }
@@ -85,7 +84,7 @@ void symmetric(const PairLoops<Real, Coordinate>& loops, std::size_t n, const Co
     }
 }
 
-// Sources (padded) onto targets, which coordinate(i, x, y) gives.
+// Adds the sums over padded sources to targets, whose coordinates are given by target(i, x, y).
 template <class Real, class Coordinate, class Target>
 void onto(const PairLoops<Real, Coordinate>& loops, std::size_t n_targets, Target target, std::size_t n_sources, const Coordinate* xs,
           const Coordinate* ys, const Real* fs, double* total) {

@@ -1,4 +1,4 @@
-// The pair loops, compiled for each instruction set: pairs_kernel.inl says what they do. Only root_estimate() is written by hand.
+// Compiles the pair loops of pairs_kernel.inl for each instruction set. Only root_estimate() uses intrinsics.
 #include "contact/interaction/pairs_kernel.hpp"
 
 #include "rough/dispatch.hpp"
@@ -13,7 +13,7 @@ namespace {
 namespace baseline {
 #define RSC_TARGET
 #if defined(__SSE2__)
-// 12 bits; 0 for points that coincide.
+// Estimate of 1/sqrt(d2) with 12 bits; 0 for coinciding points.
 RSC_TARGET inline __m128 root_estimate(__m128 d2) { return _mm_and_ps(_mm_rsqrt_ps(d2), _mm_cmpgt_ps(d2, _mm_set1_ps(0x1p-120f))); }
 RSC_TARGET inline __m128d root_estimate(__m128d d2) { return _mm_cvtps_pd(root_estimate(_mm_cvtpd_ps(d2))); }
 constexpr const char* name = "sse2";

@@ -10,11 +10,11 @@
 namespace rsc {
 namespace {
 
-constexpr std::size_t kThreads = 400000;  // pixels from which threads pay
+constexpr std::size_t kThreads = 400000;  // number of pixels above which threads are used
 constexpr std::size_t kLine = 64;         // bytes
-constexpr int kColumns = 8;               // transformed together
+constexpr int kColumns = 8;               // columns transformed together
 
-// FFTW's two sets of names.
+// Names of FFTW in single and double precision.
 template <class Real>
 struct Fftw;
 template <>
@@ -55,7 +55,7 @@ struct Fftw<float> {
 template <class Real>
 struct PeriodicPixels<Real>::Plans {
     typename Fftw<Real>::Plan rows_forward, rows_backward, columns_forward, columns_backward;
-    std::vector<Memory> blocks;  // columns at work, one set a thread
+    std::vector<Memory> blocks;  // columns being transformed, one block per thread
 };
 
 template <class Real>
@@ -77,7 +77,8 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy, const
       dy_(dy),
       threads_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) >= kThreads),
       plans_(std::make_unique<Plans>()) {
-    // Whole blocks of columns, and rows an odd number of cache lines apart: columns then do not meet in the same places of a cache.
+    // Rows hold whole blocks of columns and are an odd number of cache lines apart, so that the elements of a column do not share cache
+    // sets.
     constexpr std::size_t line = kLine / sizeof(Real);
     std::size_t lines = (2 * static_cast<std::size_t>((nx / 2 + kColumns) / kColumns * kColumns) + line - 1) / line;
     lines += lines % 2 == 0;
@@ -114,7 +115,7 @@ std::size_t PeriodicPixels<Real>::bytes() const {
     return sizeof(Real) * (stride_ * static_cast<std::size_t>(ny_) + plans_->blocks.size() * 2 * kColumns * static_cast<std::size_t>(ny_));
 }
 
-// Columns of modes, a few at a time: there, times the answer, and back while they are in the cache.
+// Transforms the columns of modes, a few at a time, multiplies them and transforms them back while they are in the cache.
 template <class Real>
 void PeriodicPixels<Real>::columns(Answer answer) {
     const int half = nx_ / 2 + 1, blocks = (half + kColumns - 1) / kColumns;
@@ -162,7 +163,7 @@ void PeriodicPixels<Real>::columns(Answer answer) {
 template <class Real>
 void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
     const int threads = static_cast<int>(plans_->blocks.size());
-    // The padding behind the modes of a row is transformed with them, so it must hold numbers.
+    // The padding after the modes of a row is transformed with them, so it must be initialised.
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
 #pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
     for (int j = 0; j < ny_; ++j) {

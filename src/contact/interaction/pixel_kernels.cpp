@@ -5,7 +5,7 @@
 namespace rsc {
 namespace {
 
-// d^2/ds dt of corner() is 1/sqrt(s^2 + t^2): the integral over the rectangle is the alternating sum over its corners.
+// d^2/ds dt of corner() is 1/sqrt(s^2 + t^2), so that the integral over a rectangle is an alternating sum over its corners.
 double corner(double s, double t) {
     double sum = 0;
     if (t != 0) sum += t * std::asinh(s / std::abs(t));
@@ -21,13 +21,13 @@ double love(double x, double y, double a, double b) {
 
 namespace {
 
-// Eight doubles at any address; the compiler makes of them what the instruction set has.
+// Vector of eight doubles at any address, which the compiler maps to the instruction set.
 using Vector [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
 
 RSC_ALWAYS_INLINE const Vector& vector_at(const double* p) { return *reinterpret_cast<const Vector*>(p); }
 RSC_ALWAYS_INLINE Vector& vector_at(double* p) { return *reinterpret_cast<Vector*>(p); }
 
-// Rows at a time, their sums in registers.
+// Processes `Rows` rows at a time, with their sums in registers.
 template <int Rows>
 RSC_ALWAYS_INLINE void near_rows(const NearTable& t, const double* corner, std::size_t n, const TileSource* sources, double* sums) {
     Vector sum[Rows];
@@ -74,7 +74,7 @@ RSC_ALWAYS_INLINE void all_slices(int rows, int columns, const double* T, const 
     }
 }
 
-// The sum for a pair has the same order for any number of pairs at a time.
+// The order of summation for a pair does not depend on the number of pairs processed together.
 template <int Pairs>
 RSC_ALWAYS_INLINE void translate(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to) {
     std::size_t k = 0;

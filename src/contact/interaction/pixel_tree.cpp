@@ -1,6 +1,6 @@
-// Tiles of 8 pixels along x and about as long along y; boxes of 2 x 2 tiles, of 4 x 4, and so on, only where there are pixels.
-// Tiles that touch act on each other pixel by pixel. Boxes that do not touch, but whose parents do, act through q x q Chebyshev points:
-// pressures to points of a tile, to those of its parents, between boxes, and back down again by the same interpolation.
+// Pixels are grouped in nearly square tiles of 8 columns, and these in boxes of 2 x 2 tiles, 4 x 4 tiles and so on, where there are pixels.
+// Adjacent tiles interact pixel by pixel. Boxes that are not adjacent, but whose parents are, interact through q x q Chebyshev points:
+// pressures are interpolated from pixels to the points of tiles and of their parents, transferred between boxes, and interpolated back.
 
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
@@ -12,11 +12,11 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-constexpr int kOffsets = 49;           // of boxes: -3 ... 3 in both directions
-constexpr std::size_t kThreads = 500;  // boxes from which threads pay
-constexpr std::size_t kChunk = 128;    // boxes that a thread takes at a time
+constexpr int kOffsets = 49;           // offsets between boxes: -3 ... 3 in both directions
+constexpr std::size_t kThreads = 500;  // number of boxes above which threads are used
+constexpr std::size_t kChunk = 128;    // boxes processed by a thread at a time
 
-// Interpolation error of q points (test_pixels.cpp measures it).
+// Interpolation error with q points, measured in test_pixels.cpp.
 double interpolation_error(int q) { return 0.2 * std::pow(6.0, -q); }
 constexpr int kMostPoints = 18;
 int points_for(double error) {
@@ -25,7 +25,7 @@ int points_for(double error) {
     return q;
 }
 
-// Chebyshev points of [-1, 1], and the weights that interpolate from them to t.
+// Chebyshev points of [-1, 1], and the weights for interpolation from them to t.
 double chebyshev_point(int q, int i) { return std::cos(std::numbers::pi * (i + 0.5) / q); }
 void interpolation_weights(int q, double t, double* weight) {
     for (int i = 0; i < q; ++i) {
@@ -40,13 +40,14 @@ struct Box {
     int x, y;
 };
 
-// The boxes of one size.
+// All boxes of one size.
 struct Generation {
-    int x0 = 0, y0 = 0, nx = 0, ny = 0;  // the rectangle of boxes they lie in
-    std::vector<int> index;              // box at each place of it, -1: none
+    int x0 = 0, y0 = 0, nx = 0, ny = 0;  // bounding rectangle in units of boxes
+    std::vector<int> index;              // index of the box at each position of the rectangle, -1: none
     std::vector<Box> boxes;              // row by row
     std::vector<int> parent;             // in the next generation
-    // Boxes that act through their points, for chunks of kChunk boxes by offset: pairs pair_begin[chunk*kOffsets + offset] on.
+    // Pairs of boxes that interact through their points, sorted by chunk of kChunk boxes and by offset; they begin at
+    // pair_begin[chunk*kOffsets + offset].
     std::vector<std::size_t> pair_begin;
     std::vector<int> pair_from, pair_to;
 
@@ -81,7 +82,7 @@ void enclose(Generation& g, const std::vector<Box>& boxes) {
         }
 }
 
-// Pairs of boxes that do not touch and whose parents do (or are the same or have none).
+// Finds the pairs of boxes that are not adjacent but whose parents are (or that have no parents).
 void pair_up(Generation& g, bool last) {
     const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
     std::vector<std::vector<std::array<int, 3>>> found(chunks);
@@ -153,14 +154,14 @@ Layout make_layout(const std::vector<Pixel>& pixels, int rows) {
     return layout;
 }
 
-// The deflection at an offset from a pixel under unit pressure; offsets in units of the pixel's first side.
+// Deflection at an offset from a pixel under unit pressure, with offsets in units of the pixel's first side.
 struct PixelAnswer {
     Substrate substrate;
     double dx, dy;
     double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy) + dx * dy * substrate.bulge(); }
 };
 
-// Tables for interpolation with one number of points, for all layouts.
+// Interpolation tables for one number of points, for all layouts.
 class Interpolation {
 public:
     Interpolation(int q, int rows, const PixelAnswer& answer) : q_(q), rows_(rows), aspect_(answer.dy / answer.dx), answer_(answer) {
@@ -180,7 +181,7 @@ public:
     int points() const { return q_; }
     int padded() const { return padded_; }
 
-    // Pressures on the pixels of a tile to its points: point[j*q + i] = sum rows_of(r, j) columns_of(c, i) value.
+    // Interpolates pressures on the pixels of a tile to its points: point[j*q + i] = sum rows_of(r, j) columns_of(c, i) value.
     void up_from_tile(std::size_t n, const TileSource* sources, double* point) const {
         for (std::size_t k = 0; k < n; ++k) {
             const double* wx = &columns_of_[at(sources[k].column * q_)];
@@ -237,7 +238,7 @@ public:
             }
     }
 
-    // Matrices of a generation by offset of the source box, made when first wanted.
+    // Transfer matrices of a generation by offset of the source box, created on first use.
     const std::vector<std::vector<double>>& matrices(std::size_t generation) {
         while (matrices_.size() <= generation) make_matrices();
         return matrices_[generation];
@@ -252,7 +253,7 @@ private:
         const double half_y = 0.5 * rows_ * aspect_ * std::ldexp(1.0, static_cast<int>(generation));
         matrices_.emplace_back(kOffsets);
         const int n = q_ * q_;
-        // Quadrant of positive offsets; the others are its mirror images: point i of a line is point q-1-i of its mirror.
+        // Computes the quadrant of positive offsets. The others are mirror images: point i of a line corresponds to point q-1-i.
         for (int oy = 0; oy <= 3; ++oy)
             for (int ox = 0; ox <= 3; ++ox) {
                 if (ox <= 1 && oy <= 1) continue;
@@ -288,7 +289,7 @@ private:
     const PixelAnswer& answer_;
     std::vector<double> point_;                 // Chebyshev points
     std::vector<double> columns_of_, rows_of_;  // weights of a tile's columns and rows
-    std::vector<double> child_[2];              // of the points of the lower and the upper half
+    std::vector<double> child_[2];              // weights of the points of the lower and upper half
     std::vector<std::vector<std::vector<double>>> matrices_;
 };
 
@@ -337,7 +338,7 @@ public:
         all.insert(all.end(), where.begin(), where.end());
         values.resize(all.size(), 0.0);
         image.resize(all.size());
-        // A pixel may stand twice, as a source and as a target: pressures are added up in its place.
+        // A pixel may occur twice, as a source and as a target; its pressures are added.
         product(make_layout(all, rows_), inner_, all.size(), values.data(), image.data());
         std::copy(image.begin() + static_cast<std::ptrdiff_t>(sources), image.end(), w);
     }
@@ -352,7 +353,7 @@ public:
     double full_error() const override { return interpolation_error(full_.points()); }
 
 private:
-    // As many rows as make a tile nearly square, a power of two.
+    // Number of rows, a power of two, for which a tile is nearly square.
     static int rows_of(double aspect) { return 1 << std::clamp(static_cast<int>(std::lround(3 - std::log2(aspect))), 0, 6); }
 
     void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w);
@@ -365,7 +366,7 @@ private:
     Interpolation inner_, full_;
     std::vector<Pixel> pixels_;
     Layout layout_;
-    // Of one product: pressures by tile, points of all boxes.
+    // Work space of one product: pressures by tile, points of all boxes.
     std::vector<double> tiles_;
     std::vector<std::size_t> source_begin_;
     std::vector<TileSource> sources_;
@@ -418,7 +419,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     }
     const PixelKernels& kernels = pixel_kernels();
     LoopStop stop;
-    // Threads are started twice a product: between boxes of all sizes, and at last for the tiles.
+    // Threads are started twice per product: for transfers between boxes of all sizes, and for the tiles.
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
         for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);

@@ -66,7 +66,7 @@ private:
     }
 
     bool precise_ = false;
-    bool fresh_ = true;  // the active list belongs to earlier points
+    bool fresh_ = true;  // true until set_active() is called for the current points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
     PairSums sums_;
 };
@@ -92,7 +92,7 @@ void Products::complement(int n) {
     }
 }
 
-// With images there are no sums in single precision, and every pair is a sum itself; a smooth part is looked up in a table.
+// Periodic kernels have no single-precision sums and cost more per pair; a smooth part is evaluated from a table.
 double direct_rate(const Kernel& kernel) {
     if (kernel.lattice()) return 3e7;
     return kernel.smooth() ? 4e8 : 6e9;
@@ -102,7 +102,7 @@ std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> ker
 
 namespace {
 
-// Every product is taken over the whole working set, with zero forces on its passive points.
+// Products over the whole working set, with zero forces at passive points.
 class Mesh final : public Products {
 public:
     Mesh(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error)
@@ -114,7 +114,7 @@ public:
         y_.assign(y, y + n);
         f_.resize(size);
         phi_.resize(size);
-        inner_.reset();  // made when first wanted
+        inner_.reset();  // created on first use
         exact_.reset();
         among_.reset();
         if (direct()) pairs_.assign(size, x, y);
@@ -128,7 +128,7 @@ public:
     void set_precise(bool precise) override { precise_ = precise; }
 
     void inner(const double* f, double* phi) override {
-        constexpr double few = 0.8;  // of the points: a mesh of their own pays
+        constexpr double few = 0.8;  // share of active points below which a separate mesh is faster
         if (!precise_ && static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
             ++count_;
             among().apply(f, phi);
@@ -150,7 +150,7 @@ public:
             xa.push_back(x_[static_cast<std::size_t>(k)]);
             ya.push_back(y_[static_cast<std::size_t>(k)]);
         }
-        constexpr double making = 3;  // and its one product, in products
+        constexpr double making = 3;  // cost of setting up a mesh and of one product, in products
         const double pairs = static_cast<double>(sources) * static_cast<double>(targets);
         if (pairs / direct_rate(*kernel_) < making * MeshPotential::estimated_cost(sources + targets, kElsewhere)) {
             PairSums sums(*kernel_);
@@ -175,10 +175,10 @@ public:
     double full_error() const override { return direct() ? 1e-14 : full_error_; }
 
 private:
-    // Smallest error that the mesh reaches; below it full products are direct sums.
+    // Smallest error of mesh products; for smaller errors full products are direct sums.
     static constexpr double kFinest = 1e-10;
     bool direct() const { return full_error_ < kFinest; }
-    // Of products elsewhere: well within what single precision could do for those who ask.
+    // Error of products at other points.
     static constexpr double kElsewhere = 1e-5;
 
     const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
@@ -198,7 +198,7 @@ private:
             made(exact_, full_error_).apply(f_.data(), phi_.data());
     }
 
-    // The mesh of the active points alone.
+    // Mesh of the active points only.
     const MeshPotential& among() {
         if (!among_ || among_active_ != active_) {
             std::vector<double> xa, ya;
@@ -217,14 +217,14 @@ private:
     std::vector<double> x_, y_, f_, phi_;
     FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;
-    std::vector<int> among_active_;  // those among_ was made of
+    std::vector<int> among_active_;  // active points for which among_ was created
     PairSums pairs_;
 };
 
 }  // namespace
 
 std::unique_ptr<Products> make_mesh_products(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error) {
-    if (kernel->none()) return make_direct_products(std::move(kernel));  // nothing to put on a mesh
+    if (kernel->none()) return make_direct_products(std::move(kernel));  // no interaction, so no mesh
     return std::make_unique<Mesh>(std::move(kernel), full_error, inner_error);
 }
 

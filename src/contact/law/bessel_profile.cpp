@@ -8,16 +8,16 @@ struct Values {
     T radius, load, work;
 };
 
-// The functions of t by their definition.
+// The functions of t by their definitions.
 template <class T>
 Values<T> defined(T t) {
     const T root = std::sqrt(std::abs(t));
     const T half = t > 0 ? std::asin(std::min(root, T(1))) : std::asinh(root);  // |q| a/2
     const T G = root > T(1e-6) ? half / root : 1 + t / 6;
     const T x2 = t > 0 ? 4 * half * half : -4 * half * half;  // q^2 a^2
-    // 3 (sin x - x cos x)/x^3 and 15 (x/2 + x cos(2x)/4 - 3 sin(2x)/8)/x^5, load and work over those of a paraboloid of the same a.
+    // Load 3 (sin x - x cos x)/x^3 and work 15 (x/2 + x cos(2x)/4 - 3 sin(2x)/8)/x^5, relative to a paraboloid of the same a.
     T load = 0, work = 0;
-    if (std::abs(x2) < 1) {                              // the closed forms would cancel; what is left out of the series is below 1e-21
+    if (std::abs(x2) < 1) {                              // series, since the closed forms would cancel; its error is below 1e-21
         T load_term = T(1) / 3, work_term = T(1) / 120;  // 2 (-x2)^(m-1)/(2m+1)!, (-4 x2)^(m-1)/(2m+3)!
         for (int m = 1; m < 14; ++m) {
             load += 3 * m * load_term;
@@ -35,7 +35,7 @@ Values<T> defined(T t) {
     return {G, G3 * load, G3 * G * G * work};
 }
 
-// Even and odd powers apart: half as long a chain of operations that wait for each other.
+// Even and odd powers are summed separately, which halves the dependency chain.
 template <std::size_t N>
 double evaluate(const std::array<double, N>& c, double s) {
     static_assert(N % 2 == 1);
@@ -48,7 +48,7 @@ double evaluate(const std::array<double, N>& c, double s) {
     return even * s2 + c[0] + odd * s;
 }
 
-// Coefficients in powers of s of the polynomial through y at the nodes s, by divided differences.
+// Coefficients (in powers of s) of the interpolating polynomial through y at the nodes s, by divided differences.
 template <std::size_t N>
 std::array<double, N> interpolate(const std::array<long double, N>& s, std::array<long double, N> y) {
     for (std::size_t order = 1; order < N; ++order) {
@@ -68,7 +68,7 @@ std::array<double, N> interpolate(const std::array<long double, N>& s, std::arra
 
 BesselProfile::BesselProfile() {
     std::array<long double, kTerms> s, radius, load, work;
-    for (int k = 0; k < kTerms; ++k) {  // Chebyshev's
+    for (int k = 0; k < kTerms; ++k) {  // Chebyshev nodes
         s[static_cast<std::size_t>(k)] = std::cos(std::numbers::pi_v<long double> * (k + 0.5L) / kTerms);
     }
     for (int cell = 0; cell < kCells; ++cell) {

@@ -5,16 +5,15 @@
 namespace rsc {
 namespace {
 
-// By hand: the functions of the C++ library and of Boost take the modulus k, which for a narrow ellipse is 1 less a number that rounding
-// takes away; these take the complementary one.
+// The C++ library and Boost take the modulus k, which is rounded to 1 for narrow ellipses; these functions take the complementary modulus.
 //
-// Complete elliptic integrals of the modulus k: K, and B = [E - (1 - k^2) K]/k^2, D = (K - E)/k^2, which stay finite and exact at k = 0.
+// Complete elliptic integrals of modulus k: K, and B = [E - (1 - k^2) K]/k^2, D = (K - E)/k^2, which are finite and accurate at k = 0.
 struct Elliptic {
     double K, B, D;
 };
 
-// Of the complementary modulus k' = sqrt(1 - k^2), by the arithmetic-geometric mean (Abramowitz and Stegun 17.6): K = pi/(2 a_n),
-// K - E = K (c_0^2 + 2 c_1^2 + 4 c_2^2 + ...)/2, c_0 = k.
+// By the arithmetic-geometric mean (Abramowitz and Stegun 17.6) from the complementary modulus k' = sqrt(1 - k^2): K = pi/(2 a_n), K - E =
+// K (c_0^2 + 2 c_1^2 + 4 c_2^2 + ...)/2, c_0 = k.
 Elliptic elliptic(double complementary) {
     double a = 1, b = complementary;
     double c = 0.5 * (1 - b), term = 0.25 * (1 - b) / (1 + b), sum = 0.5;  // c_1; 2^(n-1) c_n^2/k^2
@@ -31,7 +30,7 @@ Elliptic elliptic(double complementary) {
     return {K, K - D, D};
 }
 
-// kappa1/kappa2 of the ellipse with e^2 = 1 - (b/a)^2: [(a/b)^2 E - K]/[K - E] = B/((b/a)^2 D).
+// Ratio kappa1/kappa2 for the axis ratio b/a, e^2 = 1 - (b/a)^2: [(a/b)^2 E - K]/[K - E] = B/((b/a)^2 D).
 double curvature_ratio(double axes) {
     const Elliptic e = elliptic(axes);
     return e.B / (axes * axes * e.D);
@@ -43,7 +42,7 @@ EllipseFactors ellipse_factors(double ratio) {
     if (!(ratio >= 1) || !std::isfinite(ratio)) {
         throw Error(Failure::bad_input, "the ratio of the principal curvatures of a summit must be finite and at least 1");
     }
-    // Secant steps on ln ratio against ln axes, nearly a straight line of slope -3/2 (Johnson, eq. 4.28).
+    // Secant method on ln ratio as a function of ln axes, which is nearly a straight line of slope -3/2 (Johnson, eq. 4.28).
     const double wanted = std::log(ratio);
     double x = -2.0 / 3 * wanted, slope = -1.5;
     double miss = std::log(curvature_ratio(std::exp(x))) - wanted;
@@ -59,7 +58,7 @@ EllipseFactors ellipse_factors(double ratio) {
     EllipseFactors f;
     f.axes = std::exp(x);
     const Elliptic e = elliptic(f.axes);
-    // F1 of eq. 4.30 with the powers of e^2 cancelled: {[(a/b)^2 E - K][K - E]} = e^4 B D (a/b)^2.
+    // F1 of eq. 4.30 with the powers of e^2 cancelled, since [(a/b)^2 E - K][K - E] = e^4 B D (a/b)^2.
     f.F1 = std::cbrt(4 / std::numbers::pi) * std::sqrt(f.axes) * std::pow(e.B * e.D / (f.axes * f.axes), 1.0 / 6);
     f.F2 = 2 / std::numbers::pi * std::sqrt(f.axes) * e.K / f.F1;
     return f;

@@ -14,7 +14,7 @@ public:
     Yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness, bool sinks)
         : elastic_(std::move(elastic)), radius_(asperities.radius), hardness_(hardness), sinks_(sinks), place_(asperities.size(), -1) {}
 
-    bool convex() const override { return false; }  // the slope falls where a reloaded asperity yields on
+    bool convex() const override { return false; }  // the slope decreases where a reloaded asperity continues to yield
     bool path_dependent() const override { return true; }
 
     void prepare(std::span<const int> asperities) override {
@@ -38,7 +38,7 @@ public:
     void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
         for (int k = 0; k < n; ++k) {
             const Summit& s = summit(asperity[k]);
-            if (!(u[k] > s.rest)) {  // rest: 0 of one that has never yielded
+            if (!(u[k] > s.rest)) {  // rest is 0 if it has never yielded
                 force[k] = slope[k] = work[k] = 0;
                 continue;
             }
@@ -85,8 +85,8 @@ public:
             return D;
         };
         if (high <= (s.deepest > 0 ? s.deepest : s.yield)) return slope(high);
-        // The elastic branch up to where the area goes on growing, and that growth: it rises with the radius, and the spread's slope
-        // falls or rises all the way.
+        // The largest of the slope at the end of the elastic branch and a bound on the plastic growth, which increases with the radius and
+        // is monotonic in the slope of the spread.
         const Flat &from = s.deepest > 0 ? s.end : s.start, to = flat(asperity, high);
         return std::max(slope(s.deepest > 0 ? s.deepest : s.yield),
                         s.H * growth(s, std::max(from.spread.slope, to.spread.slope), to.radius));
@@ -123,7 +123,7 @@ public:
     }
 
 private:
-    // A summit that is pressed flat: how far, what it has sunk in left out, its area and radius, and the elastic law's spread there.
+    // State of a flattened summit: depth without sinking, area, radius, and the spread of the elastic law there.
     struct Flat {
         double depth = 0, area = 0, radius = 0;
         Spread spread;
@@ -132,14 +132,14 @@ private:
         double H = 0;
         double yield = 0;    // u_c
         Flat start;          // at u_c
-        double work = 0;     // up to there
+        double work = 0;     // up to u_c
         double modulus = 0;  // E'
         double sink = 0;     // 4 H/(pi E'), or 0
-        // History; deepest = 0: has never yielded.
+        // History; deepest = 0: never yielded.
         double deepest = 0;  // u_m
         Flat end;            // at u_m
         double rest = 0;     // u_r
-        double power = 1.5;  // m of the way back
+        double power = 1.5;  // exponent m of unloading
         double lost = 0;     // plastic work
     };
 
@@ -151,18 +151,18 @@ private:
         const double area = s.start.area + 2 * (spread.area - s.start.spread.area);
         return {depth, area, std::sqrt(area / pi), spread};
     }
-    // Beyond u_c. Where summits sink, depth + sink [a(depth) - a(u_c)] = u, the area taken for a straight line from the last guess on.
+    // State beyond u_c. If summits sink, solves depth + sink [a(depth) - a(u_c)] = u, with the area linearised at each iterate.
     Flat flat(int asperity, double u) const {
         const Summit& s = summit(asperity);
         if (s.sink == 0) return flat_at(asperity, u);
         Flat now = u > s.deepest && s.deepest > 0 ? s.end : s.start;
         constexpr int most = 30;
-        constexpr double near = 1e-8;  // its square is below rounding: one more step by slopes alone is exact
+        constexpr double near = 1e-8;  // its square is below rounding, so that one more linear step is exact
         for (int i = 0; i < most; ++i) {
             const double rise = now.spread.slope / pi, b = s.sink * rise, left = u + s.sink * s.start.radius - now.depth;
             const double radius = std::sqrt(b * b + now.radius * now.radius + 2 * rise * left) - b;
             now = flat_at(asperity, u - s.sink * (radius - s.start.radius));
-            const double miss = s.sink * (now.radius - radius);  // of u
+            const double miss = s.sink * (now.radius - radius);  // residual in u
             if (!(std::abs(now.radius - radius) <= near * radius)) continue;
             const double shift = -miss / (1 + s.sink * now.spread.slope / (pi * now.radius));
             now.depth += shift;
@@ -174,17 +174,17 @@ private:
         }
         return now;
     }
-    // dA/du.
+    // Growth dA/du of the area.
     static double growth(const Summit& s, double spread_slope, double radius) {
         return 2 * spread_slope / (1 + s.sink * spread_slope / (pi * radius));
     }
-    // int f du at constant pressure between two penetrations.
+    // Integral of f du at constant pressure between two states.
     static double flow(const Summit& s, const Flat& from, const Flat& to) {
         const double sunk = s.sink * pi / 3 * (to.radius * to.radius * to.radius - from.radius * from.radius * from.radius);
         return s.H * ((s.start.area - 2 * s.start.spread.area) * (to.depth - from.depth) + 2 * (to.spread.integral - from.spread.integral) +
                       sunk);
     }
-    // The way back from u_m, x = u - u_r above where it ends: H A_m (x/x_m)^m.
+    // Unloading force H A_m (x/x_m)^m, where x = u - u_r.
     static double back(const Summit& s, double x) {
         const double share = x / (s.deepest - s.rest);
         return s.H * s.end.area * (s.power == 1.5 ? share * std::sqrt(share) : std::pow(share, s.power));
@@ -195,7 +195,7 @@ private:
     const std::vector<double>& radius_;
     Hardness hardness_;
     bool sinks_;
-    std::vector<int> place_;  // of an asperity in summits_; -1: not prepared
+    std::vector<int> place_;  // index of an asperity in summits_; -1: not prepared
     std::vector<Summit> summits_;
 };
 

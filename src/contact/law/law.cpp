@@ -47,7 +47,7 @@ private:
     std::vector<double> c_;  // (4/3) E* sqrt(r)
 };
 
-// The elliptic law is the fourth-order one with q = 0.
+// Laws 'fourth_order' and 'elliptic'; the latter has q = 0.
 class FourthOrder final : public Law {
 public:
     FourthOrder(const Asperities& asperities, double E_star, bool quartic)
@@ -113,7 +113,7 @@ public:
         return t < 1 && u <= s.last ? 0.5 / (u * profile_.radius(t) * std::sqrt(1 - t)) : 0.0;
     }
 
-    // A(u) = spot r u R(t)^2 with t R(t)^2 = asin^2(sqrt(t)), up to t = kFlattest.
+    // Up to t = kFlattest, A(u) = spot r u R(t)^2 with t R(t)^2 = asin^2(sqrt(t)).
     Spread spread(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         const double end = s.t > 0 ? std::min(u, kFlattest / s.t) : u, t = s.t * end, past = u - end;
@@ -127,14 +127,14 @@ public:
         return result;
     }
 
-    // The mean pressure rises up to t = kFlattest, then falls, and rises on beyond `last`, where the area stays.
+    // The mean pressure increases up to t = kFlattest, then decreases, and increases again beyond `last`, where the area is constant.
     double yield_penetration(int asperity, double pressure) const override {
         const Summit& s = summit(asperity);
         const auto reached = [&](double u) { return force(asperity, u) >= pressure * area(asperity, u); };
         double low = 0, high = s.t > 0 ? kFlattest / s.t : s.r * std::pow(pressure / s.e, 2);
         if (s.t > 0 && !reached(high)) low = high, high = s.last;
         while (!reached(high)) low = high, high *= 2;
-        // Newton's method on logarithms, d ln p/d ln u = u f'/f - u A'/A, between bounds; 1/2 for a paraboloid.
+        // Bracketed Newton's method in logarithms: d ln p/d ln u = u f'/f - u A'/A, which is 1/2 for a paraboloid.
         double u = high;
         for (int i = 0; i < 200; ++i) {
             double f, D, W;
@@ -153,7 +153,7 @@ public:
 private:
     static constexpr double kFlattest = 0.7444;  // sin^2(x/2) where (sin x - x cos x)/x^2, the mean pressure over x = q a, is greatest
 
-    // int_0^t asin^2(sqrt(t')) dt' over t^2.
+    // Integral of asin^2(sqrt(t')) dt' from 0 to t, divided by t^2.
     static double integral_over_t2(double t, double R, double root) {
         if (std::abs(t) > 0.02) return (R * root - 0.5 - 0.5 * R * R * (1 - 2 * t)) / t;
         double sum = 0, power = 1,
@@ -166,13 +166,13 @@ private:
         return sum;
     }
 
-    static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond any contact, and cosh(2 |q| a) does not overflow
+    static constexpr double kDeepest = 100;  // limit of |q| a for q^2 < 0: far beyond any contact, but cosh(2 |q| a) does not overflow
 
-    // In terms of u, with delta = u/F2: a^2 = r u and t of BesselProfile = t u; forces are as with the modulus e.
+    // Coefficients in terms of u = F2 delta: a^2 = r u, argument t u of BesselProfile, modulus e of the forces.
     struct alignas(64) Summit {
         double e = 0, r = 0, t = 0;
-        double last = 0;  // u at which the contact reaches the profile's trough
-        double spot = 0;  // pi F1^2: area over a^2
+        double last = 0;  // u at which the contact reaches the trough of the profile
+        double spot = 0;  // pi F1^2, the ratio of the area to a^2
         double axes = 1;
     };
 
@@ -182,11 +182,11 @@ private:
     double E_star_;
     bool quartic_;
     const BesselProfile& profile_ = BesselProfile::table();
-    std::vector<int> place_;       // of an asperity in summits_; -1: not prepared
-    std::vector<Summit> summits_;  // few of many asperities, next to each other
+    std::vector<int> place_;       // index of an asperity in summits_; -1: not prepared
+    std::vector<Summit> summits_;  // contiguous data of the prepared asperities
 };
 
-// The laws in the order of LawKind.
+// All laws in the order of LawKind.
 struct Row {
     LawTraits traits;
     std::unique_ptr<Law> (*make)(const Asperities& asperities, double E_star);
@@ -211,13 +211,13 @@ std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double
     const LawTraits& law = traits(kind);
     if (law.needs_curvatures && asperities.size() > 0 && asperities.kappa1.size() != asperities.size()) {
         throw Error(Failure::bad_input, std::string("asperities%law = '") + law.name +
-                                            "' needs the principal curvatures of every asperity; these were given without: only 'hertz' is "
+                                            "' needs the principal curvatures of every asperity, which were not given: only 'hertz' is "
                                             "possible");
     }
     if (law.needs_biharmonic && asperities.size() > 0 && asperities.biharmonic.size() != asperities.size()) {
         throw Error(Failure::bad_input,
-                    "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit; these asperities "
-                    "were given without: 'hertz' and 'elliptic' are possible");
+                    "asperities%law = 'fourth_order' needs the biharmonic of the height at every summit, which was "
+                    "not given: 'hertz' and 'elliptic' are possible");
     }
     return kLaws[static_cast<int>(kind)].make(asperities, E_star);
 }

@@ -5,7 +5,7 @@
 namespace rsc {
 namespace {
 
-// The zero between low and high of a function that falls from positive to negative values.
+// Zero between low and high of a decreasing function.
 template <class F>
 double zero_between(double low, double high, F&& falling) {
     for (;;) {
@@ -15,10 +15,10 @@ double zero_between(double low, double high, F&& falling) {
     }
 }
 
-// (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2, the means over a step of exp(-t/tau) and of what a linear change leaves, x = dt/tau.
+// (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2: means over a step of exp(-t/tau) and of the response to a linear change, x = dt/tau.
 double decayed(double x) { return x > 0 ? -std::expm1(-x) / x : 1.0; }
 double lagged(double x) {
-    constexpr double small = 1e-2;  // below, the fraction loses digits and five terms of the series have all of them
+    constexpr double small = 1e-2;  // below, the fraction suffers from cancellation and five terms of the series are exact
     if (x < small) return 0.5 - x * (1 / 6.0 - x * (1 / 24.0 - x * (1 / 120.0 - x / 720.0)));
     return (1 - decayed(x)) / x;
 }
@@ -27,18 +27,19 @@ double lagged(double x) {
 
 Creep::Creep(const Relaxation& body) {
     if (body.share.size() != body.time.size() || body.share.size() > static_cast<std::size_t>(kMostRelaxations))
-        throw Error(Failure::bad_input, "solids%relaxation_share and relaxation_time: one share for each time, at most 16");
+        throw Error(Failure::bad_input, "solids%relaxation_share and relaxation_time must have the same number of values, at most 16");
     double total = 0;
-    std::vector<Branch> own;  // of the body alone, slowest first; equal times are one
+    std::vector<Branch> own;  // branches of the body itself, slowest first; equal times are merged
     for (std::size_t k = 0; k < body.share.size(); ++k) {
         if (!(body.share[k] >= 0) || !(body.time[k] > 0) || std::isinf(body.time[k]))
-            throw Error(Failure::bad_input, "solids%relaxation_share must not be negative, and relaxation_time be positive and finite");
+            throw Error(Failure::bad_input,
+                        "solids%relaxation_share must not be negative, and relaxation_time must be positive and finite");
         total += body.share[k];
         if (body.share[k] > 0) own.push_back({body.share[k], 1 / body.time[k]});
     }
     constexpr double rounding = 1e-12;
-    if (total > 1 + rounding) throw Error(Failure::bad_input, "solids%relaxation_share: the shares add up to more than 1");
-    if (!(body.soft > 0 && body.soft <= 1)) throw Error(Failure::bad_input, "solids%relaxation_share: body 1 is rigid, nothing relaxes");
+    if (total > 1 + rounding) throw Error(Failure::bad_input, "solids%relaxation_share: the sum of the shares exceeds 1");
+    if (!(body.soft > 0 && body.soft <= 1)) throw Error(Failure::bad_input, "solids%relaxation_share: body 1 is rigid and cannot relax");
     std::sort(own.begin(), own.end(), [](const Branch& a, const Branch& b) { return a.rate < b.rate; });
     for (std::size_t k = own.size(); k-- > 1;) {
         if (own[k].rate > own[k - 1].rate) continue;
@@ -47,7 +48,7 @@ Creep::Creep(const Relaxation& body) {
     }
     const double g = 1 - total > rounding ? 1 - total : 0;
 
-    // The transform at -lambda falls between its poles 1/tau_k: g - sum g_k lambda/(1/tau_k - lambda).
+    // The transform at -lambda, g - sum g_k lambda/(1/tau_k - lambda), decreases between its poles 1/tau_k.
     for (std::size_t k = 0; k < own.size(); ++k) {
         double lambda = 0;
         if (k > 0 || g > 0)
@@ -65,7 +66,8 @@ Creep::Creep(const Relaxation& body) {
         last_ = g;
         return;
     }
-    // Beside an elastic body the pair relaxes by the zeros of its creep function's transform, 1 - sum v_k/(rate - lambda_k).
+    // For a pair with an elastic body, the relaxation rates are the zeros of the transform of the creep function, 1 - sum v_k/(rate -
+    // lambda_k).
     last_ = retardations_.empty() || retardations_.front().rate > 0 ? 1 / compliance(HUGE_VAL) : 0;
     double flow = 0;
     for (const Retardation& r : retardations_) flow += r.flow;
@@ -105,7 +107,7 @@ Passage::Passage(const Creep& creep, double step) : dt(step), modulus(creep.last
         decays.push_back({std::exp(-x), decayed(x), lagged(x)});
         modulus += share * decayed(x);
     }
-    if (dt == 0) modulus = 1;  // not to rounding only
+    if (dt == 0) modulus = 1;  // exactly
 }
 
 }  // namespace rsc

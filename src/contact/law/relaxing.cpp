@@ -35,8 +35,8 @@ public:
                 s, [&](std::size_t j) { return held_by(s.nodes[j]); }, [](std::size_t) { return 1.0; });
         });
     }
-    // Where the transform of the relaxation function is e(s), y = v e(s)/(s + lambda) w; e has a zero at -lambda and the poles 1/tau_l:
-    // y = v sum_l g_l (w - d_l)/(1/tau_l - lambda).
+    // With the transform e(s) of the relaxation function, y = v e(s)/(s + lambda) w. e has a zero at -lambda and the poles -1/tau_l, so
+    // that y = v sum_l g_l (w - d_l)/(1/tau_l - lambda).
     std::vector<std::vector<double>> retarded() const override {
         std::vector<std::vector<double>> all;
         for (const auto& [lambda, flow] : creep_.retardations())
@@ -113,7 +113,7 @@ public:
         std::fill(place_.begin(), place_.end(), -1);
     }
 
-    // For each summit: asperity, number of nodes, lost, and of each node s, w and d.
+    // For each summit: asperity, number of nodes, dissipated work, and for each node s, w and d.
     void write(std::vector<double>& numbers) const override {
         for (const Summit& s : summits_) {
             numbers.insert(numbers.end(), {static_cast<double>(s.asperity), static_cast<double>(s.nodes.size()), s.lost});
@@ -126,7 +126,7 @@ public:
     void read(std::span<const double> numbers) override {
         forget();
         const std::size_t terms = creep_.branches().size();
-        const auto wrong = [] { throw Error(Failure::bad_input, "this is no memory of these asperities"); };
+        const auto wrong = [] { throw Error(Failure::bad_input, "the state does not belong to these asperities"); };
         for (std::size_t next = 0; next < numbers.size();) {
             if (numbers.size() - next < 3) wrong();
             const double index = numbers[next], count = numbers[next + 1];
@@ -155,16 +155,16 @@ public:
     }
 
 private:
-    // An edge the contact once had: the spring s, its state, and the elastic law's force and work there.
+    // A former edge of the contact: the spring s, its state, and force and work of the elastic law at s.
     struct Node {
         double s = 0, w = 0;
         std::vector<double> d;
         double F = 0, W = 0;
-        // Of the step: where it lets go; its distance to that of the next over the distance of the springs (1 behind the last); force and
-        // work of what lies below, when the edge is here,.
+        // For the current step: penetration at which it is released; difference to that of the next node over the difference in s (1 after
+        // the last); force and work of the springs below when the edge is here.
         double release = 0, spacing = 1, force_below = 0, work_below = 0;
     };
-    // The last node has w = d = 0: what lies beyond was never touched.
+    // The last node has w = d = 0, because springs beyond it were never touched.
     struct Summit {
         int asperity = 0;
         std::vector<Node> nodes;
@@ -195,14 +195,15 @@ private:
         return below.s + (u - below.release) / below.spacing;
     }
 
-    // The force of a spring over its stiffness.
+    // Force of a spring divided by its stiffness.
     double held_by(const Node& node) const {
         double q = creep_.last() * node.w;
         for (std::size_t k = 0; k < node.d.size(); ++k) q += creep_.branches()[k].share * node.d[k];
         return q;
     }
 
-    // What the step alone leaves of the force of a spring that is held, over the modulus of a further one, is how far it may be let back.
+    // Computes the penetrations at which the nodes are released at the end of the step: the remaining force of a spring held at w, divided
+    // by the modulus of the step, is the distance by which it can retreat.
     void let_go(Summit& s) const {
         double highest = 0;
         for (Node& node : s.nodes) {
@@ -219,18 +220,18 @@ private:
         }
     }
 
-    // The springs through the step to its end at the penetration u.
+    // Advances the springs to the end of the step at the penetration u.
     void advance(Summit& s, double u) const {
         if (u > s.nodes[0].release) add_edge(s, u);
         const std::size_t n = s.nodes.size(), terms = creep_.branches().size();
-        std::vector<double> change(n), mean(n, 0.0);  // of w; of the force over the step
+        std::vector<double> change(n), mean(n, 0.0);  // change of w; mean force over the step
         for (std::size_t j = 0; j < n; ++j) {
             Node& node = s.nodes[j];
             const double w = j + 1 < n ? std::max(u, node.release) - node.s : 0.0;
             change[j] = w - node.w;
             mean[j] = 0.5 * creep_.last() * (w + node.w);
             constexpr double rounding = 1e-9;
-            const bool free = !(u > node.release) && held_by(node) <= rounding * std::abs(node.w);  // it creeps back without taking work
+            const bool free = !(u > node.release) && held_by(node) <= rounding * std::abs(node.w);  // it creeps back freely without work
             for (std::size_t k = 0; k < terms; ++k) {
                 const Passage::Decay& decay = passage_.decays[k];
                 mean[j] += creep_.branches()[k].share * (decay.change * node.d[k] + decay.mean * change[j]);
@@ -246,11 +247,11 @@ private:
                   (s.stored - before);
     }
 
-    // A node at the edge of the contact at u.
+    // Adds a node at the edge of the contact at u.
     void add_edge(Summit& s, double u) const {
         const std::size_t j = node_below(s, u);
         const double place = edge(s, u);
-        constexpr double same = 1e-9;  // of the distance between two nodes
+        constexpr double same = 1e-9;  // relative to the distance between two nodes
         const double from = s.nodes[j].s;
         if (j + 1 == s.nodes.size()) {
             if (!(place > from * (1 + same))) return;
@@ -269,7 +270,7 @@ private:
         s.nodes.insert(s.nodes.begin() + static_cast<std::ptrdiff_t>(j) + 1, std::move(added));
     }
 
-    // int S'(s) a b ds of two functions given at the nodes, by parts: S(0) = 0, and behind the last node a b = 0.
+    // Integral of S'(s) a b ds for two functions given at the nodes, by parts, since S(0) = 0 and a b = 0 at the last node.
     template <class A, class B>
     static double over_springs(const Summit& s, A&& a, B&& b) {
         double sum = 0;
@@ -304,7 +305,7 @@ private:
     std::unique_ptr<Law> elastic_;
     Creep creep_;
     Passage passage_;
-    std::vector<int> place_;  // of an asperity in summits_ and touched_; -1: never touched
+    std::vector<int> place_;  // index of an asperity in summits_ and touched_; -1: never touched
     std::vector<int> touched_;
     std::vector<Summit> summits_;
 };

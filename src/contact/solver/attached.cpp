@@ -8,11 +8,11 @@ namespace {
 using Vector = std::vector<double>;
 
 constexpr int kMostSteps = 30, kMostProducts = 400;
-constexpr double kFarthest = 0.5;  // a step changes no s by more than this share
+constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
 double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
-// Symmetric systems that need not be definite (Paige and Saunders, SIAM J. Numer. Anal. 12, 1975): |b - M x| <= accuracy |b|.
+// MINRES for symmetric indefinite systems (Paige and Saunders, SIAM J. Numer. Anal. 12, 1975): |b - M x| <= accuracy |b|.
 template <class Multiply>
 void minres(Multiply&& multiply, const Vector& b, double accuracy, Vector& x) {
     const std::size_t n = b.size();
@@ -70,7 +70,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s) {
         size2 += std::pow(now.stiffness * law_.lets_go(set.asperity[i]), 2) + now.f * now.f;
     }
     residual_ = n > 0 ? std::sqrt(error2 / size2) : 0.0;
-    // The symmetric systems.
+    // Coefficients of the symmetric systems.
     diagonal_.resize(n), p_.resize(n), to_s_.resize(n), in_.resize(n), out_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Sticking::State& now = state_[k];

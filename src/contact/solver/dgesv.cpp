@@ -102,7 +102,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
         }
         delta = std::max(delta / method.cut, 1e-12 * method.delta0);
     }
-    // The forces that the regularisation leaves on asperities out of contact are no contact forces.
+    // Forces on asperities out of contact are an artefact of the regularisation.
     for (std::size_t i = 0; i < size; ++i) {
         if (v[i] <= 0) force[i] = 0;
     }

@@ -15,7 +15,7 @@ double lanczos_lowest(std::size_t n, const std::function<void(const std::vector<
     std::vector<std::vector<double>> basis;
     std::vector<double> alpha, beta, image(n), ritz;
     std::vector<double> q(n);
-    // Any start that no eigenvector is orthogonal to by symmetry; the same at every call.
+    // A fixed start vector that is not orthogonal to any eigenvector by symmetry.
     for (std::size_t k = 0; k < n; ++k) q[k] = std::sin(12.9898 * static_cast<double>(k + 1)) + 0.1;
     double length = std::sqrt(dot(q, q)), lowest = 1;
     while (basis.size() < most) {
@@ -23,7 +23,7 @@ double lanczos_lowest(std::size_t n, const std::function<void(const std::vector<
         basis.push_back(q);
         multiply(q, image);
         alpha.push_back(dot(q, image));
-        // The recurrence of three terms, which leaves little more than rounding errors for the rest.
+        // Three-term recurrence, after which reorthogonalisation only removes rounding errors.
         for (std::size_t k = 0; k < n; ++k) image[k] -= alpha.back() * q[k];
         if (basis.size() > 1) {
             const auto& before = basis[basis.size() - 2];

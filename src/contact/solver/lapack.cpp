@@ -26,8 +26,8 @@ bool memory_is_limited() {
     return overcommit == 2;
 }
 
-// OpenBLAS works in a buffer of 128 MiB, kept for later, one for each of the calls that run at the same time; refused it, it asks again
-// without end (0.3.21). Where that can happen, calls come one at a time, and the first only if there is room.
+// OpenBLAS keeps a buffer of 128 MiB for each concurrent call, and retries forever if the allocation fails (version 0.3.21). If memory is
+// limited, calls are therefore made one at a time, and the first only if there is enough memory.
 class Turn {
 public:
     Turn() {
@@ -37,7 +37,7 @@ public:
         turn_ = std::unique_lock(mutex);
         static bool taken = false;
         if (taken) return;
-        constexpr std::size_t room = std::size_t{160} << 20;  // what the other threads take meanwhile included
+        constexpr std::size_t room = std::size_t{160} << 20;  // includes a margin for other threads
         void* const there = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (there == MAP_FAILED) throw std::bad_alloc();
         munmap(there, room);
@@ -56,7 +56,7 @@ bool solve(int n, double* A, double* b, std::vector<int>& pivots) {
     int info = 0;
     const Turn turn;
     dgesv_(&n, &one, A, &n, pivots.data(), b, &n, &info);
-    if (info < 0) throw Error(Failure::internal, "dgesv refused argument " + std::to_string(-info));
+    if (info < 0) throw Error(Failure::internal, "dgesv rejected argument " + std::to_string(-info));
     return info == 0;
 }
 

@@ -17,29 +17,29 @@ double dot(const Vector& a, const Vector& b) {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Inner products may judge a residual that is so many times their error; products less accurate than kRoughest (mesh designs for starts)
-// never do.
+// Inner products are accurate enough for a residual kAboveError times their error; products less accurate than kRoughest never are.
 constexpr double kAboveError = 100, kRoughest = 1e-5;
 
-// Conjugate gradients: steps at most, and the relative curvature below which a direction counts as one of no or negative curvature:
-// above the rounding of a product in single precision, below any eigenvalue that matters (those of spots that do not overlap are near 1).
+// Conjugate gradients: largest number of steps, and the relative curvature below which the curvature of a direction is regarded as not
+// positive. It is above the rounding of single-precision products and below relevant eigenvalues (near 1 for spots that do not overlap).
 constexpr std::size_t kMostGradients = 500;
 constexpr double kFlat = 1e-9;
 
-// Relative accuracy of a Newton step (Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996): the root of the residual, which keeps
-// the order 3/2, at most kLoosest; not finer than this share of what the last step needs, nor than single precision can tell.
+// Relative accuracy of a Newton step (Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996): the square root of the residual, which
+// preserves the order 3/2, at most kLoosest; not smaller than kLastShare of the accuracy required in the last step, nor than
+// kFinestForcing.
 constexpr double kLoosest = 0.1, kLastShare = 0.2, kFinestForcing = 1e-5, kMostForcing = 0.3;
 
-// Trust region, with the usual values (Nocedal and Wright, Numerical Optimization, chapter 4): a step is accepted that brings kSufficient
-// of the decrease predicted; one that brings less than kPoor shrinks the radius to kShrink of the step, one that is stopped by the border
-// and brings more than kGood lets it grow. No step is longer than kLongest times |S v|, the natural size of the unknowns.
+// Trust region with the usual parameters (Nocedal and Wright, Numerical Optimization, chapter 4). A step is accepted if the energy
+// decreases by at least kSufficient of the predicted decrease. Below kPoor the radius shrinks to kShrink of the step; above kGood it grows
+// if the step reached the border. Steps are at most kLongest |S v|, the natural scale of the unknowns.
 constexpr double kSufficient = 1e-4, kPoor = 0.1, kGood = 0.5, kShrink = 0.25, kGrow = 3, kLongest = 2;
 constexpr int kMostAttempts = 40;  // steps shorter than 4^-40 of the first have no effect
 
-// Rounding of the energy, relative to the sum of its terms' magnitudes: some 1e5 units of the last place for as many terms.
+// Rounding error of the energy relative to the sum of the magnitudes of its terms, for some 1e5 terms.
 constexpr double kEnergyRounding = 1e-11;
 
-// Leaving a saddle: by half of the penetrations first, then by half of that, and so on.
+// Leaving a saddle: the first step is half of the penetrations and is then halved repeatedly.
 constexpr double kFirstLeap = 0.5, kLastLeap = 1e-6;
 
 }  // namespace
@@ -48,7 +48,7 @@ double relative_residual(const Vector& error, const Vector& force) {
     const double error2 = dot(error, error), force2 = dot(force, force);
     constexpr double smallest = 1e-290, largest = 1e290;
     if (force2 > smallest && force2 < largest && error2 < largest) return std::sqrt(error2 / force2);
-    double most = 0, e2 = 0, f2 = 0;  // scaled by the largest
+    double most = 0, e2 = 0, f2 = 0;  // scaled by the largest value
     for (std::size_t k = 0; k < force.size(); ++k) most = std::max({most, std::abs(force[k]), std::abs(error[k])});
     if (!(most > 0)) return 0;
     for (std::size_t k = 0; k < force.size(); ++k) {
@@ -63,7 +63,7 @@ bool Newton::rough_will_do(double residual) const {
     return products_->inner_error() < kRoughest && residual > kAboveError * products_->inner_error();
 }
 
-// Fills everything of the state from its v; in full accuracy if asked, or if the residual turns out too small for less.
+// Computes the state from its v; in full accuracy if requested, or if the residual is too small for inner products.
 void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
     stopping_point();
     const int n = set.size();
@@ -158,7 +158,7 @@ void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w,
     out.norm = std::sqrt(dot(w, w));
 }
 
-// `entering` scales what asperities without force may gain, as the radius bounds what those with force may change.
+// `entering` limits the penetration that asperities without force may gain, as the radius limits the changes of those with force.
 void Newton::step(const WorkingSet& set, const State& state, double forcing, double radius, double entering, Step& out) {
     scale_active(state);
     const std::size_t n = root_.size();
@@ -178,7 +178,7 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
         const std::size_t i = at(passive[k]);
         const double change = -state.res[i] - passive_[k];
         const double reached = state.v[i] + change;
-        const double begin = law_.residual_depth(set.asperity[i]);  // of the force
+        const double begin = law_.residual_depth(set.asperity[i]);  // penetration at which the force begins
         out.dv[i] = reached > begin ? begin + entering * (reached - begin) - state.v[i] : change;
     }
 }
@@ -210,7 +210,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
         }
         const double forcing = std::clamp(std::max(std::min(kLoosest, std::sqrt(now_.residual)), kLastShare * tolerance / now_.residual),
                                           kFinestForcing, kMostForcing);
-        double size2 = 0;  // |S v|^2, v from where the force begins
+        double size2 = 0;  // |S v|^2, with v measured from where the force begins
         for (int k : now_.active) {
             const double v = now_.v[at(k)] - law_.residual_depth(set.asperity[at(k)]);
             size2 += now_.slope[at(k)] * v * v;
@@ -222,7 +222,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             step(set, now_, forcing, radius, entering, step_now);
             trial_.v.resize(now_.v.size());
             for (std::size_t k = 0; k < now_.v.size(); ++k) trial_.v[k] = now_.v[k] + step_now.dv[k];
-            // Newton's order is 3/2 at least: that much of the residual is expected to be left.
+            // Expected residual after the step, since Newton's method has an order of at least 3/2.
             const double expected = std::max(forcing * now_.residual, std::pow(now_.residual, 1.5));
             evaluate(set, trial_, !rough_will_do(expected));
             const double decrease = now_.energy - trial_.energy;
@@ -277,7 +277,7 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
     return lowest > 0;
 }
 
-// From a saddle along the direction of negative curvature, to both sides until the energy is lower.
+// Moves from a saddle along the direction of negative curvature, to both sides, until the energy is lower.
 void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
     double largest = 0;
     for (std::size_t k = 0; k < w.size(); ++k) {
@@ -310,7 +310,7 @@ void Newton::potential_at(std::size_t n, const double* x, const double* y, doubl
 }
 
 double Newton::rough_stiffness() {
-    constexpr double enough = 1e-2;  // of the residual; the error is of its square
+    constexpr double enough = 1e-2;  // relative residual; the error is of second order
     products_->set_active(now_.active);
     scale_active(now_);
     Vector b(root_.size()), w;
@@ -320,7 +320,8 @@ double Newton::rough_stiffness() {
     return -dot(b, w);
 }
 
-// Inner products solve, accurate ones judge: with r = b - A w, b'A^-1 b = b'w + w'r + r'A^-1 r, the last of which is left out.
+// Solves with inner products and corrects with accurate ones: with r = b - A w, b'A^-1 b = b'w + w'r + r'A^-1 r, where the last term is
+// neglected.
 double Newton::stiffness(double tolerance) {
     products_->set_active(now_.active);
     scale_active(now_);

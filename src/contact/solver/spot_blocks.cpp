@@ -8,8 +8,8 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Lower triangle of the Cholesky factor L of A (n x n by rows), then A^-1 = L^-T L^-1 by columns of the identity. In place; the sums
-// run along rows, so that they become vectors.
+// Inverts A (n x n, by rows) in place: lower triangle of the Cholesky factor L, then A^-1 = L^-T L^-1. Sums run along rows, so that they
+// vectorise.
 RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A, double* inverse) {
     for (std::size_t i = 0; i < n; ++i) {
         double* row = A + i * n;
@@ -25,7 +25,7 @@ RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A, double* inverse) {
         for (std::size_t k = 0; k < i; ++k) sum += row[k] * row[k];
         row[i] = 1 / __builtin_sqrt(row[i] - sum);
     }
-    // L^-1 by rows into `inverse` (lower triangle).
+    // L^-1 by rows in `inverse` (lower triangle).
     for (std::size_t i = 0; i < n; ++i) {
         double* to = inverse + i * n;
         for (std::size_t j = 0; j < i; ++j) to[j] = 0;
@@ -86,7 +86,7 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
     Sets sets;
     sets.parent.resize(pixels.size());
     std::iota(sets.parent.begin(), sets.parent.end(), 0);
-    int above = 0;  // runs along the row above
+    int above = 0;  // index that advances along the row above
     for (int k = 0; k < n; ++k) {
         const Pixel p = pixels[at(k)];
         if (k > 0 && pixels[at(k - 1)] == Pixel{p.x - 1, p.y}) sets.join(k - 1, k);
@@ -118,7 +118,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
     const int spots = connected_sets(pixels, label);
     std::vector<int> size(at(spots), 0);
     for (int l : label) ++size[at(l)];
-    // A block: a spot, or the part of a large one in a square of the lattice.
+    // A block is a spot, or the part of a large spot in one square of the lattice.
     std::vector<std::tuple<int, int, int, int>> key(pixels.size());  // spot, square, position
     for (std::size_t k = 0; k < pixels.size(); ++k) {
         const bool cut = size[at(label[k])] > kMostPixels;
@@ -163,7 +163,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
 }
 
 void SpotBlocks::apply(const double* r, double* z) const {
-    double unit = 0;  // single precision takes any unit
+    double unit = 0;  // scales the values for single precision
     for (std::size_t k = 0; k < members_.size(); ++k) unit = std::max(unit, std::abs(r[k]));
     if (!(unit > 0)) unit = 1;
 #pragma omp parallel for schedule(static) num_threads(omp_team(members_.size() > 30000 ? kEveryThread : 1))

@@ -22,14 +22,14 @@ struct Coupling {
     double value;
 };
 
-// Energy of two unit shells of radii p and q at distance d < p + q: 1/max(r, p) averaged over the shell q.
+// Interaction energy of two unit shells of radii p and q at a distance d < p + q: the mean of 1/max(r, p) over the shell q.
 double shell_energy(double p, double q, double d) {
     if (d <= std::abs(p - q)) return 1 / std::max(p, q);
     const double near = d - q;
     return ((p * p - near * near) / (2 * p) + d + q - p) / (2 * d * q);
 }
 
-// Share of the diagonal taken by the shells of contact radii a and b at distance d.
+// Element (2/pi) sqrt(a b) (1/d - U) of the overlap matrix for contact radii a and b at a distance d.
 double shell_overlap(double a, double b, double d) {
     constexpr double scale = kWidening * 2 / std::numbers::pi;
     if (!(d < scale * (a + b)) || !(a > 0) || !(b > 0)) return 0;
@@ -45,18 +45,18 @@ std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a,
     return pairs;
 }
 
-// True if shells are narrow enough, compared with the period, for the argument to hold.
+// True if shells are so small compared with the period that the argument holds.
 bool shells_fit(const Vector& a, const Period& period) {
     return a.empty() || *std::max_element(a.begin(), a.end()) < std::min(period.x, period.y) / 10;
 }
 
-// Points connected by overlaps of their shells, one of which at least has a row sum that does not settle it.
+// Points connected by overlapping shells, with at least one row sum that does not prove definiteness.
 struct Cluster {
     std::vector<std::size_t> points;
-    std::vector<Pair> pairs;  // i and j are places in `points`
+    std::vector<Pair> pairs;  // i and j are positions in `points`
 };
 
-// `pairs` holds all pairs of overlapping shells at least.
+// `pairs` must contain at least all pairs of overlapping shells.
 std::vector<Cluster> doubtful_clusters(const std::vector<Pair>& pairs, const Vector& a) {
     const std::size_t n = a.size();
     Vector row(n, 0.0);
@@ -79,7 +79,7 @@ std::vector<Cluster> doubtful_clusters(const std::vector<Pair>& pairs, const Vec
         if (overlap[k] > 0) parent[root(pairs[k].i)] = root(pairs[k].j);
     }
     constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> cluster_of(n, none), place(n);  // of a root; of a point in its cluster
+    std::vector<std::size_t> cluster_of(n, none), place(n);  // by root; position of a point in its cluster
     std::vector<Cluster> clusters;
     for (std::size_t i = 0; i < n; ++i) {
         if (row[i] < kDiagonal || cluster_of[root(i)] != none) continue;
@@ -99,7 +99,7 @@ std::vector<Cluster> doubtful_clusters(const std::vector<Pair>& pairs, const Vec
     return clusters;
 }
 
-// By factorisation; `a` of the cluster's points.
+// Tests a cluster by factorisation; `a` are the contact radii of its points.
 bool positive_definite(const Cluster& cluster, const Vector& a) {
     constexpr std::size_t largest = 400;
     const std::size_t m = cluster.points.size();
@@ -127,8 +127,8 @@ void couple(const std::vector<Coupling>& C, const Vector& x, Vector& out) {
     }
 }
 
-// Largest secant of the law, over 2 E*, between the solution v, its force and slope, and anything up to high: that of high itself where
-// forces are convex.
+// Largest secant slope of the law, divided by 2 E*, between the solution v and any penetration up to `high`; for convex laws it is that of
+// `high`.
 double secant(const Law& law, double E_star, int asperity, double v, double force, double slope, double high) {
     if (v <= 0 && high <= 0) return 0;
     if (!law.convex()) return law.steepest(asperity, std::max(v, high)) / (2 * E_star);
@@ -137,8 +137,8 @@ double secant(const Law& law, double E_star, int asperity, double v, double forc
     return (law.force(asperity, high) - force) / rise / (2 * E_star);
 }
 
-// True if a cluster, in the field of all others, has the given solution only: the box of its possible penetrations is cut into
-// parts, until each is seen either to hold no solution or to be too small for two.
+// Tests whether a cluster, in the field of all others, has only the given solution: the box of its possible penetrations is divided until
+// each part is proved to contain no solution or to be too small for two.
 class Search {
 public:
     Search(const Law& law, double E_star, const Cluster& cluster, const std::vector<Coupling>& close, const std::vector<int>& asperity,
@@ -165,9 +165,9 @@ private:
         return f;
     }
 
-    // Narrows the bounds by the equation v = v0 - B (F - F0); false: there is no solution between them.
+    // Narrows the bounds by the equation v = v0 - B (F - F0). Returns false if there is no solution between them.
     bool narrow(Vector& low, Vector& high) {
-        // Possible change of the field of contacts further away, as a share of the possible change by the cluster itself.
+        // Possible change of the field of more distant contacts, relative to the possible change by the cluster itself.
         constexpr double give = 0.1;
         f_low_ = forces(low);
         f_high_ = forces(high);
@@ -210,7 +210,7 @@ private:
         const double middle = 0.5 * (std::max(low[widest], 0.0) + high[widest]);
         Vector below(high), above(low);
         below[widest] = above[widest] = middle;
-        // A second solution, if there is one, shows sooner where the first is not.
+        // A second solution, if any, is found faster in the half without the first.
         if (v_[widest] > middle) return within(low, below, deepest - 1) && within(above, high, deepest - 1);
         return within(above, high, deepest - 1) && within(low, below, deepest - 1);
     }
@@ -241,12 +241,12 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     if (kernel.none() || v.empty()) return true;
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
-    // Partners beyond `near` contact radii cannot be the other half of a second solution with the radii they have: there S B S < 0.16.
-    // But a flat asperity, of radius r_j >> r_i, may grow a large spot where the spot of i lets it: of radius
-    // A_j = sqrt(r_j f_i G), so that (2/pi) sqrt(a_i A_j)/d > `far` up to d = `farthest` a_i (r_j/r_i)^(1/5).
+    // Partners beyond `near` contact radii cannot cause a second solution with their present radii, since S B S < 0.16. But a flat asperity
+    // of radius r_j >> r_i may form a large spot of radius A_j = sqrt(r_j f_i G) if the force of i vanishes, so that (2/pi) sqrt(a_i A_j)/d
+    // > `far` up to d = `farthest` a_i (r_j/r_i)^(1/5).
     constexpr double near = 2.0, far = 0.25;
     const double farthest = std::pow(std::pow(2 / (std::numbers::pi * far), 2) * std::sqrt(4 / (3 * std::numbers::pi)), 0.4);
-    constexpr double touch = 1e-300;  // passive points have no radius of their own but are found by the others' reach
+    constexpr double touch = 1e-300;  // radius of passive points, which are found by the reach of others
     const double deepest = *std::max_element(v.begin(), v.end());
     Vector radius(n), flatness(n), reach(n);  // a_i; r_i^(1/5)
     double sharpest = 0;
@@ -256,14 +256,14 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
         if (radius[i] > 0) sharpest = std::max(sharpest, radius[i] / flatness[i]);
     }
     for (std::size_t i = 0; i < n; ++i) reach[i] = std::max({near * radius[i], farthest * sharpest * flatness[i], touch});
-    // Penetrations of candidates far from touching come from single precision, which cannot resolve partners that nearly coincide.
+    // Penetrations of candidates far from contact are computed in single precision, which cannot resolve nearly coinciding partners.
     constexpr double resolved = 1e-6, precision = 1e-4;
     const double nearest = resolved * std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
                                                *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
     const double noise = precision * deepest;
     bool told_apart = true;
     std::vector<Coupling> close;
-    std::vector<Pair> distant;  // by their radii; but a flat one might grow a large spot
+    std::vector<Pair> distant;  // not close by their radii, but one may be flat and form a large spot
     for_close_pairs(x, y, reach, kernel.period(), [&](std::size_t i, std::size_t j, double d) {
         if (d < std::max(near * (radius[i] + radius[j]), 2 * touch)) {
             told_apart = told_apart && d > nearest;
@@ -274,16 +274,16 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     });
     if (!told_apart) return false;
 
-    // Bounds on the penetrations of any other solution: at most those with every close partner gone, hence at least ..., and so on.
+    // Bounds on the penetrations of any other solution: upper bounds without the close partners give lower bounds, and so on.
     Vector alone(v), relief(n), high, low(n), f(n), a(n);
     couple(close, force, relief);
     if (!distant.empty()) {
-        Vector all(relief);  // how much deeper each could go if all its partners lost contact
+        Vector all(relief);  // additional penetration of each if all its partners lost contact
         for (const Pair& p : distant) {
             all[p.i] += force[p.j] * kernel.at(p.d, 0);
             all[p.j] += force[p.i] * kernel.at(p.d, 0);
         }
-        const auto rivals = [&](std::size_t i, std::size_t j, double d) {  // might j be large enough then?
+        const auto rivals = [&](std::size_t i, std::size_t j, double d) {  // true if j could then be large enough
             const double A = std::sqrt(law.area(asperity[j], v[j] + all[j]) / std::numbers::pi);
             return 2 / std::numbers::pi * std::sqrt(radius[i] * A) > far * d;
         };
@@ -301,7 +301,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     };
     secants();
     if (!shells_fit(a, kernel.period())) return false;
-    const auto pairs = shell_pairs(x, y, a, kernel.period());  // of the widest shells: the bounds become narrower from here on
+    const auto pairs = shell_pairs(x, y, a, kernel.period());  // for the widest shells; the bounds only become narrower below
     auto doubtful = doubtful_clusters(pairs, a);
     const auto settled = [&](const Cluster& cluster) { return positive_definite(cluster, of_points(cluster, a)); };
     std::erase_if(doubtful, settled);
