@@ -1,5 +1,5 @@
 #!/bin/sh
-# The first run: installs what is missing, builds, runs input/first.nml and draws its result.
+# The first run: installs missing packages, builds, runs input/first.nml and draws its result.
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"

@@ -1,14 +1,14 @@
-# The body of input/paper/run.sh and input/flat/run.sh, which set before: `here` the folder of the cases, `study` its name, `cases` their names in
-# order, and the function shorten, which reads a case and writes its shortened version.
+# The common part of input/paper/run.sh and input/flat/run.sh, which define: `here` the folder of the cases, `study` its name, `cases` their names in
+# order, and the function shorten, which reads a case and writes its short version.
 # Usage: sh input/STUDY/run.sh [--short] [RSC [FOLDER]]
 #   RSC      the program (default ./rsc)
-#   FOLDER   where results, pictures and report.txt go (default output/STUDY)
-#   --short  few realizations and small grids: shows that all of it works, the numbers are another surface's; into
-#            output/STUDY_short unless FOLDER says otherwise. Options may stand anywhere.
-# Results of a full run are never replaced by a shortened one, nor the other way round, nor files that run.sh did not make.
-# Interrupted, it goes on from there when the same command is given again, with the same program and cases: finished cases are kept, and
-# of the one that was interrupted all finished realizations. Once it is through, the next run starts anew.
-# PYTHON names a Python with numpy, scipy, matplotlib and netCDF4; found by itself when python3 or /usr/bin/python3 has them.
+#   FOLDER   folder of results, pictures and report.txt (default output/STUDY)
+#   --short  few realizations and small grids, as a check; the numbers are those of other surfaces. Default FOLDER:
+#            output/STUDY_short. Options may be anywhere.
+# Results of a full run are never replaced by those of a short one, nor vice versa, nor files that run.sh did not write.
+# After an interruption the same command with the same program and cases continues: finished cases are kept, and the finished realizations
+# of the interrupted case. After a complete run, the next one starts anew.
+# PYTHON: a Python with numpy, scipy, matplotlib and netCDF4; default: python3 or /usr/bin/python3 if they have them.
 short=no
 rsc=
 folder=
@@ -49,7 +49,7 @@ fi
 
 of=$(echo $cases | wc -w)
 
-# What an interrupted run of the same program on the same cases has left is kept, everything else goes.
+# Keeps the results of an interrupted run of the same program on the same cases and removes everything else.
 mkdir -p "$folder"
 there=$(cat "$folder/kind.txt" 2> /dev/null || true)
 if [ "$there" != $kind ] && ls "$folder"/*.nc > /dev/null 2>&1; then

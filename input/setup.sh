@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what is missing (Debian and its kin; elsewhere it names what is needed and stops) and builds rsc in build/.
+# Installs missing packages (on Debian and derivatives; elsewhere it lists them and stops) and builds rsc in build/.
 # Usage: sh input/setup.sh            from anywhere; extra arguments go to cmake, e.g. -DRSC_MPI=ON
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,9 +1,9 @@
 #!/bin/bash
-# A study as a Slurm job array, a member a task. From the folder that holds rsc:
+# A study as a Slurm job array, one member per task. From the folder of rsc:
 #
 #     sbatch --array=1-$(./rsc --list input/study.nml | wc -l) input/slurm_array.sh input/study.nml
 #
-# Submitted once more it finishes what a time limit or a node has stopped and leaves finished members alone.
+# Submitted again, it completes interrupted members and keeps finished ones.
 #SBATCH --job-name=rsc
 #SBATCH --cpus-per-task=1
 #SBATCH --time=01:00:00

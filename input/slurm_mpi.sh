@@ -1,9 +1,9 @@
 #!/bin/bash
-# A campaign or a study over the ranks of one Slurm job. From the folder that holds rsc_mpi:
+# A campaign or a study on the ranks of one Slurm job. From the folder of rsc_mpi:
 #
 #     sbatch --ntasks=64 input/slurm_mpi.sh input/campaign.nml
 #
-# Submitted once more it goes on where a time limit has stopped it, with as many ranks as you like.
+# Submitted again, it continues after a time limit, with any number of ranks.
 #SBATCH --job-name=rsc_mpi
 #SBATCH --ntasks=2
 #SBATCH --time=01:00:00

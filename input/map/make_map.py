@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes map.sdf and map.gwy: a map as a profilometer gives it, of a surface that is known. No instrument has seen it.
+"""Generates map.sdf and map.gwy: a map as from a profilometer, of a known synthetic surface.
 
 Heights: an isotropic self-affine Gaussian surface of period 600 um with waves from 100 to 16 um, hurst 0.8, rms height 0.5 um (a sum of Fourier
 modes, so that nothing is periodic on the map itself); on a dome of 20 mm radius; tilted by 0.8 % and -0.5 %; white noise of 4 nm rms; rounded to

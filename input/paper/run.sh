@@ -1,11 +1,11 @@
 #!/bin/sh
-# Everything the paper computed: runs the cases of input/paper, draws the pictures and writes the report.
-# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]], the words' meaning at the head of input/run_cases.sh; FOLDER is output/paper by default.
+# All results of the paper: runs the cases of input/paper, draws the pictures and writes the report.
+# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]], as explained in input/run_cases.sh; FOLDER is output/paper by default.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 study=paper
 
-# The shortened version: an eighth of the grid and of the waves it carries, and a few realizations.
+# The short version: an eighth of the grid and of its waves, and a few realizations.
 shorten() {
     case $1 in
         asperities | dgesv) sed -e 's/n = 2048/n = 256/; s/n = 1024/n = 512/; s/L_lambda_s = 512/L_lambda_s = 64/; s/steps = 100/steps = 8/' ;;
