@@ -6,7 +6,7 @@
     import xarray
     xarray.open_dataset('output/study_cube.nc').force.sel(surface_sigma=0.01).mean('realization')
 
-rsc.read('output/study_manifest.nc') in Python is the same without the file. Needs numpy and netCDF4 (Debian: python3-numpy python3-netcdf4).
+rsc.read('output/study_manifest.nc') in Python returns the same without a file. Needs numpy and netCDF4 (Debian: python3-numpy python3-netcdf4).
 """
 
 import argparse

@@ -5,7 +5,7 @@
     python3 output/export/fields.py RESULT.nc --format csv       a table x, y, pressure, ... of each level
     python3 output/export/fields.py RESULT.nc --format png       a picture of each level
 
-A .vti holds all fields of one level on its points, in the units of the result. Needs numpy and netCDF4, for pictures matplotlib (Debian:
+A .vti file contains all fields of one level on its points, in the units of the result. Needs numpy and netCDF4, for pictures matplotlib (Debian:
 python3-numpy python3-netcdf4 python3-matplotlib).
 """
 
@@ -27,7 +27,7 @@ NAMES = {"field_pressure": "pressure", "field_gap": "gap", "field_contact": "con
 
 
 class Refused(Exception):
-    """The file has no fields; the message says so."""
+    """The file has no fields, as stated in the message."""
 
 
 def read(path):
@@ -38,7 +38,7 @@ def read(path):
         raise Refused(f"cannot read {path!r}: {error.strerror or error}") from None
     with file:
         if "field_step" not in file.variables:
-            raise Refused(f"{path!r} holds no fields; a case with &output fields = 'pressure', 'gap' writes them")
+            raise Refused(f"{path!r} has no fields; a case with &output fields = 'pressure', 'gap' writes them")
         at = lambda name, k: np.ma.filled(file[name][k].astype(float), np.nan) if "field_step" in file[name].dimensions else file[name][:]
         there = [name for name in NAMES if name in file.variables]
         levels = {int(step): {NAMES[name]: (np.asarray(at(name, k)), file[name].units) for name in there} for k, step in enumerate(file["field_step"][:])}
@@ -74,7 +74,7 @@ def write_png(path, x, y, fields, length, title):
         scale, of = si("" if unit == "1" else unit)
         values = np.ma.masked_invalid(values * scale)
         drawn = np.ma.masked_where(~(values > 0), values) if name in ("pressure", "contact") else values
-        top = float(np.ma.filled(np.percentile(drawn.compressed(), 99.5) if drawn.count() else 1.0, 1.0))  # a few points may be far above all others
+        top = float(np.ma.filled(np.percentile(drawn.compressed(), 99.5) if drawn.count() else 1.0, 1.0))  # excludes a few outliers
         limits = {"pressure": (0, top), "gap": (0, top), "contact": (0, 1)}.get(name, (None, None))
         image = axis.imshow(drawn, extent=[x[0] - half[0], x[-1] + half[0], y[0] - half[1], y[-1] + half[1]], interpolation="nearest", vmin=limits[0], vmax=limits[1],
                             cmap=COLOURS if name in ("pressure", "contact") else "viridis")
@@ -89,7 +89,7 @@ def write_png(path, x, y, fields, length, title):
 
 
 def main(words=None):
-    parser = argparse.ArgumentParser(description="The fields of a result of rsc as VTK image data, CSV tables or pictures, a file a level.")
+    parser = argparse.ArgumentParser(description="The fields of a result of rsc as VTK image data, CSV tables or pictures, one file for each level.")
     parser.add_argument("result", help="result file with fields")
     parser.add_argument("--format", choices=["vti", "csv", "png"], default="vti", help="vti by default")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="folder of the files (default: that of the result)")

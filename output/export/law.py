@@ -2,12 +2,12 @@
 """A contact law for finite elements from a result file of rsc.
 
     python3 output/export/law.py RESULT.nc --calculix           for an input deck of CalculiX, to standard output or -o FILE
-    python3 output/export/law.py RESULT.nc --abaqus             the same for Abaqus
-    python3 output/export/law.py RESULT.nc --table              columns, with the scatter over realizations; modules/example/uinter.f90 reads it
+    python3 output/export/law.py RESULT.nc --abaqus             for an input deck of Abaqus
+    python3 output/export/law.py RESULT.nc --table              columns, with the scatter over realizations, for modules/example/uinter.f90
 
 A sphere becomes a nonlinear spring, force against approach; two flats (boundary='periodic') pressure against overclosure. The law is the mean
-over realizations and increases from level to level; levels that did not converge, and those that would make it fall, are left out and
-counted. Approach and overclosure begin where the first asperity touches; a comment says at which separation that is. Needs numpy and
+over realizations and increases from level to level; levels that did not converge, or at which it would decrease, are excluded and
+counted. Approach and overclosure begin where the first asperity touches; a comment states this separation. Needs numpy and
 netCDF4 (Debian: python3-numpy python3-netcdf4).
 """
 
@@ -29,12 +29,12 @@ NOT_CONVERGED = 4  # of the variable status
 
 
 class Refused(Exception):
-    """The file holds no law; the message says why."""
+    """The file has no law, for the reason in the message."""
 
 
 class Law:
     """approach (from 0), load and load_std (force, or pressure of flats), area and area_std (contact area, or area fraction), arrays over the points; origin: the
-    separation where the approach is 0; what was left out."""
+    separation where the approach is 0; numbers of excluded levels."""
 
     def __init__(self, path):
         try:
@@ -48,11 +48,11 @@ class Law:
                 if name not in variables:
                     raise Refused(f"{path!r} is no result of indentation: it lacks the variable {name!r}")
             if "pull_off_force" in variables:
-                raise Refused(f"{path!r} is of bodies that stick (solids%adhesion): the way up is another than the way down, and one table holds one way")
+                raise Refused(f"{path!r} has adhesion (solids%adhesion): loading and unloading differ, and a table has only one curve")
             self.flats = "pressure" in variables
             case = re.search(r"boundary\s*=\s*'(\w+)'", getattr(file, "case", ""))
             if not self.flats and not _finite(variables, "r_star"):
-                raise Refused(f"{path!r} presses flat on flat within a border ({'boundary = ' + repr(case[1]) if case else 'no boundary'}): a law of an interface needs "
+                raise Refused(f"{path!r} is of two flats with a border ({'boundary = ' + repr(case[1]) if case else 'no boundary'}): a law of an interface needs "
                               "&indentation boundary='periodic'")
             load, area = ("pressure", "area_fraction") if self.flats else ("force", "contact_area")
             self.realizations = len(file.dimensions["realization"])
@@ -68,12 +68,12 @@ class Law:
         self._points(z[:, ~bad], n[:, ~bad], a[:, ~bad])
 
     def _by_realization(self, variable):
-        """(realization, step), the same row for all where a variable is of steps only."""
+        """(realization, step), with the same row for all if a variable depends on steps only."""
         values = np.ma.filled(variable[:].astype(float), np.nan)
         return np.broadcast_to(values, (self.realizations, values.shape[-1])).copy() if values.ndim == 1 else values
 
     def _points(self, z, n, a):
-        """The mean curve: loads at given separations, or separations at given loads, whichever the run prescribed."""
+        """The mean curve: loads at given separations, or separations at given loads, as prescribed in the run."""
         spread = [np.std(v, axis=0, ddof=1) if np.any(np.ptp(v, axis=0) > 0) else np.zeros(v.shape[1]) for v in (z, n, a)]
         self.prescribed = "separation" if not np.any(spread[0] > 0) else "load"
         depth, load, area = (v.mean(axis=0) for v in (-z, n, a))
@@ -81,7 +81,7 @@ class Law:
         depth, load, area, std = depth[order], load[order], area[order], [s[order] for s in spread]
         touching = load > 0
         if touching.sum() < 2:
-            raise Refused(f"{self.path!r} has {touching.sum()} levels with contact: two at least make a law")
+            raise Refused(f"{self.path!r} has {touching.sum()} levels with contact: a law needs at least two")
         first = int(np.argmax(touching))
         keep = []
         for k in range(first, depth.size):
@@ -93,7 +93,7 @@ class Law:
         self.extrapolated = first == 0
         if first > 0:
             start = depth[first - 1]  # the last level without contact
-        else:  # the first level carries load already: back to zero as Hertz's law does
+        else:  # the first level has a load: continue to zero by Hertz's law
             ratio = (load[keep[1]] / load[keep[0]]) ** (2 / 3)
             start = depth[keep[0]] - (depth[keep[1]] - depth[keep[0]]) / (ratio - 1)
         self.origin = -start
@@ -102,13 +102,13 @@ class Law:
         self.area_std, self.separation_std = np.append(0.0, std[2][keep]), np.append(0.0, std[0][keep])
 
     def comment(self):
-        """What a reader of the deck has to know."""
+        """Comments for the reader of the deck."""
         many = f"mean over {self.realizations} realizations" if self.realizations > 1 else "one realization"
         load, approach = ("pressure", "overclosure") if self.flats else ("force", "approach")
         lines = [f"{self.title or os.path.basename(self.path)}: {load} against {approach}, {many}", f"units: {load} {self.units['load']}, {approach} {self.units['approach']}",
                  f"{approach} = {self.origin:.9g} - separation of the {'mean planes' if self.flats else 'tip from the mean plane'}"
                  + (f" (no level without contact: continued to zero {load} by its 2/3 power)" if self.extrapolated else f" (the last level without contact)"),
-                 f"{self.approach.size} points, {load} increasing; left out: {self.unconverged} levels not converged, {self.not_increasing} not increasing",
+                 f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} levels not converged, {self.not_increasing} not increasing",
                  f"status of the levels, the worst of the realizations: {self.statuses}",
                  f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was computed: most programs keep the {load} constant there"]
         if self.realizations > 1:
@@ -116,7 +116,7 @@ class Law:
             lines.append(f"scatter over realizations at the last point: {100 * relative:.2g} % of the {load if self.prescribed == 'separation' else approach} (standard deviation); "
                          "all of it with --table")
         lines.append(f"from {os.path.basename(self.path)}, {self.source}")
-        # Texts of the file must not end a comment, nor reach a terminal as commands.
+        # Texts of the file must neither end a comment nor contain terminal commands.
         return [re.sub(r"[\x00-\x1f\x7f-\x9f]", "?", line) for line in lines]
 
 
@@ -129,14 +129,14 @@ def _unit(variable):
 
 
 def _deck(law, name, comment):
-    """CalculiX and Abaqus agree in these keywords."""
+    """The keywords common to CalculiX and Abaqus."""
     lines = [f"** {line}" for line in comment]
     if law.flats:
         lines += [f"*SURFACE INTERACTION, NAME={name}", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR"]
         lines += [f"{p:.10g}, {c:.10g}" for c, p in zip(law.approach, law.load)]
     else:
-        # Pressing makes a spring shorter: elongation and force are negative, and the table goes by increasing elongation.
-        lines += ["** a spring between the tip and the plane (element type SPRINGA), longer than the whole approach; it carries no tension",
+        # In compression elongation and force are negative, and the table is in order of increasing elongation.
+        lines += ["** a spring between the tip and the plane (element type SPRINGA), longer than the whole approach; without tensile force",
                   f"*SPRING, ELSET={name}, NONLINEAR", ""]
         lines += [f"{0.0 - n:.10g}, {0.0 - d:.10g}" for d, n in zip(law.approach[::-1], law.load[::-1])]
         lines += [f"0., {law.approach[-1]:.10g}"]

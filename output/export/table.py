@@ -6,8 +6,8 @@
     python3 output/export/table.py RESULT.nc --at 0.01 --by separation
     python3 output/export/table.py STUDY_manifest.nc --at 1      a row for every member and load
 
-Values are means over the realizations that converged; *_stderr is the standard error of the mean, the standard deviation over the root of their
-number; *_expected_error is how far the model may be off, relative, where the file knows it. Needs numpy and netCDF4 (Debian:
+Values are means over the realizations that converged; *_stderr is the standard error of the mean, the standard deviation over sqrt(number);
+*_expected_error is the expected relative error of the model, if the file has it. Needs numpy and netCDF4 (Debian:
 python3-numpy python3-netcdf4).
 """
 
@@ -26,17 +26,17 @@ import netCDF4
 import numpy as np
 
 NOT_CONVERGED = 4  # of the variable status
-GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity says more than overlapping and not unique
+GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
 COLUMNS = ["pressure", "force", "contact_area", "area_fraction", "separation", "stiffness", "resistance", "contacts"]
 EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
 
 
 class Refused(Exception):
-    """There is no such table; the message says why."""
+    """There is no such table, for the reason in the message."""
 
 
 class Table:
-    """columns: {name: values over the levels}; units: {name: unit}; load: the column that --at means; status: the gravest of each level."""
+    """columns: {name: values over the levels}; units: {name: unit}; load: the column of --at; status: the most serious of each level."""
 
     def __init__(self, path):
         self.path = path
@@ -64,7 +64,7 @@ class Table:
         self.load = "pressure" if "pressure" in self.columns else "force"
 
     def _values(self, variable, good):
-        """(realization, step), those that did not converge as NaN; and whether there are several realizations."""
+        """(realization, step), with NaN for levels that did not converge; and True if there are several realizations."""
         values = np.ma.filled(np.ma.asarray(variable[:]).astype(float), np.nan)
         many = values.ndim == 2 and values.shape[0] > 1
         return np.where(good, values if values.ndim == 2 else np.broadcast_to(values, good.shape), np.nan), many
@@ -73,7 +73,7 @@ class Table:
         self.columns[name], self.units[name] = values, unit
 
     def loading(self, by):
-        """The levels of the first loading, by increasing load: those on which every interpolation is unique."""
+        """The levels of the first loading, by increasing load, so that every interpolation is unique."""
         load, depth = self.columns[self.load], -self.columns["separation"]
         levels = [k for k in range(load.size) if load[k] > 0 and np.isfinite(depth[k])]
         if levels and load[levels[-1]] < load[levels[0]]:
@@ -88,13 +88,13 @@ class Table:
 
     def at(self, wanted, by=None):
         """The table at these values of the load, or of the separation, as (columns, status). Between levels positive quantities follow a power
-        law of the load (of the separation: an exponential), others a straight line in its logarithm; so nothing leaves the range of its two
-        neighbours, and what increases from level to level does so between them."""
+        law of the load (of the separation: an exponential), others a straight line in its logarithm; interpolated values are between
+        those of the two neighbours, and increasing quantities remain increasing."""
         by = by or self.load
         levels = self.loading(by)
         known = self.columns[by][levels]
         ends = sorted((known[0], known[-1]))
-        for value in wanted:  # a prescribed load is reached within the solver's tolerance only
+        for value in wanted:  # a prescribed load is exact only to the solver's tolerance
             if not ends[0] - 1e-4 * abs(ends[0]) <= value <= ends[1] + 1e-4 * abs(ends[1]):
                 raise Refused(f"--at {value:g}: {self.path!r} has {by} from {ends[0]:.6g} to {ends[1]:.6g} {self.units[by]}; nothing is extrapolated")
         wanted = np.asarray(wanted, float)
@@ -122,7 +122,7 @@ def _open(path):
 
 
 def _mean(values):
-    """Mean and its standard error over the first axis, NaN left out; of fewer than two values the error is NaN."""
+    """Mean and its standard error over the first axis without NaN; for fewer than two values the error is NaN."""
     there = np.isfinite(values)
     count = there.sum(axis=0)
     mean = np.where(there, values, 0.0).sum(axis=0) / np.where(count, count, np.nan)
@@ -141,7 +141,7 @@ def members(path):
 
 
 def rows(paths, at=None, by=None):
-    """(header, rows of texts) of the files, members of studies in their place; a first column names the file where there are several."""
+    """(header, rows of texts) of the files, with studies replaced by their members; the first column is the file if there are several."""
     found = []
     for path in paths:
         found += members(path) or [(path, {})]
@@ -173,7 +173,7 @@ def main(words=None):
     parser = argparse.ArgumentParser(description="A table of loads from result files of rsc, with standard errors and expected errors.")
     parser.add_argument("result", nargs="+", help="result files (NetCDF), or the manifest of a study (..._manifest.nc)")
     parser.add_argument("--at", type=numbers, metavar="N,N,...", help="at these loads, between levels by interpolation (default: every level)")
-    parser.add_argument("--by", choices=["force", "pressure", "separation"], help="what --at gives (default: force; of two flats pressure)")
+    parser.add_argument("--by", choices=["force", "pressure", "separation"], help="quantity of --at (default: force, for two flats pressure)")
     parser.add_argument("--format", choices=["csv", "markdown"], help="default: markdown on a terminal, csv elsewhere")
     parser.add_argument("-o", "--output", metavar="FILE", help="file to write (default: standard output); markdown if it ends in .md")
     arguments = parser.parse_args(words)

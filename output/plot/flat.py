@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Two pictures and a report of rough flats under a pressure, from the result files that input/flat/run.sh makes.
+"""Two pictures and a report of rough flats under a pressure, from the result files of input/flat/run.sh.
 
     python3 output/plot/flat.py [FOLDER]
 
@@ -24,7 +24,7 @@ PERSSON, BUSH = np.sqrt(8 / np.pi), np.sqrt(2 * np.pi)  # kappa at light load
 
 
 def kappa(result):
-    """A E* h'/N of each realization, with its own rms slope h'."""
+    """A E* h'/N of each realization, with the rms slope h' of its surface."""
     return (result["contact_area"] / result["force"])[:, 0] * float(result["e_star"]) * result["rms_slope"]
 
 
@@ -50,7 +50,7 @@ def nayak(folder, report):
     save(figure, folder, "flat_kappa")
 
     report.heading("Area over load against Nayak's parameter (flat_kappa.png)")
-    report.note(f"kappa = A E* h'/N at p/(E* h') = {pressure}, h' the rms slope of each surface; mean of {runs[0].realizations} surfaces and its standard error. Areas of elements are corrected for their border.")
+    report.note(f"kappa = A E* h'/N at p/(E* h') = {pressure}, h' the rms slope of each surface; mean of {runs[0].realizations} surfaces and its standard error. Areas of elements are corrected at borders.")
     report.raw(f"{'L/lambda_l':>12s} {'L/lambda_s':>12s} {'alpha':>8s} {'elements':>18s} {'asperities':>18s} {'difference':>12s}")
     for k, r in enumerate(runs):
         e, a = values[k], of["asperities"][2][k]
@@ -59,13 +59,13 @@ def nayak(folder, report):
         _, _, points, fall, start = of[model]
         rest = points[:, 0] - start - fall * np.log10(alpha)
         report.note(f"{model}: kappa = {start:.3f} {fall:+.3f} log10 alpha, to {np.sqrt(np.mean(rest**2)):.3f} rms (standard errors {np.sqrt(np.mean(points[:, 1] ** 2)):.3f}).")
-    report.note("Yastrebov, Anciaux and Molinari (J. Mech. Phys. Solids 107, 2017, arXiv 1704.05650) found by elements that kappa falls with the logarithm of alpha, and lies between Persson's theory, which knows no alpha "
+    report.note("Yastrebov, Anciaux and Molinari (J. Mech. Phys. Solids 107, 2017, arXiv 1704.05650) found by elements that kappa falls with the logarithm of alpha, and is between Persson's theory, which is independent of alpha  "
                 f"({PERSSON:.3f}), and the asymptote of Bush, Gibson and Thomas ({BUSH:.3f}).")
     report.finding("Elements say the same." if slope < 0 else "Elements do not fall here.")
 
 
 def size(folder, report):
-    """Stiffness over pressure of surfaces that hold few or many of their longest waves."""
+    """Stiffness over pressure of surfaces with few or many of their longest waves."""
     figure, axis = plt.subplots(figsize=(5.6, 4.0), constrained_layout=True)
     report.heading("Stiffness over pressure, and the size of the surface (flat_stiffness.png)")
     report.note("K sigma/p, K = -dp/dZ0: mean of K over surfaces; in brackets asperities.")
@@ -84,7 +84,7 @@ def size(folder, report):
         found.append((waves, (ln_K[2] - ln_K[0]) / (ln_p[2] - ln_p[0]), np.interp(np.log(0.005), ln_p, K(elements)), relative[2]))
         rows.append((waves, K(elements), K(asperities)))
         H = elements.number("surface%hurst")
-    # Beside the smallest surface at the lightest pressure: the exponent of a single contact.
+    # Line at the smallest surface and lightest pressure: the exponent of a single contact.
     axis.plot(relative[:5], rows[0][1][0] * (relative[:5] / relative[0]) ** (1 / (1 + H) - 1), ":", color="0.4", lw=1, label=r"$K \sim p^{1/(1+H)}$")
     axis.axhline(2, color="0.5", lw=0.8)
     axis.minorticks_off()
@@ -98,9 +98,9 @@ def size(folder, report):
     for waves, exponent, value, upto in found:
         report.note(f"L/lambda_l = {waves:g}: K sigma/p = {value:.2f} at p/(E* h') = 0.005; K ~ p^{exponent:.2f} up to {upto:.1e} (a single self-affine contact: 1/(1 + H) = {1 / (1 + H):.3f}; many: 1).")
     report.note("Akarapu, Sharp and Robbins (Phys. Rev. Lett. 106, 2011): stiffness proportional to load, K sigma/p near 2. Pastewka, Prodanov, Lorenz, Mueser, Robbins and Persson (Phys. Rev. E 87, 2013, arXiv 1210.4635): at small "
-                "pressures a finite surface is one contact around its highest summit, and K grows with a power below 1; where that begins moves to lower pressures as the surface grows.")
+                "pressures a finite surface is one contact around its highest summit, and K grows with a power below 1; this range moves to lower pressures for larger surfaces.")
     order = [K_of[0] for _, K_of, _ in rows]
-    report.finding("At the lightest pressure the smaller surface is the stiffer one, as that says." if all(np.diff(order) < 0) else "At the lightest pressure the order of sizes is not clear.")
+    report.finding("At the lightest pressure the smaller surface is stiffer, in agreement." if all(np.diff(order) < 0) else "At the lightest pressure the order of sizes is not clear.")
 
 
 def main():
@@ -111,10 +111,10 @@ def main():
     try:
         runs = members(folder, "alpha_elements")
         report.lines += ["Rough flats under a pressure", "============================"]
-        report.note("Two flats that repeat, H = 0.8; elements solve every point of the surface, 8 points in the shortest wave, asperities are those of law 'fourth_order'.")
+        report.note("Two periodic flats, H = 0.8; elements on every point of the surface with 8 points in the shortest wavelength, asperities by law 'fourth_order'.")
         report.full = runs[0].realizations >= 20
         if not report.full:
-            report.note("This is the SHORTENED version: few small surfaces. It shows that the command works; nobody has looked at its numbers.")
+            report.note("This is the SHORTENED version: few small surfaces. It shows that the command works; its numbers are not verified.")
         nayak(folder, report)
         size(folder, report)
         with open(os.path.join(folder, "times.txt"), encoding="utf-8") as times:
@@ -125,7 +125,7 @@ def main():
         with open(path, "w", encoding="utf-8") as out:
             out.write("\n".join(report.lines) + "\n")
     except (OSError, IndexError) as error:
-        sys.exit(f"flat.py: {error}; the result files are made by input/flat/run.sh")
+        sys.exit(f"flat.py: {error}; the result files are written by input/flat/run.sh")
     print(path)
 
 

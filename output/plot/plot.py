@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Pictures of result files of rsc.
 
-    python3 output/plot/plot.py output/rsc.nc                     draws what the file holds, beside it
-    python3 output/plot/plot.py a.nc b.nc                         both in one picture, named by what differs between them
-    python3 output/plot/plot.py output/study_manifest.nc          the members of a study as curves, and as maps where two keys vary
+    python3 output/plot/plot.py output/rsc.nc                     draws all pictures of the file, in its folder
+    python3 output/plot/plot.py a.nc b.nc                         both in one picture, labelled by the keys in which they differ
+    python3 output/plot/plot.py output/study_manifest.nc          the members of a study as curves, and as maps if two keys vary
     python3 output/plot/plot.py FILE --format pdf --width single  for a journal (single, onehalf, double, or millimetres)
 
-Levels that are not to be relied on (variable `status`) carry a mark that the legend explains; a band is the error that is expected, or the
-scatter over realizations. Needs numpy, matplotlib and netCDF4 (Debian: python3-matplotlib, python3-netcdf4); if this Python lacks them,
-another one of this machine that has them is taken.
+Unreliable levels (variable `status`) have a mark, explained in the legend; a band is the expected error, or the scatter over realizations. Needs numpy, matplotlib and netCDF4 (Debian: python3-matplotlib, python3-netcdf4); if this Python lacks them,
+another one of this machine that has them is used.
 """
 
 import argparse
@@ -38,7 +37,7 @@ import plot_time
 from plot_results import Result, members_of_manifest
 from plot_style import WIDTHS, plt
 
-# To add a picture, write a function of (results, options) that returns a figure, or None where the results do not hold what it draws.
+# To add a picture, write a function of (results, options) that returns a figure, or None if the results lack its data.
 PICTURES = {"load": plot_curves.load, "area": plot_area.area, "flats": plot_flats.flats, "study": plot_study.study, "map": plot_map.maps, "radial": plot_radial.radial,
             "spots": plot_spots.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions, "surface": plot_surface.surface, "texture": plot_texture.texture, "stiffness": plot_curves.stiffness,
             "resistance": plot_curves.resistance, "loop": plot_friction.loop, "stick": plot_friction.stick, "time": plot_time.time, "pull": plot_adhesion.pull}
@@ -57,10 +56,10 @@ def width(text):
 
 
 def parse(words):
-    parser = argparse.ArgumentParser(description="Pictures of result files of rsc: what the files hold, several in one picture.")
+    parser = argparse.ArgumentParser(description="Pictures of result files of rsc: several files in one picture.")
     parser.add_argument("result", nargs="+", help="result files (NetCDF), or the manifest of a study (..._manifest.nc)")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="folder of the pictures (default: that of the first file)")
-    parser.add_argument("--name", help="what the names of the pictures begin with (default: the name of the file, or of the first and last)")
+    parser.add_argument("--name", help="beginning of the names of the pictures (default: the name of the file, or of the first and last)")
     parser.add_argument("--only", metavar="PICTURE", action="append", choices=PICTURES, help="draw this picture only; repeatable: " + ", ".join(PICTURES))
     parser.add_argument("--step", type=int, metavar="N", help="draw maps, radial means, spots and friction of level N (from 1) only")
     parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png", help="png by default")
@@ -70,7 +69,7 @@ def parse(words):
 
 
 def open_results(paths):
-    """The results of all files, members of studies in their place; and what the names of the pictures begin with."""
+    """The results of all files, with studies replaced by their members, and the beginning of the names of the pictures."""
     opened, stems = [], []
     for path in paths:
         members = members_of_manifest(path)
@@ -80,7 +79,7 @@ def open_results(paths):
             except OSError as error:
                 sys.exit(f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file of rsc (NetCDF) is expected")
             if not getattr(result.file, "source", "").startswith("rsc"):
-                sys.exit(f"plot.py: {path!r} is no result file of rsc: its attribute 'source' does not say so")
+                sys.exit(f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is of another program")
             opened.append(result)
             stems.append(os.path.splitext(os.path.basename(path))[0])
         else:
@@ -103,7 +102,7 @@ def main(words=None):
             options.say(f"--step {arguments.step}: nothing touches at {result.level_name(arguments.step - 1)} of {result.path}; "
                         + (f"levels {touching.min()} to {touching.max()} have contact" if touching.size else "no level has contact"))
     if not any(r.loaded().size for r in results) and "force" in results[0]:
-        options.say("no level has contact: there is little to draw")
+        options.say("no level has contact, so there is little to draw")
     folder = arguments.output or os.path.dirname(arguments.result[0]) or "."
     drawn = 0
     try:
@@ -112,7 +111,7 @@ def main(words=None):
             figure = PICTURES[name](results, options)
             if figure is None:
                 if arguments.only:
-                    options.say(f"{name}: the file does not hold what this picture shows")
+                    options.say(f"{name}: the file has no data for this picture")
                 continue
             path = os.path.join(folder, f"{arguments.name or stem}_{name}.{arguments.format}")
             figure.savefig(path, dpi=arguments.dpi)

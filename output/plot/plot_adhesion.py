@@ -1,4 +1,4 @@
-"""Adhesion: the loop of force against separation, down and up."""
+"""Adhesion: the loop of force against separation in loading and unloading."""
 
 import numpy as np
 
@@ -6,8 +6,8 @@ from plot_style import Page, STYLES, label
 
 
 def pull(results, options):
-    """The force against the separation in the order of the levels: down, and up where asperities that have attached hold on; the area between is
-    the work that is lost. Each result is drawn, the loss of a single one is shaded."""
+    """The force against the separation in the order of the levels: loading, and unloading with attached asperities; the area between is
+    the energy lost. All results are drawn, the loss is shaded for a single one."""
     found = [result for result in results if "pull_off_force" in result and result.steps > 1]
     if not found:
         return None
@@ -22,7 +22,7 @@ def pull(results, options):
         axis.plot(Z[: turn + 1], N[: turn + 1], "-", color=colour, label="down" + name)
         axis.plot(Z[turn:], N[turn:], "--", color=colour, label="up" + name)
         if len(found) == 1 and turn + 1 < len(Z):
-            if abs(Z[-1] - Z[0]) > 1e-9 * np.ptp(Z):  # an open loop is shaded where both ways are known
+            if abs(Z[-1] - Z[0]) > 1e-9 * np.ptp(Z):  # an open loop is shaded where both branches exist
                 grid = np.linspace(Z[turn], min(Z[0], Z[-1]), 400)
             else:
                 grid = np.union1d(Z[: turn + 1], Z[turn:])

@@ -1,4 +1,4 @@
-"""True contact area against force, beside what theory says of it, and from which force on the material yields."""
+"""True contact area against force, beside theories, and the force at which yielding begins."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from plot_style import GREY, amount, label
 
 
 def area(results, options):
-    """A(N). Of one result with the smooth sphere (Hertz) and the two regimes of the paper with their crossing, of two flats with the theories of
+    """A(N). A single result is drawn with the smooth sphere (Hertz) and the two regimes of the paper with their crossing, two flats with the theories of
     Persson, of Bush, Gibson and Thomas, of Greenwood and Williamson."""
     results = [r for r in results if "contact_area" in r and (np.nan_to_num(r.mean("contact_area")) > 0).any() and r.load_varies()]
     if not results:
@@ -34,7 +34,7 @@ def area(results, options):
 
 
 def _scatter(page, axis, result, colour):
-    """Two thirds of the realizations at given forces, the curve of each interpolated between its levels."""
+    """Two thirds of the realizations at given forces, with each curve interpolated between its levels."""
     at = result.loaded()
     force, curves = np.sort(result.mean("force")[at]), []
     for n, a in zip(result["force"], result["contact_area"]):
@@ -64,7 +64,7 @@ def _theories(page, result):
     if near:
         ends = np.array([min(ends[0], crossing / 2), max(ends[1], crossing * 2)])
     laws = [("area_hertz", 2 / 3, ":", "smooth sphere (Hertz)")]
-    if not result.by_elements():  # the regimes are those of asperities that are far from merging
+    if not result.by_elements():  # the regimes hold for asperities far from merging
         laws += [("area_I", 2 / 3, "--", r"$A_I\propto N^{2/3}$, one asperity"), ("area_II", 1, "-.", r"$A_{II}\propto N$, many")]
     for name, exponent, line, text in laws:
         value = result[name][top] if name in result else np.nan
@@ -75,13 +75,13 @@ def _theories(page, result):
 
 
 def _elastic_until(page, axis, result):
-    """Where the first contacts yield: the highest force without, and the lowest with a yielding contact lie on either side of it."""
+    """Onset of yielding: between the highest force without and the lowest force with a yielding contact."""
     if "plastic_contacts" not in result:
         return
     at, force, yields = result.loaded(), result.mean("force"), result.worst("plastic_contacts") > 0
     dimension, hardness = result.dimension("force"), result.case.get("solids%hardness", "")
     if not yields[at].any():
-        page.entry(f"elastic up to {amount(force[at].max(), dimension)}: nothing reaches the hardness {hardness}", ls="none")
+        page.entry(f"elastic up to {amount(force[at].max(), dimension)}: pressures below the hardness {hardness}", ls="none")
         return
     begins = force[at[yields[at]]].min()
     below = force[at][force[at] < begins]

@@ -1,4 +1,4 @@
-"""Asperities against elements (&compare): the spots of both over each other, the pressure of both along a line, and the error at every level compared."""
+"""Asperities against elements (&compare): contact spots of both models, pressures along a line, and the error at every compared level."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
@@ -10,16 +10,16 @@ from plot_style import Page, STYLES, amount, label
 
 
 def shapes(result, step, count):
-    """Ratio of the axes of the spots of a level, and the angle of the longer one; circles where the law knows no others."""
+    """Ratio of the axes of the spots of a level, and the angle of the longer one; circles for laws without ellipses."""
     if "asperity_kappa1" not in result or result.case.get("asperities%law", "'hertz'").strip("'") == "hertz":
         return np.ones(count), np.zeros(count)
     first = int(result["contact_start"][step]) - 1
     which = result.window("contact_asperity", slice(first, first + count)).astype(int) - 1
-    return (result["asperity_kappa1"][which] / result["asperity_kappa2"][which]) ** (2 / 3), result["asperity_angle"][which]  # near enough for a picture
+    return (result["asperity_kappa1"][which] / result["asperity_kappa2"][which]) ** (2 / 3), result["asperity_angle"][which]  # accurate enough for a picture
 
 
 def along_line(spots, ratio, angle, y, x0, x1):
-    """Hertz's pressures of the spots along the line at y from x0 to x1; those that yield carry theirs everywhere."""
+    """Hertz's pressures of the spots along the line at y from x0 to x1; in yielding spots the pressure is constant."""
     x = np.linspace(x0, x1, 2000)
     p = np.zeros_like(x)
     for sx, sy, a, f, yields, r, t in zip(*spots, ratio, angle):
@@ -31,19 +31,19 @@ def along_line(spots, ratio, angle, y, x0, x1):
 
 
 def compare(results, options):
-    """What &compare found, of the first result that has it."""
+    """The comparison by &compare, for the first result that has it."""
     having = [r for r in results if "compare_step" in r]
     if not having:
         return None
     result = having[0]
     if len(having) > 1:
-        options.say(f"compare: {names(results)[results.index(result)]} is drawn, give one file at a time for the others")
+        options.say(f"compare: {names(results)[results.index(result)]} is drawn; plot the other files one by one")
     steps = result["compare_step"].astype(int) - 1
     step, pixels, spots = int(steps[-1]), "compare_pixel_x" in result, spots_of(result, int(steps[-1]))
     page = Page(options, 3 if pixels else 1, aspect=0.9 if pixels else 0.72)
     errors = page.axes[-1]
     for k, (name, text) in enumerate([("force_error", "$N$"), ("area_error", "$A$"), ("contacts_error", "contacts")]):
-        if name not in result:  # under force control both carry the same
+        if name not in result:  # under force control both have the same force
             continue
         marker, line, colour = STYLES[k]
         errors.plot(result.mean("force")[steps], 100 * result[name], marker, ls=line, color=colour, ms=3.5, label=f"error of {text}")
@@ -58,12 +58,12 @@ def compare(results, options):
     px, py, pressure = (result["compare_pixel_" + name] for name in ("x", "y", "pressure"))
     scale = result.factor("compare_pixel_x")
     hx, hy = (float(result.attribute("compare_pixel_" + name, "pixel_size")[0]) * scale for name in ("x", "y"))
-    # Around the spot of the largest force, or where no spots are kept around the highest pressure.
+    # Around the spot of the largest force, or without stored spots around the highest pressure.
     peak, reach = int(np.argmax(pressure)), 0.0
     if spots is not None:
         strongest = int(np.argmax(spots[3]))
         peak, reach = int(np.argmin(np.hypot(px - spots[0][strongest], py - spots[1][strongest]))), 4 * spots[2][strongest]
-    n = int(np.clip(reach / hx, 20, 200))  # pixels on either side of that one
+    n = int(np.clip(reach / hx, 20, 200))  # pixels on either side of it
     x0, x1, y0, y1 = px[peak] - (n + 0.5) * hx, px[peak] + (n + 0.5) * hx, py[peak] - (n + 0.5) * hy, py[peak] + (n + 0.5) * hy
     near = (px > x0) & (px < x1) & (py > y0) & (py < y1)
     axis, line = page.axes[:2]

@@ -1,5 +1,5 @@
-"""Curves over the levels: force and number of contacts against separation, stiffness and resistance against force. What a curve carries
-besides its line (the marks of its levels, the scatter over realizations, the error that is expected, the way back) is drawn here for all."""
+"""Curves over the levels: force and number of contacts against separation, stiffness and resistance against force. Also draws the
+additions to all curves: marks of levels, scatter over realizations, expected error, unloading."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from plot_style import Page, label
 
 
 def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
-    """Draws y over x, both over all levels, in the colour and line of `look`. scatter: the name of the variable that y is the mean of; error:
-    the name of its expected relative error, drawn as a band where the result has it and is the only one; alone: the only result."""
+    """Draws y over x, both over all levels, in the colour and line of `look`. scatter: name of the variable of which y is the mean; error:
+    name of its expected relative error, drawn as a band if the result has it and is the only one; alone: True for a single result."""
     line, colour, name = look
     status, meanings = result.level_status()
     for at, parting in result.branches():
@@ -22,7 +22,7 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
             low, high = np.minimum(low, high), np.maximum(low, high)
             band(page, axis, x[at], low, high, colour)
         off = result.worst(error)[at] if alone and error in result else np.zeros(0)
-        if off.max(initial=0) > 0.03:  # less is not seen
+        if off.max(initial=0) > 0.03:  # less is not visible
             axis.fill_between(x[at], y[at] * np.maximum(1 - off, 0.02), y[at] * (1 + off), color="#c1440e", alpha=0.18, lw=0, gid="error")
             page.entry("expected error of the model", color="#c1440e", alpha=0.18, lw=5)
     if name:
@@ -32,7 +32,7 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
 
 
 def band(page, axis, x, low, high, colour):
-    """The scatter over realizations, where it is wide enough to be seen."""
+    """The scatter over realizations, if it is wide enough to be visible."""
     low = np.where(low > 0, low, np.nan)
     if np.isfinite(low[1:] + low[:-1]).any() and np.nanmax(high / low, initial=1) > 1.06:
         axis.fill_between(x, low, high, color=colour, alpha=0.25, lw=0, gid="scatter")
@@ -40,7 +40,7 @@ def band(page, axis, x, low, high, colour):
 
 
 def begin(results, options, count=1, **how):
-    """The page and the looks of the results on it, with the colour scale if they are many."""
+    """The page and the line styles of the results, with a colour scale for many results."""
     page, looks = Page(options, count, **how), Looks(results)
     if looks.scale:
         page.scale(looks.scale)
@@ -61,7 +61,7 @@ def _many_decades(values):
 
 
 def load(results, options):
-    """Force, of two flats nominal pressure, against separation, and how many contacts carry it."""
+    """Force (for two flats nominal pressure) and number of contacts against separation."""
     results = [r for r in results if "contacts" in r and r.loaded().size and r.load_varies()]
     if not results:
         return None
@@ -100,5 +100,5 @@ def stiffness(results, options):
 
 
 def resistance(results, options):
-    """Constriction resistance against force, where resistivities are given."""
+    """Constriction resistance against force, if resistivities are given."""
     return _against_force(results, options, "resistance", 1, "constriction resistance", "Constriction resistance against force")

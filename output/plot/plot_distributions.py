@@ -1,4 +1,4 @@
-"""Distributions over contacts with their fits, where a file holds them."""
+"""Distributions over contacts with their fits, if a file has them."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from plot_curves import title
 from plot_results import names
 from plot_style import FEW, Page, STYLES, label, plt
 
-# Fewer contacts make no distribution: a bin of 60 would hold less than one.
+# With fewer contacts a distribution of 60 bins has less than one contact per bin.
 ENOUGH = 60
 
 
-# Fits in the units of the file, from their parameters there: (values, words on the parameters).
+# Fits in the units of the file, from their parameters there: (values, text of the parameters).
 def _rayleigh(result, k, p):
     s = result.attribute("pressure_mean_pdf", "rayleigh_scale")[k]
     return p / s**2 * np.exp(-(p**2) / (2 * s**2)), ""
@@ -34,17 +34,17 @@ PANELS = [("pressure_pdf", "pressure_bin", "pressure in the contact area", r"lin
 
 
 def contacts_behind(result):
-    """How many contacts each pdf level's distributions are of."""
+    """Number of contacts in the distributions of each pdf level."""
     return np.nansum(result["spot_area_count"], axis=1) + result.attribute("spot_area_count", "overflow")
 
 
 def distributions(results, options):
-    """The three distributions over contacts: the levels of one result, or of several the one with the most contacts; only where there are contacts enough."""
+    """The three distributions over contacts: the levels of one result, or for several results the level with the most contacts; only with enough contacts."""
     results = [r for r in results if "spot_area_count" in r]
     shown = []
     for result, name in zip(results, names(results) if results else []):
         counts = contacts_behind(result)
-        distinct = np.unique(np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"]), return_index=True)[1]  # several pdf_levels may have one nearest level
+        distinct = np.unique(np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"]), return_index=True)[1]  # several pdf_levels may have the same nearest level
         levels = np.sort(distinct[counts[distinct] >= ENOUGH])
         for k in levels if len(results) == 1 else levels[np.argsort(counts[levels])[-1:]]:
             step, z = int(result["pdf_step"][k]) - 1, result["pdf_separation_sigma"][k]  # step -1: it differs between realizations

@@ -1,4 +1,4 @@
-"""Friction: the loop of tangential force beside that of a smooth sphere under the same load, and which spots stick and slip."""
+"""Friction: the loop of tangential force beside that of a smooth sphere under the same load, and the stick and slip regions of the spots."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
@@ -7,7 +7,7 @@ from plot_style import Page, STYLES, amount, label
 
 
 def _level(results, options):
-    """The result and the level to draw: the one asked for, otherwise the last with a loop; None where there is none."""
+    """The result and the level to draw: the requested level, otherwise the last with a loop; None if there is none."""
     if len(results) != 1 or "tangential_force" not in results[0]:
         return None
     loops = np.flatnonzero(np.isfinite(results[0]["tangential_force"][:, -1]))
@@ -16,7 +16,7 @@ def _level(results, options):
 
 
 def _slide_per_depth(result, step):
-    """mu/m: the slide that full slip takes, over the approach since first touch; m is the tangential over the normal stiffness."""
+    """mu/m: the slide of full slip over the approach since first touch; m is the ratio of tangential to normal stiffness."""
     return result.number("solids%friction") / (result["tangential_stiffness"][step] / -result["stiffness"].reshape(-1, result.steps)[0][step])
 
 
@@ -44,8 +44,8 @@ def loop(results, options):
 
 
 def stick(results, options):
-    """Spots of a level as a map: what sticks and what slips at about half of the slide to full slip. The part that sticks is the spot of an earlier
-    level, Z0', the slide being (mu/m) (Z0' - Z0)."""
+    """Map of the stick and slip regions of the spots of a level at about half of the slide to full slip. The stick region is the spot of an earlier
+    level, Z0', with the slide (mu/m) (Z0' - Z0)."""
     found = _level(results, options)
     if not found or "contact_radius" not in found[0]:
         return None

@@ -1,4 +1,4 @@
-"""Where the contact is: maps of the share of area in contact and of the pressure."""
+"""Maps of the area fraction and of the pressure."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ def shown(results, options):
 
 
 def contact_window(x, y, field, side, margin=0.15):
-    """(x0, x1, y0, y1) of the smallest square that holds the cells where `field` is above zero, and a margin; cut to the map."""
+    """(x0, x1, y0, y1) of the smallest square that contains the cells where `field` is above zero, with a margin, within the map."""
     rows, columns = np.nonzero(np.nan_to_num(field) > 0)
     whole = (x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2)
     if rows.size == 0:
@@ -33,20 +33,20 @@ def contact_window(x, y, field, side, margin=0.15):
 
 
 def maps(results, options):
-    """Area fraction and pressure in the cells at some levels of one result, or the pressure of several; cropped to the contact. The circle is the
-    contact of the smooth sphere under the same force."""
+    """Area fraction and pressure in the cells at some levels of one result, or the pressure of several results; cropped to the contact. The circle
+    is the contact of the smooth sphere under the same force."""
     panels = shown([r for r in results if "map_pressure" in r], options)
     if not panels:
         return None
     if len(panels) > MOST:
-        options.say(f"map: {MOST} of {len(panels)} results are drawn, evenly spread")
+        options.say(f"map: {MOST} of {len(panels)} results are drawn, evenly spaced")
         panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
     one = len(results) == 1
     quantities = [("map_area_fraction", "area fraction $A'$"), ("map_pressure", "pressure $p$")] if one else [("map_pressure", "pressure $p$")]
     columns = len(panels) if one else int(np.ceil(np.sqrt((1.0 if len(panels) <= 9 else 1.6) * len(panels))))
     rows = -(-len(panels) // columns)
     size = options.width / columns
-    small = size < 46  # too small for a colour bar and axes of its own
+    small = size < 46  # too small for its own colour bar and axes
     figure, axes = plt.subplots(rows * len(quantities), columns, figsize=(options.width / 25.4, ((0.8 if not small else 1.05) * size * rows * len(quantities) + (14 if one else 8 * rows)) / 25.4),
                                 constrained_layout=True, squeeze=False)
     for axis in axes.ravel():
@@ -73,14 +73,14 @@ def maps(results, options):
             image.set_clim(0, end)
         colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
     what = ("Area fraction and pressure" if one else "Pressure") + ("; dashed: smooth sphere under the same force" if any(r.has_sphere() for r, _, _ in panels) else "")
-    figure.canvas.draw()  # the layout takes the width of tick labels from the drawing before
+    figure.canvas.draw()  # the layout uses the width of tick labels of the previous drawing
     figure.suptitle("\n".join(part for line in (results[0].heading(what) if one else what).split("\n") if line for part in _wrapped(line, int(options.width / 1.65))))
     return figure
 
 
 def _map(axis, result, level, name):
     field, x, y, side = result.window(name, level), result["x"], result["y"], float(result["map_cell_side"])
-    # A hundredth of the cells may be above the end of the scale: they would hide all others.
+    # One per cent of the cells may be above the end of the scale, because they would hide the variation of all others.
     end = np.percentile(field[field > 0], 99) if (field > 0).any() else 1.0
     image = axis.imshow(np.ma.masked_where(~(field > 0), field), extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2], cmap=COLOURS, vmin=0, vmax=end,
                         interpolation="nearest")

@@ -1,5 +1,5 @@
-"""Finds a Python that has the modules a script needs. Where the python3 of PATH is one of pyenv, conda or a virtual environment, it often
-lacks them while the system's own has them."""
+"""Finds a Python that has the modules of a script. A python3 of pyenv, conda or a virtual environment often lacks them, while that of the
+system has them."""
 
 import importlib.util
 import os
@@ -11,8 +11,8 @@ _DEBIAN = {"numpy": "python3-numpy", "scipy": "python3-scipy", "netCDF4": "pytho
 
 
 def needs(*modules):
-    """Returns if this Python has the modules. Otherwise runs the script again with another Python of this machine that has them, and says
-    so; ends with a message that names what to install if there is none. To be called first in a script, before it imports them."""
+    """Returns if this Python has the modules. Otherwise runs the script again with another Python of this machine that has them, and reports it;
+    ends with a message that lists the packages to install if there is none. To be called first in a script, before it imports them."""
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
     if not missing:
         return

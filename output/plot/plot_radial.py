@@ -13,7 +13,7 @@ def radial(results, options):
     panels = shown(results, options)
     if not panels:
         return None
-    if len({name for _, _, name in panels}) < len(panels):  # levels of one separation, as where it is held
+    if len({name for _, _, name in panels}) < len(panels):  # levels of equal separation
         panels = [(r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}") for r, level, name in panels]
     page = Page(options, 2)
     many = len(panels) > FEW
@@ -38,7 +38,7 @@ def radial(results, options):
         page.axes[1].set_ylim(max(positive.min(), positive.max() * 1e-4) / 2, positive.max() * 2)
     for axis in page.axes:
         axis.set_xlim(0, min(1.05 * end, results[0]["radius"][-1]))
-        axis.dataLim.update_from_data_x(axis.get_xlim(), ignore=False)  # one unit for both
+        axis.dataLim.update_from_data_x(axis.get_xlim(), ignore=False)  # common unit
         label(axis, "x", "distance from the tip $r$", results[0].dimension("radius"))
     page.axes[0].set_ylim(bottom=0)
     for axis in page.axes:

@@ -1,4 +1,4 @@
-"""Result files for pictures: variables by name with absent values as NaN, what a case says, and what tells several results apart."""
+"""Result files for pictures: variables by name with missing values as NaN, keys of the case, and the keys that distinguish several results."""
 
 import os
 import re
@@ -9,9 +9,9 @@ import numpy as np
 
 from plot_style import FEW, STYLES, amount, plt, si
 
-# Keys that do not change what is computed.
+# Keys without effect on the numbers.
 _NO_MATTER = ("run%title", "run%threads", "output%")
-# How a key is written in a legend, and the unit of its values: "length", "force", "modulus" or none.
+# Symbol of a key in a legend, and the unit of its values: "length", "force", "modulus" or none.
 _SYMBOLS = {
     "surface%sigma": (r"$\sigma$", "length"), "surface%hurst": ("$H$", ""), "surface%L": ("$L$", "length"), "surface%n": ("$n$", ""),
     "surface%L_lambda_l": (r"$L/\lambda_l$", ""), "surface%L_lambda_s": (r"$L/\lambda_s$", ""), "solids%R": ("$R$", "length"), "solids%E": ("$E$", "modulus"),
@@ -22,7 +22,7 @@ _SYMBOLS = {
 
 class Result:
     """One result file. result[name] is a variable as an array of doubles; name in result; result.mean(name) over realizations. With in_si
-    everything is in SI units, whatever the units of the file. OSError if there is no such file."""
+    everything is in SI units, for any units of the file. OSError if there is no such file."""
 
     def __init__(self, path, in_si=False):
         self.path, self.in_si = path, in_si
@@ -45,11 +45,11 @@ class Result:
         return si(self.unit(name))[0] if self.in_si else 1.0
 
     def window(self, name, *slices):
-        """A part of a variable, without reading the rest."""
+        """A part of a variable, read alone."""
         return np.ma.filled(np.ma.asarray(self.file.variables[name][slices]).astype(float), np.nan) * self.factor(name)
 
     def mean(self, name):
-        """A variable over steps: its mean over realizations where it has them, those without a value left out."""
+        """A variable over steps: its mean over the realizations that have a value, if it depends on realizations."""
         values = self[name]
         if "realization" not in self.file.variables[name].dimensions:
             return values
@@ -58,7 +58,7 @@ class Result:
         return np.where(there, values, 0).sum(axis=axis) / np.where(there.any(axis=axis), there.sum(axis=axis), np.nan)
 
     def worst(self, name):
-        """The largest of a variable over realizations, over steps."""
+        """The maximum of a variable over realizations, for each step."""
         return np.nan_to_num(self[name].reshape(-1, self.steps)).max(axis=0)
 
     def unit(self, name):
@@ -71,12 +71,12 @@ class Result:
         return si(self.unit(name))[1]
 
     def attribute(self, name, attribute):
-        """One value a pdf level; absent values as NaN."""
+        """One value for each pdf level; missing values as NaN."""
         values = np.atleast_1d(np.asarray(getattr(self.file.variables[name], attribute), dtype=float))
         return np.where(values > 9e36, np.nan, values)
 
     def number(self, key):
-        """A key of the case as a number, in the units of the case; of several values the last (of R: the sphere's)."""
+        """A key of the case as a number, in the units of the case; of several values the last (for R, that of the sphere)."""
         return float(self.case[key].split(",")[-1])
 
     def level(self, z):
@@ -85,18 +85,18 @@ class Result:
         return int(np.argmin(distance)) if distance.min() < 0.02 else None
 
     def depth(self):
-        """The separation of each level for an axis, (values, label, dimension): in sigma where the file knows it."""
+        """The separation of each level for an axis, (values, label, dimension): in sigma if the file has it."""
         sigma = self.mean("separation_sigma") if "separation_sigma" in self else np.full(self.steps, np.nan)
         if np.isfinite(sigma).all():
             return sigma, r"separation $Z_0/\sigma$", ""
         return self.mean("separation"), "separation $Z_0$", self.dimension("separation")
 
     def control(self):
-        """'separation', 'force' or 'pressure': what the levels are given as."""
+        """'separation', 'force' or 'pressure': the controlled quantity of the levels."""
         return self.case.get("indentation%control", "separation").strip("'")
 
     def level_name(self, step):
-        """Name of a level: the separation, force or pressure that the case sets; the time, where that is held constant."""
+        """Name of a level: the separation, force or pressure of the case, or the time if that is constant."""
         driven = {"force": "force", "pressure": "pressure"}.get(self.control(), "separation")
         if "time" in self and driven in self and np.ptp(self.mean(driven)) <= 1e-9 * np.abs(self.mean(driven)).max():
             return f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
@@ -108,15 +108,15 @@ class Result:
         return f"{text.partition(' ')[2]} = {amount(values[step], dimension)}"
 
     def level_status(self):
-        """The worst status of each level over realizations, 0 where nothing touches, and the names of the numbers."""
+        """The worst status of each level over realizations, 0 without contact, and the names of the numbers."""
         if "status" not in self:
             return np.zeros(self.steps, int), ["converged"]
-        grave = np.array([0, 3, 1, 2, 4])  # out of validity says more than overlapping and not unique
+        grave = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
         status = np.nan_to_num(self["status"].reshape(-1, self.steps)).astype(int)
         return status[grave[status].argmax(axis=0), np.arange(self.steps)], [name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()]
 
     def warning(self, step):
-        """What is to be said about a level: ' (overlapping)'; nothing for a converged one."""
+        """Text of the status of a level, ' (overlapping)'; empty for a converged one."""
         status, meanings = self.level_status()
         return f" ({meanings[status[step]]})" if status[step] > 0 else ""
 
@@ -125,20 +125,20 @@ class Result:
         return np.flatnonzero(np.nan_to_num(self.mean("force")) > 0) if "force" in self else np.array([], int)
 
     def load_varies(self):
-        """Whether there is a curve over the load: not where it is held, as for creep."""
+        """True if there is a curve over the load, which is not constant as for creep."""
         force = self.mean("force")[self.loaded()] if "force" in self else np.zeros(0)
         return force.size < 2 or bool(np.ptp(force) > 1e-3 * force.max())
 
     def chosen(self, count, step):
-        """The level asked for, or `count` levels with contact, evenly spread and ending with the last; none where nothing touches."""
+        """The requested level, or `count` levels with contact, evenly spaced and ending with the last; none without contact."""
         loaded = self.loaded()
         if step is not None:
             return [step - 1] if step - 1 in loaded else []
         return sorted({int(s) for s in loaded[np.linspace(0, loaded.size - 1, count + 1).round().astype(int)[1:]]}) if loaded.size else []
 
     def branches(self):
-        """The levels with contact as stretches in which the bodies only approach or only part, [(levels, parting)]. Where the answer does not
-        depend on the way to it, the levels in order of their separation are one stretch."""
+        """The levels with contact as branches of loading or unloading, [(levels, unloading)]. If levels do not depend on the levels before,
+        the levels in order of their separation are one branch."""
         at, z = self.loaded(), self.mean("separation") if "separation" in self else self.depth()[0]
         remembers = self.case.get("solids%hardness", "Infinity") != "Infinity" or ("jumps" in self and self.worst("jumps").any()) or ("time" in self and "energy_lost" in self)
         if not remembers or at.size < 2:
@@ -152,7 +152,7 @@ class Result:
         return f"{what} ({many})\n{self.title}"
 
     def has_sphere(self):
-        """False for a flat on a flat: nothing of Hertz then."""
+        """False for two flats, for which there is no Hertz solution."""
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
 
     def by_elements(self):
@@ -186,14 +186,14 @@ def key_label(key, result):
 
 
 def value_text(value):
-    """One value of a key, or several, short: 'Infinity, 2.5' as 'inf, 2.5'; of a rigid or flat body the other one only."""
+    """Short text of one or several values of a key: 'Infinity, 2.5' as 'inf, 2.5'; for a rigid or flat body only the other value."""
     parts = [part.strip() for part in value.split(",")]
     finite = [re.sub(r"\.0$", "", part) for part in parts if part != "Infinity"]
     return ", ".join(finite or ["inf"]).strip("'")
 
 
 def names(results):
-    """What each result is called in a legend: what varies between them; their titles or file names where nothing does."""
+    """The name of each result in a legend: keys that vary between results, or their titles or file names if no key does."""
     if len(results) < 2:
         return [r.title or os.path.basename(r.path) for r in results]
     keys = differing_keys(results)
@@ -210,8 +210,8 @@ def names(results):
 
 
 class Looks:
-    """Line and colour of each of several results, and its line in the legend: up to six by themselves. More are told apart by a colour scale
-    along the key that has most values, and by their lines along a second key."""
+    """Line and colour of each of several results, and its entry in the legend: individual for up to six. More results are distinguished by a
+    colour scale along the key with the most values, and by line styles along a second key."""
 
     def __init__(self, results):
         self.names = names(results)
@@ -245,7 +245,7 @@ def _in_order(text):
 
 
 def members_of_manifest(path):
-    """The results of a study that its manifest names; None for another file. Members that are not there yet are told and left out."""
+    """The results of a study from its manifest; None for another file. Missing members are reported and omitted."""
     try:
         with netCDF4.Dataset(path) as file:
             if "member" not in file.dimensions or "file" not in file.variables:

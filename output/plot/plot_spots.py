@@ -10,8 +10,8 @@ ELASTIC, YIELDING = "#d62728", "#f2b400"
 
 
 def heights(result, axis, window=None, bright=0.0, most=900):
-    """Draws the heights in a window, at most `most` points each way; returns the image, or None where the file holds none. bright: how much of
-    the darker end of the colours is left to other things."""
+    """Draws the heights in a window, at most `most` points in each direction; returns the image, or None if the file has no heights. bright:
+    share of the darker end of the colours that is not used."""
     if "height" not in result:
         return None
     hx, hy = (result[next(n for n in found if n in result)] for found in (("height_x", "x"), ("height_y", "y")))
@@ -27,7 +27,7 @@ def heights(result, axis, window=None, bright=0.0, most=900):
 
 
 def spots_of(result, step):
-    """x, y, radius, force and whether they yield of the spots of a level; None where the file keeps none."""
+    """x, y, radius, force and yielding of the spots of a level; None if the file has no spots."""
     if "contact_start" not in result or "contact_radius" not in result or not result["contact_count"][step] > 0:
         return None
     first, count = int(result["contact_start"][step]) - 1, int(result["contact_count"][step])
@@ -44,8 +44,8 @@ def spots_of(result, step):
 
 
 def pixels_of(result, step):
-    """(extent, share of the area in contact) on the points of a level solved by elements, from the fields of the file, or else in the cells of
-    the map; None for asperities, and where the file holds neither."""
+    """(extent, area fraction) on the points of a level solved by elements, from the fields of the file, or else in the cells of
+    the map; None for asperities, and if the file has neither."""
     if not result.by_elements():
         return None
     at = np.flatnonzero(result["field_step"].astype(int) == step + 1) if "field_pressure" in result else np.array([], int)
@@ -60,7 +60,7 @@ def pixels_of(result, step):
 
 
 def draw_spots(axis, spots, least=0.0, edge=0.0):
-    """Spots as discs, elastic and yielding ones in colours of their own; least: the smallest radius drawn."""
+    """Spots as discs, elastic and yielding ones in different colours; least: the smallest radius drawn."""
     x, y, a, _, yields = spots
     for some, colour, name in ((~yields, ELASTIC, "spots"), (yields, YIELDING, "yielding spots")):
         if some.any():  # matplotlib 3.6 draws an empty EllipseCollection as one big ellipse
@@ -70,13 +70,13 @@ def draw_spots(axis, spots, least=0.0, edge=0.0):
 
 
 def spots(results, options):
-    """The contact spots of a level over the heights: all of them, and those around the largest, true to size."""
+    """The contact spots of a level over the heights: all of them, and those around the largest at true size."""
     result = results[0]
     if len(results) > 1 or "contact_count" not in result or not (result["contact_count"] > 0).any():
         return None
     touching = np.flatnonzero(result["contact_count"] > 0)
     depth = -result.mean("separation")[touching] if "separation" in result else touching
-    step = options.step - 1 if options.step is not None else int(touching[np.flatnonzero(depth >= depth.max())[-1]])  # pressed in most
+    step = options.step - 1 if options.step is not None else int(touching[np.flatnonzero(depth >= depth.max())[-1]])  # deepest penetration
     found = spots_of(result, step)
     if found is None:
         return None
@@ -87,10 +87,10 @@ def spots(results, options):
     page = Page(options, 2, aspect=0.86)
     pixels = pixels_of(result, step)
     near = half / 4 if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
-    rim = bool(pixels) and a[big] > near  # the inside of the largest would be one colour
+    rim = bool(pixels) and a[big] > near  # the inside of the largest would have one colour
     image = None
     for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big] + rim * a[big], y[big]])), (half, near)):
-        if "x" in result:  # stay on the surface where it is large enough
+        if "x" in result:  # stay on the surface if it is large enough
             side = float(result["map_cell_side"]) / 2
             ends = np.array([[result["x"][0] - side, result["x"][-1] + side], [result["y"][0] - side, result["y"][-1] + side]])
             centre = np.where(ends[:, 1] - ends[:, 0] > 2 * h, np.clip(centre, ends[:, 0] + h, ends[:, 1] - h), centre)
@@ -113,7 +113,7 @@ def spots(results, options):
         drawn.set_clim(image.get_clim())
         low, high = image.get_array().min(), image.get_array().max()
         bar = colour_bar(page.figure, image, page.axes[1], "height $z$", result.dimension("height"), shrink=0.85, aspect=25)
-        bar.ax.set_ylim(low, high)  # the darker half of the greys is left to the spots
+        bar.ax.set_ylim(low, high)  # the darker half of the greys is for the spots
     if result.has_sphere() and max(abs(float(result["tip_x"]) - sum(page.axes[0].get_xlim()) / 2), abs(float(result["tip_y"]) - sum(page.axes[0].get_ylim()) / 2)) < half:
         page.axes[0].plot(float(result["tip_x"]), float(result["tip_y"]), "kx", ms=6, label="tip", ls="none", zorder=4)
     if pixels or (~yields).any():

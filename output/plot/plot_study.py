@@ -1,4 +1,4 @@
-"""A study as a whole: what its members give at one level over one or two keys."""
+"""Results of the members of a study at one level against one or two keys."""
 
 import numpy as np
 
@@ -10,8 +10,8 @@ QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_
 
 
 def common_level(results, step):
-    """The level of each result that all have in common, as indices, and what it is called: the one asked for, or the last that names the same
-    separation, force or pressure in all of them. None where there is no such level."""
+    """The level common to all results, as indices, and its name: the requested one, or the last with the same
+    separation, force or pressure in all of them. None if there is no such level."""
     named = [{r.level_name(k): k for k in r.loaded()} for r in results]
     if step is not None:
         at = [step - 1] * len(results)
@@ -28,8 +28,8 @@ def common_level(results, step):
 
 
 def study(results, options):
-    """Area, contacts and force, where the force is given separation, at one level over the keys that vary: a curve over one key of numbers, maps
-    over two."""
+    """Area, contacts and force (separation under force control) at one level against the keys that vary: a curve for one key of numbers, maps
+    for two."""
     results = [r for r in results if "force" in r and r.loaded().size]
     keys = differing_keys(results) if len(results) > 2 else []
     texts = [[r.case.get(key, "") for key in keys] for r in results]

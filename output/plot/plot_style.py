@@ -1,32 +1,32 @@
-"""How pictures look: colours, units that fit, marks of levels, legends beside the data. Everything is drawn in SI units; axes and colour bars
-show it in the unit in which its numbers are short (nm, um, mm; mN, N, kN; MPa, GPa)."""
+"""Style of the pictures: colours, suitable units, marks of levels, legends beside the data. Data are drawn in SI units; axes and colour bars
+use the unit with short numbers (nm, um, mm; mN, N, kN; MPa, GPa)."""
 
 import re
 
 import matplotlib
 
-matplotlib.use("Agg")  # works without a screen
+matplotlib.use("Agg")  # needs no display
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, MaxNLocator
 
-# Curves differ by line and marker as well as by colour: the pictures are readable in grey.
+# Curves differ by line and marker as well as by colour, so that pictures are readable in grey.
 STYLES = [("o", "-", "#0b3c5d"), ("s", "--", "#c1440e"), ("^", "-.", "#4b8b3b"), ("D", ":", "#6a4c93"), ("v", "-", "#777777"), ("P", "--", "#b08d00"),
           ("X", "-.", "#000000"), ("<", ":", "#1f9e9e"), (">", "-", "#a03060")]
-FEW = 6  # curves that are told apart by colours of their own
+FEW = 6  # maximum number of curves with individual colours
 GREY = "0.4"  # theories and laws drawn beside the results
-# The mark of a level by its status, from 1 on: the larger is the more serious.
+# The mark of a level by its status, from 1 on; larger ones are more serious.
 MARKS = ["", "o", "s", "^", "x"]
 WIDTHS = {"single": 85.0, "onehalf": 130.0, "double": 175.0}  # columns of journals [mm]
-# What is not touched is white.
+# Areas without contact are white.
 COLOURS = matplotlib.colormaps["viridis_r"].copy()
 COLOURS.set_bad("w")
 
 plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "legend.fontsize": 7.5, "image.origin": "lower", "axes.formatter.useoffset": False, "svg.fonttype": "none",
                      "pdf.fonttype": 42, "lines.linewidth": 1.3, "axes.linewidth": 0.7, "figure.titlesize": 9})
 
-# Units that pictures use, from small to large: (size in SI, text). Keys are what _reduced() makes of a unit.
+# Units of pictures, from small to large: (size in SI, text). Keys are results of _reduced().
 _SHOWN = {
     "m": [(1e-9, "nm"), (1e-6, "µm"), (1e-3, "mm"), (1.0, "m")],
     "m2": [(1e-18, "nm²"), (1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")],
@@ -38,7 +38,7 @@ _SHOWN = {
     "N m-1": [(1.0, "N/m"), (1e3, "N/mm"), (1e6, "N/µm"), (1e9, "kN/µm")],
     "N m-2": [(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")],
     "N-1 m2": [(1e-9, "1/GPa"), (1e-6, "1/MPa"), (1e-3, "1/kPa"), (1.0, "1/Pa")],
-    # A case does not say whether its resistivities are electrical or thermal.
+    # A case does not specify electrical or thermal resistivities.
     "ohm": [(size, f"{p}Ω; thermal: {p}K/W") for size, p in ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))],
 }
 _PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
@@ -46,7 +46,7 @@ _BASES = {prefix + base: (size, base) for base in ("m", "N", "ohm", "s") for pre
 
 
 def si(text):
-    """(factor to SI, dimension) of a unit as result files write it: 'N mm-2' is (1e6, 'N m-2'). A unit that is not known here is its own
+    """(factor to SI, dimension) of a unit of result files: 'N mm-2' is (1e6, 'N m-2'). An unknown unit is its own
     dimension, with factor 1."""
     factor, powers = 1.0, {}
     for word in text.split():
@@ -63,7 +63,7 @@ def si(text):
 
 
 def fitting(dimension, values):
-    """(size in SI, text) of the unit in which the largest of the values is a short number."""
+    """(size in SI, text) of the unit with a short number for the largest value."""
     top = np.nanmax(np.abs(np.where(np.isfinite(values), values, 0.0)), initial=0.0)
     known = _SHOWN.get(dimension)
     if not known:
@@ -79,18 +79,18 @@ def middle(dimension, ends):
 
 
 def amount(value, dimension, digits=3):
-    """'4.53 N': a number with the unit that fits."""
+    """'4.53 N': a number with a suitable unit."""
     size, text = fitting(dimension, np.array([value]))
     return f"{short(value / size, digits)} {text}".strip()
 
 
 def short(value, digits=3):
-    """A number of so many digits, without a power of ten up to a million: 49600, not 4.96e+04."""
+    """A number with the given number of digits, without a power of ten up to a million: 49600, not 4.96e+04."""
     return f"{float(f'{value:.{digits}g}'):.6g}"
 
 
 class _LogTicks(LogFormatterSciNotation):
-    """Plain numbers near one, powers of ten elsewhere; which ticks have a label at all is matplotlib's choice."""
+    """Plain numbers near one, powers of ten elsewhere; matplotlib selects the ticks with labels."""
 
     size = 1.0
 
@@ -106,10 +106,10 @@ class _LogTicks(LogFormatterSciNotation):
 
 
 def label(axis, which, text, dimension=""):
-    """Writes the label of an axis ('x' or 'y') and its numbers in the unit that fits what the axis shows."""
+    """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range."""
     side = getattr(axis, which + "axis")
     lo, hi = sorted(getattr(axis, f"get_{which}lim")())
-    drawn = getattr(axis.dataLim, "interval" + which)  # the axis goes a little beyond it
+    drawn = getattr(axis.dataLim, "interval" + which)  # the axis extends a little beyond it
     within = np.array([max(lo, drawn.min()), min(hi, drawn.max())]) if np.isfinite(drawn).all() else np.array([lo, hi])
     size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
@@ -123,7 +123,7 @@ def label(axis, which, text, dimension=""):
 
 
 def _number(value, top):
-    """A tick of a linear axis: a plain number, powers of ten only where it would be long."""
+    """A tick of a linear axis: a plain number, or a power of ten if that would be long."""
     if abs(value) < 1e-9 * abs(top):
         return "0"
     if 1e-3 <= abs(top) < 1e5:
@@ -133,7 +133,7 @@ def _number(value, top):
 
 
 def colour_bar(figure, image, axes, text, dimension="", **how):
-    """A colour bar in the unit that fits, right of the axes."""
+    """A colour bar in a suitable unit, right of the axes."""
     low, high = image.get_clim()
     size, unit = fitting(dimension, np.array([low, high]))
     bar = figure.colorbar(image, ax=axes, label=text + (f" [{unit}]" if unit else ""), format=FuncFormatter(lambda v, _: _number(v / size, high / size)), ticks=MaxNLocator(5), **how)
@@ -142,8 +142,8 @@ def colour_bar(figure, image, axes, text, dimension="", **how):
 
 
 class Page:
-    """A figure of `count` panels of one height with a title and one legend below all of them, where it covers no data. With one panel the page
-    is not wider than 130 mm. aspect: height over width of a panel; columns: how many side by side."""
+    """A figure of `count` panels of one height with a title and one legend below all of them, outside the data. With one panel the page
+    is at most 130 mm wide. aspect: height over width of a panel; columns: number of columns."""
 
     def __init__(self, options, count=1, aspect=0.72, columns=None, least=52.0):
         self.width = min(options.width, 130.0) if count == 1 else options.width
@@ -161,7 +161,7 @@ class Page:
         self.entries.setdefault(text, Line2D([], [], **looks))
 
     def status(self, axis, x, y, status, meanings, colour):
-        """Marks the levels that are flagged, some 15 of a kind at most, but all of those that did not converge."""
+        """Marks levels by status, at most about 15 of a kind, but all that did not converge."""
         for value in range(1, len(MARKS)):
             at = np.flatnonzero((np.asarray(status) == value) & np.isfinite(x) & np.isfinite(y))
             if at.size == 0:
@@ -184,7 +184,7 @@ class Page:
         bar.ax.minorticks_off()
 
     def finish(self, title):
-        """Writes title and legend and gives the figure the height that they need."""
+        """Writes title and legend and sets the height of the figure accordingly."""
         for axis in self.axes:
             for handle, text in zip(*axis.get_legend_handles_labels()):
                 self.entries.setdefault(text, handle)
@@ -204,7 +204,7 @@ class Page:
 
 
 def _wrapped(line, columns):
-    """Parts of a line; what stands between dollars counts by what is seen of it."""
+    """Parts of a line; text between dollars counts by its visible length."""
     parts, used = [""], 0
     for word in line.split(" "):
         seen = len(re.sub(r"\\[a-z]+|[${}_^]", "", word)) + 1

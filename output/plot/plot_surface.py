@@ -9,8 +9,8 @@ from plot_style import Page, STYLES, amount, colour_bar, label
 
 
 def surface(results, options):
-    """Heights, spectrum and distribution of heights of the first result that holds any of them; the spectra of further results beside its own,
-    and the rms slopes of all in the legend."""
+    """Heights, spectrum and distribution of heights of the first result that has any of them; the spectra of further results for comparison, and all rms
+    slopes in the legend."""
     first = next((r for r in results if "height" in r or "psd" in r), None)
     if first is None:
         return None
@@ -49,7 +49,7 @@ def _spectrum(page, axis, _, results):
         good = (q > 0) & (psd > 0)
         axis.plot(q[good], psd[good], marker, ms=2, mew=0.5, mfc="none", color=colour)
         page.entry("measured" if len(results) == 1 else name, color=colour, marker=marker, ls="none", mfc="none", ms=3)
-        lows, tops = lows + [psd[psd > 1e-12 * psd.max()].min()], tops + [psd.max()]  # what is smaller is rounding
+        lows, tops = lows + [psd[psd > 1e-12 * psd.max()].min()], tops + [psd.max()]  # smaller values are rounding errors
         if "psd_fit" in result:
             fit, about = np.ravel(result["psd_fit"])[: q.size], result.file.variables["psd_fit"]
             axis.plot(q[fit > 0], fit[fit > 0], line, color=STYLES[1][2] if len(results) == 1 else colour, gid="fit", zorder=3)

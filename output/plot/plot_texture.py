@@ -5,11 +5,11 @@ from matplotlib.colors import LogNorm
 
 from plot_style import GREY, Page, STYLES, amount, colour_bar, label
 
-FALLEN = 0.2  # where the autocorrelation's lengths Sal and Str are taken
+FALLEN = 0.2  # level of the autocorrelation for Sal and Str
 
 
 def texture(results, options):
-    """Of the first result that holds a measured map."""
+    """The texture of the first result with a measured map."""
     first = next((r for r in results if "psd_plane" in r), None)
     if first is None:
         return None
@@ -26,7 +26,7 @@ def _spectrum(page, axis, result):
     edges = np.sqrt(wavenumber[1:] * wavenumber[:-1])
     edges = np.concatenate([[wavenumber[0] ** 2 / edges[0]], edges, [wavenumber[-1] ** 2 / edges[-1]]])
     top = psd.max()
-    # Six decades show where the power lies; what is below is of the colour of the least.
+    # Six decades contain nearly all the power; smaller values have the lowest colour.
     image = axis.pcolormesh(np.append(angle, angle[-1] + step) - step / 2, edges, np.maximum(psd, 1e-6 * top), norm=LogNorm(1e-6 * top, top), cmap="viridis", rasterized=True)
     bar = page.figure.colorbar(image, ax=axis, fraction=0.06, pad=0.03, aspect=20, label=r"$\Phi$ over its largest")
     bar.set_ticks([top, 1e-2 * top, 1e-4 * top, 1e-6 * top], labels=["1", "$10^{-2}$", "$10^{-4}$", "$10^{-6}$"])
@@ -66,7 +66,7 @@ def _ratio(page, axis, result):
     axis.plot(share, height, color=STYLES[0][2])
     page.entry("material ratio (Abbott and Firestone)", color=STYLES[0][2])
     sk, spk, svk = (float(result[name]) for name in ("sk", "spk", "svk"))
-    # The core reaches Sk about where it lies; its upper end is where the peaks begin.
+    # The core has the height Sk; the peaks begin at its upper end.
     order = np.argsort(share)
     curve = np.interp(np.linspace(0, 100, 1001), share[order], height[order])
     first = int(np.argmin(curve[:601] - curve[400:]))

@@ -1,4 +1,4 @@
-"""Bodies that relax: what the levels are against time."""
+"""Relaxing bodies: levels against time."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from plot_style import label
 
 
 def time(results, options):
-    """Force and contact area (of two flats nominal pressure and area fraction) against the time since the first level, which is left out, on a
-    logarithmic axis; where the force is given, the separation instead."""
+    """Force and contact area (of two flats nominal pressure and area fraction) against the time since the first level, which is omitted, on a
+    logarithmic axis; under force control the separation instead of the force."""
     results = [r for r in results if "time" in r and "energy_lost" in r and r.steps > 2]
     if not results:
         return None

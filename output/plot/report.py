@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""One HTML page about a result of rsc, with its pictures inside: to be read, sent and kept without anything else.
+"""A self-contained HTML page on a result of rsc, with its pictures.
 
     python3 output/plot/report.py output/first.nc                        output/first.html
     python3 output/plot/report.py output/study_manifest.nc -o study.html    a study, or several results
 
-It holds the levels, what they are worth, bodies and surface, the pictures of plot.py, the case, and how to cite. Needs what plot.py needs.
+It contains the levels with status and errors, bodies and surface, the pictures of plot.py, the case, and the citation. Needs the packages
+of plot.py.
 """
 
 import argparse
@@ -29,13 +30,13 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import table  # noqa: E402
 
 STATUS = {
-    "converged": "residual below the tolerance; a minimum of the energy, the only one nearby",
-    "out_of_validity": "N may be more than 10 % off (elements: more than 1 %), or contacts are cut by the border of the surface, or lie on points that were missing",
-    "overlapping": "spots nearer than the sum of their radii: asperities that would merge are counted as two",
-    "not_unique": "other solutions may exist; the one given is reached by a fixed rule",
-    "not_converged": "no answer: do not use these",
+    "converged": "residual below the tolerance, at a locally unique minimum of the energy",
+    "out_of_validity": "N may be more than 10 % off (elements: more than 1 %), or contacts are at the border of the surface or on filled points of the map",
+    "overlapping": "spots closer than the sum of their radii: spots that would merge count as two",
+    "not_unique": "other solutions may exist; the solution is selected by a fixed rule",
+    "not_converged": "not converged: do not use",
 }
-# Variables that are 0 where there is nothing to say.
+# Variables that are 0 if there is nothing to report.
 REMARKS = ["edge_contacts", "overlapping_pairs", "large_contacts", "beyond_law", "crowded_cells", "contacts_outside_map", "plastic_contacts", "extreme_area_fraction", "filled_share", "wide_contacts",
            "jumps"]
 SURFACE = ["sigma", "rms_slope", "m2", "m4", "nayak_theory", "density_theory", "summits", "mean_kappa_g", "skewness", "kurtosis", "sq", "ssk", "sku", "sdq", "isotropy_ratio", "points_per_wave",
@@ -56,7 +57,7 @@ def cells(header, lines, kind=""):
 
 
 def shortened(text):
-    """A number of the table with four digits; words as they are."""
+    """A number of the table with four digits; texts unchanged."""
     try:
         return short(float(text), 4)
     except ValueError:
@@ -76,14 +77,14 @@ def trust(results):
         name = meanings[status[step]]
         counts[name] = counts.get(name, 0) + 1
     if not counts:
-        return "warn", ["Nothing touches at any level."]
+        return "warn", ["No level has contact."]
     said = [f"{counts[name]} of {len(levels)} levels {name.replace('_', ' ')}: {STATUS[name]}." for name in STATUS if name in counts]
     worst = {"not_converged": "bad", "out_of_validity": "warn"}
     kind = next((worst[name] for name in worst if name in counts), "")
     for name, what in (("force_error_expected", "force"), ("area_error_expected", "contact area")):
         known = [r.worst(name)[r.loaded()] for r in results if name in r and r.loaded().size]
         if known and np.isfinite(np.concatenate(known)).any():
-            said.append(f"The {what} may be off by {percent(np.concatenate(known))}, from level to level: bounds that hold in nine of ten cases.")
+            said.append(f"The error of the {what} is at most {percent(np.concatenate(known))}, depending on the level: bounds valid in nine of ten cases.")
     for r in results:
         if "force_error" in r or "area_error" in r:
             said += [f"Compared with elements on the same surface, level {int(step)}: " + ", ".join(f"{what} {100 * error:+.2g} %" for what, error in errors if np.isfinite(error)) + "."
@@ -115,7 +116,7 @@ def known(result, names):
 
 
 def levels_of(results, keys):
-    """Header and rows: some levels of one result, the last loaded one of each of several."""
+    """Header and rows: some levels of one result, or the last loaded level of each of several results."""
     if len(results) == 1:
         header, lines = table.rows([results[0].path])
         at = [k for k in np.unique(np.linspace(0, len(lines) - 1, min(len(lines), MOST_LEVELS)).round().astype(int))]
@@ -131,7 +132,7 @@ def levels_of(results, keys):
 
 
 def pictures(results, width):
-    """[(name, what it shows, PNG as base64)]"""
+    """[(name, description, PNG as base64)]"""
     drawn, options = [], plot.Options(width=width, say=lambda text: None)
     for name, draw in plot.PICTURES.items():
         figure = draw(results, options)
@@ -164,7 +165,7 @@ def page(results):
     solids = [(f"solids%{name}", "", first.case[f"solids%{name}"]) for name in SOLIDS if first.case.get(f"solids%{name}", "") not in ("", "0.0", "0.0, 0.0") and f"solids%{name}" not in keys]
     parts += [f"<h2>Bodies</h2><p>Body 1 is rough, body 2 presses: {html.escape(getattr(first.file, 'indenter', ''))}. Keys are in {units}.</p>", cells([], solids + known(first, BODIES), "text")]
     parts += ["<h2>Surface</h2>" + ("<p>Of the first result.</p>" if len(results) > 1 else ""), cells([], known(first, SURFACE), "text")]
-    parts += ["<h2>Case</h2><p>As a namelist; rsc makes the result of it again" + (" (that of the first result)" if len(results) > 1 else "") + f".</p><details><summary>every key</summary><pre>{html.escape(first.file.case)}</pre></details>"]
+    parts += ["<h2>Case</h2><p>The namelist that reproduces the result" + (" (that of the first result)" if len(results) > 1 else "") + f".</p><details><summary>every key</summary><pre>{html.escape(first.file.case)}</pre></details>"]
     files = "\n".join(r.path + "  " + getattr(r.file, "history", "").split("\n")[0] for r in results[:20]) + ("\n..." if len(results) > 20 else "")
     parts += [f"<h2>Files and version</h2><pre>{html.escape(files)}\n{html.escape(first.file.source)}</pre>"]
     parts += [f"<h2>How to cite</h2><p>{html.escape(first.file.source.split(',')[0])}: rough spheres in contact (CITATION.cff), and the paper whose model it solves:<br>{html.escape(getattr(first.file, 'references', ''))}</p>"]
@@ -172,7 +173,7 @@ def page(results):
 
 
 def main(words=None):
-    parser = argparse.ArgumentParser(description="One HTML page about results of rsc, pictures inside.")
+    parser = argparse.ArgumentParser(description="One HTML page on results of rsc, including pictures.")
     parser.add_argument("result", nargs="+", help="result files (NetCDF), or the manifest of a study")
     parser.add_argument("-o", "--output", metavar="FILE", help="the page (default: the result's name with .html)")
     arguments = parser.parse_args(words)

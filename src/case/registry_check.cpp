@@ -371,10 +371,11 @@ private:
         if (!(i.control == Control::pressure && relative) || by_elements(c_)) return;
         const double most = i.levels.empty() ? std::max(i.start, i.stop) : *std::max_element(i.levels.begin(), i.levels.end());
         if (most >= kClosingPressure)
-            complain({i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
-                     "a pressure of " + namelist::from_real(most) +
-                         " E* sqrt(2 m2): above 1 less than 5 % of the area is gap, too little for the asperity model; use solver%model = "
-                         "'elements', which is valid up to full contact");
+            complain(
+                {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
+                "a pressure of " + namelist::from_real(most) +
+                    " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little for the asperity model; use solver%model = "
+                    "'elements', which is valid up to full contact");
     }
 
     void check_sizes() {
