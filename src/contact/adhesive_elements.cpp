@@ -108,10 +108,10 @@ void AdhesiveElements::Impl::place() {
 void AdhesiveElements::Impl::gather(double Z) {
     reach.clear();
     for (std::size_t k = 0; k < clearance.size(); ++k) {
-        if (flats || clearance[k] > Z - z0 - margin)
+        if (flats || on[k] || clearance[k] > Z - z0 - margin)
             reach.push_back(static_cast<std::int32_t>(k));
         else
-            on[k] = 0, q[k] = 0;
+            q[k] = 0;
     }
     std::vector<Pixel> pixels;
     for (const std::int32_t k : reach) pixels.push_back(at_point(k));
