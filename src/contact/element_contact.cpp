@@ -1,5 +1,6 @@
 #include "contact/element_contact.hpp"
 
+#include "contact/adhesive_elements.hpp"
 #include "contact/load_memory.hpp"
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"
@@ -374,6 +375,7 @@ std::optional<double> ElementContact::likely_separation() const {
 std::size_t ElementContact::levels_since_move() const { return impl_->since_move; }
 
 std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
+    if (options.adhesion.work > 0) return std::make_unique<AdhesiveElements>(heights, indenter, options);
     if (indenter.period.finite()) return std::make_unique<PeriodicElementContact>(heights, indenter, options);
     return std::make_unique<ElementContact>(heights, indenter, options);
 }

@@ -93,6 +93,11 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers", .always = false},
     {.name = "least_force", .member = &V::least_force, .force_power = 1, .meaning = "smallest force since the first level",
      .comment = "adhesion: including forces between levels; pull_off_force is its last value", .always = false},
+    {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2,
+     .meaning = "area that attracts without touching",
+     .comment = "adhesion with a range: gaps above 0 and below adhesion_range", .always = false},
+    {.name = "cohesive_resolution", .member = &V::cohesive_resolution, .meaning = "adhesion_range over the side of a pixel",
+     .comment = "boundary elements: the error of the pull-off force is of first order in its inverse; 2 or more is wanted", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
      .comment = "of contacts; boundary elements: of pixels. No metal is elastic at such pressures: solids%hardness "
