@@ -85,8 +85,7 @@ void enclose(Generation& g, const std::vector<Box>& boxes) {
 void pair_up(Generation& g, bool last) {
     const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
     std::vector<std::vector<std::array<int, 3>>> found(chunks);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(omp_team(g.boxes.size() > 2 * kThreads ? kEveryThread : 1))
-    for (std::size_t c = 0; c < chunks; ++c)
+    parallel_for(chunks, 4, g.boxes.size() > 2 * kThreads ? 0 : 1, [&](std::size_t c) {
         for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
             const Box b = g.boxes[k];
             const int x_begin = last ? g.x0 : ((b.x >> 1) - 1) * 2, x_end = last ? g.x0 + g.nx : x_begin + 6;
@@ -98,6 +97,7 @@ void pair_up(Generation& g, bool last) {
                     if (from >= 0) found[c].push_back({(y - b.y + 3) * 7 + x - b.x + 3, from, static_cast<int>(k)});
                 }
         }
+    });
     g.pair_begin.assign(chunks * kOffsets + 1, 0);
     std::size_t total = 0;
     for (std::size_t c = 0; c < chunks; ++c) {
@@ -417,17 +417,16 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         }
     }
     const PixelKernels& kernels = pixel_kernels();
-    LoopStop stop;
-    // Threads are started twice a product: between boxes of all sizes, and at last for the tiles.
+    // Two loops a product that threads share: between boxes of all sizes, and at last for the tiles.
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
         for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
-    for (std::size_t job = 0; job < chunks.size(); ++job) {
-        if (stop.now()) continue;
-        const auto [l, c] = chunks[job];
+    const int threads = tiles > kThreads ? 0 : 1;
+    parallel_for(chunks.size(), 1, threads, [&](std::size_t job) {
+        stopping_point();
+        const std::size_t l = chunks[job].first, c = chunks[job].second;
         const Generation& g = generations[l];
-        if (g.pair_from.empty()) continue;
+        if (g.pair_from.empty()) return;
         std::vector<const double*> from;
         std::vector<double*> to;
         for (std::size_t o = 0; o < kOffsets; ++o) {
@@ -441,8 +440,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
             if (!from.empty())
                 kernels.translate(static_cast<int>(points), q * q, interpolation.made(l)[o].data(), from.size(), from.data(), to.data());
         }
-    }
-    stop.tell();
+    });
     const auto down = [&](std::size_t l, std::size_t k) {
         const Generation& g = generations[l];
         interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
@@ -450,9 +448,8 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     };
     for (std::size_t l = levels - 1; l-- > 1;)
         for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
-#pragma omp parallel for schedule(dynamic, 32) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
-    for (std::size_t t = 0; t < tiles; ++t) {
-        if (stop.now()) continue;
+    parallel_for(tiles, 32, threads, [&](std::size_t t) {
+        stopping_point();
         if (levels > 1) down(0, t);
         double* values = tiles_.data() + t * size;
         std::fill_n(values, size, 0.0);
@@ -465,8 +462,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                 const std::size_t begin = source_begin_[at(s)], m = source_begin_[at(s) + 1] - begin;
                 if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
             }
-    }
-    stop.tell();
+    });
     for (std::size_t k = 0; k < n; ++k) w[k] = tiles_[layout.place[k]];
 }
 

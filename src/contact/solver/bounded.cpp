@@ -9,6 +9,7 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kThreads = 100000;  // pixels from which threads pay
+constexpr int kRows = 8;                  // that a thread takes at a time
 
 }  // namespace
 
@@ -16,12 +17,11 @@ template <class F>
 double BoundedSolver::sum(F&& of) {
     const int rows = static_cast<int>(rows_.size()) - 1;
     partial_.resize(at(rows));
-#pragma omp parallel for schedule(static) num_threads(omp_team(p_.size() >= kThreads && rows > 1 ? kEveryThread : 1))
-    for (int j = 0; j < rows; ++j) {
+    parallel_for(rows, kRows, p_.size() >= kThreads ? 0 : 1, [&](int j) {
         double part = 0;
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) part += of(k);
         partial_[at(j)] = part;
-    }
+    });
     return std::accumulate(partial_.begin(), partial_.end(), 0.0);
 }
 
