@@ -299,6 +299,7 @@ public:
           aspect_(dy / dx),
           rows_(rows_of(dy / dx)),
           inner_(points_for(inner_error), rows_, answer_),
+          between_(points_for(std::sqrt(inner_error * full_error)), rows_, answer_),
           full_(points_for(full_error), rows_, answer_) {
         table_.reach_x = 2 * kTileColumns;
         table_.reach_y = 2 * rows_;
@@ -320,8 +321,7 @@ public:
 
     void apply(const double* p, double* w, Accuracy accuracy) override {
         ++count_;
-        Interpolation& interpolation = accuracy == Accuracy::inner ? inner_ : full_;
-        product(layout_, interpolation, pixels_.size(), p, w);
+        product(layout_, of(accuracy), pixels_.size(), p, w);
     }
 
     void elsewhere(const double* p, const std::vector<Pixel>& where, double* w) override {
@@ -348,13 +348,16 @@ public:
         return answer_(dx, dy * aspect_);
     }
 
-    double inner_error() const override { return interpolation_error(inner_.points()); }
-    double full_error() const override { return interpolation_error(full_.points()); }
+    double error(Accuracy accuracy) const override { return interpolation_error(of(accuracy).points()); }
 
 private:
     // As many rows as make a tile nearly square, a power of two.
     static int rows_of(double aspect) { return 1 << std::clamp(static_cast<int>(std::lround(3 - std::log2(aspect))), 0, 6); }
 
+    const Interpolation& of(Accuracy accuracy) const {
+        return accuracy == Accuracy::inner ? inner_ : accuracy == Accuracy::between ? between_ : full_;
+    }
+    Interpolation& of(Accuracy accuracy) { return const_cast<Interpolation&>(std::as_const(*this).of(accuracy)); }
     void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w);
 
     PixelAnswer answer_;
@@ -362,7 +365,7 @@ private:
     int rows_;
     std::vector<double> near_;
     NearTable table_{};
-    Interpolation inner_, full_;
+    Interpolation inner_, between_, full_;
     std::vector<Pixel> pixels_;
     Layout layout_;
     // Of one product: pressures by tile, points of all boxes.

@@ -18,6 +18,7 @@ constexpr int kQuick = 30;  // rounds: sets that settle do so in some ten
 constexpr double kDeep = 0.55;
 // Full products are taken from where inner ones no longer tell, in units of their error.
 constexpr double kInnerReach = 10;
+constexpr double kChange = 0.05;  // of the tolerance: error of an exact product that was got from an earlier one
 
 }  // namespace
 
@@ -108,7 +109,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
             }
         }
     }
-    position_.clear(), set_.clear(), z_.clear(), p_.clear(), w_.clear();
+    position_.clear(), set_.clear(), z_.clear(), p_.clear(), w_.clear(), full_p_.clear();
     for (std::size_t k = 0; k < n; ++k) {
         if (!in[k]) continue;
         position_.push_back(static_cast<int>(k));
@@ -120,9 +121,25 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     if (!set_.empty()) products_.set_pixels(set_);
 }
 
+// An exact product is a full one, or the last full one plus a cheaper product with what has changed since: the error of that is relative to the
+// change.
 void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) {
-    Kx.resize(x.size());
-    products_.apply(x.data(), Kx.data(), exact ? Accuracy::full : Accuracy::inner);
+    const std::size_t n = x.size();
+    Kx.resize(n);
+    if (!exact) return products_.apply(x.data(), Kx.data(), Accuracy::inner);
+    if (full_p_.size() == n) {
+        double change = 0, all = 0;
+        r_.resize(n);
+        for (std::size_t k = 0; k < n; ++k) r_[k] = x[k] - full_p_[k], change += r_[k] * r_[k], all += x[k] * x[k];
+        for (const Accuracy accuracy : {Accuracy::inner, Accuracy::between}) {
+            if (!(products_.error(accuracy) * std::sqrt(change) <= kChange * tolerance_ * std::sqrt(all))) continue;
+            products_.apply(r_.data(), Kx.data(), accuracy);
+            for (std::size_t k = 0; k < n; ++k) Kx[k] += full_w_[k];
+            return;
+        }
+    }
+    products_.apply(x.data(), Kx.data(), Accuracy::full);
+    full_p_ = x, full_w_ = Kx;
 }
 
 void ElementsSolver::freed() {
@@ -215,6 +232,7 @@ void ElementsSolver::press_out(std::vector<Pixel>& pixels, std::vector<double>& 
 
 double ElementsSolver::stiffness(double tolerance, bool back) {
     constexpr int rounds = 60;
+    tolerance_ = tolerance;
     return BoundedSolver::stiffness(back, tolerance, rounds, 4 * kSteps, std::max(0.1 * products_.inner_error(), 1e-3));
 }
 

@@ -48,7 +48,8 @@ private:
     // The working set: positions in the pixels given, places.
     std::vector<int> position_;
     std::vector<Pixel> set_;
-    std::vector<double> r_, y_;  // over the free ones
+    std::vector<double> r_, y_;            // over the free ones
+    std::vector<double> full_p_, full_w_;  // of the last full product with this set
     SpotBlocks blocks_;
 };
 
