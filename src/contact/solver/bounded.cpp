@@ -69,7 +69,8 @@ void BoundedSolver::descend(int most_steps, double reduction) {
     for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 1 : 0;
     // A correction by a constant pressure, as a punch's, is cheap, the more so the fuller the contact.
     double whole = 0, punch = 0;
-    if (manner_.repeats) {
+    const bool constant = manner_.repeats || wanted_;
+    if (constant) {
         if (plain)
             one_ = residual;
         else
@@ -88,7 +89,7 @@ void BoundedSolver::descend(int most_steps, double reduction) {
             y_ = residual;
         else
             precondition(residual, y_);
-        if (manner_.repeats) {
+        if (constant) {
             const double c = wanted_ ? -sum([&](std::size_t k) { return y_[k]; }) / whole : punch * product(one_, residual);
             for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
         }

@@ -160,8 +160,8 @@ void ElementsSolver::precondition(const std::vector<double>& r, std::vector<doub
         if (free_[k]) y[k] = y_[l++];
 }
 
-bool ElementsSolver::judge_exactly(bool, double, int rounds) {
-    const double guess = error();
+bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
+    const double guess = wanted_ ? kReduction * residual : error();  // Z0 is not known before the next product
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ || rounds > kQuick;
 }
 
@@ -186,7 +186,7 @@ long ElementsSolver::join() {
     // Pixels are selected by inner products; those within their error are added, and checked by full products.
     const double margin = 1 - 3 * products_.inner_error();
     for (std::size_t k = 0; k < others.size(); ++k) {
-        if (!(w[k] * margin < (*g0_)[at(where[k])])) continue;
+        if (!(w[k] * margin < (*g0_)[at(where[k])] - Z0_)) continue;
         member_[at(where[k])] = 1;
         ++joined;
     }
@@ -206,10 +206,12 @@ bool ElementsSolver::complete(bool solved, double residual) {
 }
 
 ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance,
-                                      int most_iterations, std::vector<double>& p) {
+                                      int most_iterations, std::vector<double>& p, std::optional<double> sum) {
     const long before = products_.count();
     pixels_ = &pixels, g0_ = &g0;
     tolerance_ = tolerance;
+    wanted_ = sum;
+    Z0_ = 0;
     member_.assign(pixels.size(), 0);
     looked_ = false;
     for (double& v : p) v = std::min(v, highest_);
