@@ -12,6 +12,7 @@ namespace rsc {
 namespace {
 
 constexpr double kMostMapValues = 1e9;    // of one map variable: 8 GB
+constexpr double kMostCircles = 2e6;      // radial_bins times map_cells, to which the work of the radial means is proportional: a second
 constexpr double kMostLevelValues = 1e9;  // realizations x levels
 
 class Checker {
@@ -389,6 +390,9 @@ private:
         if (levels * c_.output.radial_bins > kMostMapValues)
             complain({"output%radial_bins", by}, "radial_bins = " + std::to_string(c_.output.radial_bins) + ": the radial means of " +
                                                      count(levels) + " levels would hold more than " + count(kMostMapValues) + " values");
+        if (cells * c_.output.radial_bins > kMostCircles)
+            complain({"output%radial_bins", "output%map_cells"},
+                     "radial_bins = " + std::to_string(c_.output.radial_bins) + ": times map_cells at most " + count(kMostCircles));
         if (levels * c_.run.realizations > kMostLevelValues)
             complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " + count(levels) +
                                                    " levels more than " + count(kMostLevelValues) + " values of each curve");

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
+constexpr double kMostTimes = 30;     // of the last force, for a start from its pressures
+constexpr double kMargin = 0.3;       // by which pixels are chosen lower than the step to the separation expected
 constexpr int kBlock = 16;            // pixels of a side of the blocks whose highest points are kept
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -95,6 +97,7 @@ struct ElementContact::Impl {
     void find_top();
     void select(double Z0);
     void predict(double Z0);
+    void remember(double Z0);
     Level report(double Z0, const ElementsOutcome& outcome) const;
 };
 
@@ -231,17 +234,63 @@ Level ElementContact::solve(double Z0) {
     if (my.loads) my.take_off_rest(Z0);
     my.predict(Z0);
     const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p);
-    Impl::Past now{Z0, {}, {}};
-    for (std::size_t k = 0; k < my.p.size(); ++k) {
-        if (!(my.p[k] > 0)) continue;
-        now.pixels.push_back(my.pixels[k]);
-        now.p.push_back(my.p[k]);
-    }
-    my.past.push_front(std::move(now));
-    if (my.past.size() > 2) my.past.pop_back();
-    my.since_move = std::min<std::size_t>(my.since_move + 1, 2);
-    my.accepted = false;
+    my.remember(Z0);
     return my.report(Z0, outcome);
+}
+
+// The force is the sum of the pressures, and Z0 one unknown more of the same solution (Polonsky and Keer). Pixels are chosen at a Z0 that lies
+// lower than the one expected: N grows with a power of the depth that the last two levels tell.
+std::optional<Level> ElementContact::solve_under(double N) {
+    Impl& my = *impl_;
+    if (path_dependent() || my.bulge > 0 || my.past.empty()) return std::nullopt;
+    const double pixel = my.heights.dx * my.heights.dy;
+    const auto force = [pixel](const Impl::Past& level) { return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0); };
+    const double N0 = force(my.past[0]), depth = my.top - my.past[0].separation;
+    if (!(depth > 0) || !(N0 > N / kMostTimes) || !(N0 < N * kMostTimes)) return std::nullopt;
+    double power = 1.5;  // of a sphere; rough ones have more
+    if (my.past.size() > 1) {
+        const double grown = std::log(force(my.past[1]) / N0) / std::log((my.top - my.past[1].separation) / depth);
+        if (grown > power) power = grown;
+    }
+    double expected = my.top - depth * std::pow(N / N0, 1 / power),
+           lowest = expected - kMargin * std::abs(expected - my.past[0].separation);
+    constexpr int trials = 4;
+    for (int i = 0; i < trials; ++i) {
+        my.select(lowest);
+        my.predict(expected);
+        if (std::none_of(my.p.begin(), my.p.end(), [](double p) { return p > 0; })) return std::nullopt;
+        const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p, N / pixel);
+        if (!outcome.converged) return std::nullopt;
+        const double rise = my.solver.rise();
+        if (rise < 0) {
+            expected = lowest + rise;
+            lowest = expected - kMargin * std::abs(rise);
+            continue;
+        }
+        std::size_t kept = 0;  // what lies below Z0 only was a candidate
+        for (std::size_t k = 0; k < my.pixels.size(); ++k) {
+            if (!(my.g0[k] > rise)) continue;
+            my.pixels[kept] = my.pixels[k], my.g0[kept] = my.g0[k] - rise, my.p[kept++] = my.p[k];
+        }
+        my.pixels.resize(kept), my.g0.resize(kept), my.p.resize(kept);
+        my.remember(lowest + rise);
+        return my.report(lowest + rise, outcome);
+    }
+    return std::nullopt;
+}
+
+// The level just solved, for the start of later ones.
+void ElementContact::Impl::remember(double Z0) {
+    Past now{Z0, {}, {}};
+    for (std::size_t k = 0; k < p.size(); ++k) {
+        if (!(p[k] > 0)) continue;
+        now.pixels.push_back(pixels[k]);
+        now.p.push_back(p[k]);
+    }
+    past.push_front(std::move(now));
+    if (past.size() > 2) past.pop_back();
+    since_move = std::min<std::size_t>(since_move + 1, 2);
+    accepted = false;
 }
 
 void ElementContact::accept(Level& level) {

@@ -58,16 +58,14 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
         block.emplace_back(allocate_doubles(static_cast<std::size_t>(kBlock * stride), "rows of a synthetic surface"));
     }
     const int blocks = (n_ + kBlock - 1) / kBlock;
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        double* const rows = block[static_cast<std::size_t>(t)].get();
-        for (int b = t; b < blocks; b += threads) {
-            const int first = b * kBlock, count = std::min(kBlock, n_ - first);
-            other.rows(first, count, rows, stride, scratch[static_cast<std::size_t>(t)]);
-            for (int i = 0; i < n_; ++i)
-                for (int r = 0; r < count; ++r) transposed_.row(i)[first + r] = rows[r * stride + i];
-        }
-    }
+    parallel_for(blocks, 1, threads, [&](int b, std::size_t worker) {
+        stopping_point();
+        double* const rows = block[worker].get();
+        const int first = b * kBlock, count = std::min(kBlock, n_ - first);
+        other.rows(first, count, rows, stride, scratch[worker]);
+        for (int i = 0; i < n_; ++i)
+            for (int r = 0; r < count; ++r) transposed_.row(i)[first + r] = rows[r * stride + i];
+    });
 }
 
 void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -86,35 +84,27 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     }
     if (!column_plan || !row_plan_) throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
 
-    // Nothing in the loop throws. Sums are stored by column and added in order, so that they do not depend on the threads.
+    // The sums go by column and are added in order, whichever thread drew them.
     std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
     auto& plan = *column_plan;
     const Band limits = band(spectrum);
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
-    LoopStop stop;
-    // Thread t draws the columns t, t + threads, ..., because low columns hold more modes than high ones.
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
-        for (int kx = t; kx < columns_ && !stop.now(); kx += threads) {
-            auto* const stored = store + kx * column_stride_;
-            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
-            if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
-        }
-    }
-    stop.tell();
+    parallel_for(columns_, 1, threads, [&](int kx, std::size_t worker) {
+        stopping_point();
+        auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
+        auto* const stored = store + kx * column_stride_;
+        sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
+        if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
+    });
     HeightShape shape;
     if (!spectrum.gaussian()) {
         shape = reshape_heights(spectrum, store, column_stride_, n_);
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-        for (int t = 0; t < threads; ++t) {
-            auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
-            for (int kx = t; kx < columns_ && !stop.now(); kx += threads) {
-                std::copy_n(store + kx * column_stride_, n_, column);
-                fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
-            }
-        }
-        stop.tell();
+        parallel_for(columns_, 1, threads, [&](int kx, std::size_t worker) {
+            stopping_point();
+            auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
+            std::copy_n(store + kx * column_stride_, n_, column);
+            fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
+        });
     }
     ModeSums total;
     for (const ModeSums& s : sums) total.add(s);
@@ -177,15 +167,12 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
     map.periodic = true;
     std::vector<RowSource::Scratch> scratch;
     for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
-    LoopStop stop;
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / threads); };
-        constexpr int few = 64;  // number of rows between two stopping points
-        for (int j = bound(t); j < bound(t + 1) && !stop.now(); j += few)
-            source.rows(j, std::min(few, bound(t + 1) - j), map.row(j), map.stride, scratch[static_cast<std::size_t>(t)]);
-    }
-    stop.tell();
+    constexpr int few = 64;  // rows of a piece
+    parallel_for((n + few - 1) / few, 1, threads, [&](int piece, std::size_t worker) {
+        stopping_point();
+        const int j = piece * few;
+        source.rows(j, std::min(few, n - j), map.row(j), map.stride, scratch[worker]);
+    });
     if (sampled) *sampled = source.sampled();
     return map;
 }

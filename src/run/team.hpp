@@ -35,7 +35,7 @@ public:
     std::function<void()> meanwhile;  // called several times a second by the thread that called run(); may throw, as a task may
 };
 
-// Threads that take tasks from a queue. Each works with one OpenMP thread.
+// Threads that take tasks from a queue. Loops inside a task run on its thread alone.
 class WorkerThreads {
 public:
     struct Done {

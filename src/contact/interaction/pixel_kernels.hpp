@@ -51,7 +51,7 @@ using NearTile = void (*)(const NearTable& table, int rows, int ox, int oy, std:
 
 // to[k][i] += sum_j T(i, j) from[k][j], i < rows (a multiple of kLane), j < columns, for the pairs k < n. T is stored in slices of
 // kSlice rows (the last one may be shorter), each by columns.
-inline constexpr int kSlice = 4 * kLane;
+inline constexpr int kSlice = 2 * kLane;
 using Translate = void (*)(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to);
 
 struct PixelKernels {
