@@ -128,7 +128,7 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     Indenter indenter =
         told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0, period_of(*keys, domain)} : indenter_of(*keys, domain);
     indenter.x0 = tip[0], indenter.y0 = tip[1];
-    auto made = std::make_unique<rsc_contact>(asperities.model, keys, indenter);
+    auto made = std::make_unique<rsc_contact>(asperities.model, keys, surrounded(std::move(indenter), domain));
     if (told) made->given = {from.of("given")[0], from.of("given")[1]};
     return made;
 }

@@ -128,7 +128,8 @@ void AdhesiveContact::Impl::cover(double lowest) {
     const auto add = [&](int i, double height) {
         place[at(i)] = set.size();
         set.asperity.push_back(i);
-        set.x.push_back(asperities.x[at(i)]), set.y.push_back(asperities.y[at(i)]);
+        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        set.x.push_back(image.x), set.y.push_back(image.y);
         clearance.push_back(height);
     };
     for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);

@@ -414,7 +414,8 @@ void AsperityContact::move_tip(double x0, double y0) {
     my.indenter.x0 = x0;
     my.indenter.y0 = y0;
     if (my.of_difference && !my.law->path_dependent() &&
-        std::hypot(x0 - my.found_x, y0 - my.found_y) > summits_keep(my.of_surface, my.indenter, my.options)) {
+        std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y)) >
+            summits_keep(my.of_surface, my.indenter, my.options)) {
         forget();
         return;
     }
