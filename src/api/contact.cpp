@@ -195,7 +195,8 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
         const rsc::Vec2 place = place_of(*contact, x0, y0);
-        contact->contact.move_tip(place.x, place.y);
+        const rsc::Indenter& now = contact->contact.indenter();
+        if (place.x != now.x0 || place.y != now.y0) contact->contact.move_tip(place.x, place.y);
     });
 }
 

@@ -24,7 +24,7 @@ double onto(double v, double first, double length) {
 Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     const Indenter& indenter = contact.contact.indenter();
     SurfaceDomain domain = contact.on->domain;
-    if (indenter.period.finite() || indenter.around.finite()) return {onto(x0, domain.x0, domain.Lx), onto(y0, domain.y0, domain.Ly)};
+    if (indenter.period.finite() || indenter.repeats.finite()) return {onto(x0, domain.x0, domain.Lx), onto(y0, domain.y0, domain.Ly)};
     if (const Rectangle& known = contact.options.surface; known.known()) {
         domain = {known.x0, known.y0, known.Lx, known.Ly};
         domain.guessed = false;
@@ -35,7 +35,7 @@ Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
 
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
     if (!domain.repeats || indenter.period.finite()) return indenter;
-    indenter.around = {domain.Lx, domain.Ly};
+    indenter.repeats = {domain.Lx, domain.Ly};
     indenter.x0 = onto(indenter.x0, domain.x0, domain.Lx), indenter.y0 = onto(indenter.y0, domain.y0, domain.Ly);
     return indenter;
 }

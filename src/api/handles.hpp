@@ -100,7 +100,7 @@ int threads_of(const Case& settings);
 // unless the tip may be put there.
 Vec2 place_of(const rsc_contact& contact, double x0, double y0);
 
-// An indenter of the library sees a surface that repeats all around it.
+// An indenter of the library can go round a surface that repeats.
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain);
 
 // For asperities given one by one the case says how large the surface is (surface%L).

@@ -557,7 +557,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     Impl& my = *impl_;
     if (!my.accepted.asperity.empty())
         throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while asperities are attached, which is not available yet");
-    my.indenter.x0 = x0, my.indenter.y0 = y0;
+    my.indenter.move(x0, y0);
     forget_levels();
 }
 

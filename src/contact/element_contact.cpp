@@ -392,8 +392,7 @@ double ElementContact::shift() const { return impl_->bulge; }
 void ElementContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
-    my.indenter.x0 = x0;
-    my.indenter.y0 = y0;
+    my.indenter.move(x0, y0);
     if (my.past.size() > 1) my.past.resize(1);
     my.since_move = 0;
     const int turn_x = my.turn_x, turn_y = my.turn_y;

@@ -42,9 +42,11 @@ struct Indenter {
     double x0 = 0, y0 = 0;
     Period period = {};  // finite: surface and contact repeat (two flats, boundary='periodic')
     LayeredBody layers = {};
-    // Finite: the surface repeats although the bodies do not, as a ball on a made surface; of each of its points, the image nearest to the
-    // tip counts.
-    Period around = {};
+    // Finite `repeats`: the surface repeats although the bodies do not, as a ball on a made surface. It ends at its border until the tip is
+    // moved; from then on `around` is the same, and of each point the image nearest to the tip counts.
+    Period repeats = {}, around = {};
+
+    void move(double x, double y) { x0 = x, y0 = y, around = repeats; }
 
     Vec2 from_tip(double x, double y) const { return {around.nearest_x(x - x0), around.nearest_y(y - y0)}; }
     // The image of a point that is nearest to the tip.
