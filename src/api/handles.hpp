@@ -96,8 +96,12 @@ void require_sound(const Case& settings, std::initializer_list<std::string_view>
 
 int threads_of(const Case& settings);
 
-// Refuses argument 2 unless the tip may be put there.
-void require_place(const rsc_contact& contact, double x0, double y0);
+// The place of the tip as the contact has it: on a surface that repeats moved by whole periods onto its rectangle. Refuses argument 2
+// unless the tip may be put there.
+Vec2 place_of(const rsc_contact& contact, double x0, double y0);
+
+// An indenter of the library can go round a surface that repeats.
+Indenter surrounded(Indenter indenter, const SurfaceDomain& domain);
 
 // For asperities given one by one the case says how large the surface is (surface%L).
 SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on);

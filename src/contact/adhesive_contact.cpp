@@ -130,7 +130,8 @@ void AdhesiveContact::Impl::cover(double lowest) {
     const auto add = [&](int i, double height) {
         place[at(i)] = set.size();
         set.asperity.push_back(i);
-        set.x.push_back(asperities.x[at(i)]), set.y.push_back(asperities.y[at(i)]);
+        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        set.x.push_back(image.x), set.y.push_back(image.y);
         clearance.push_back(height);
     };
     for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
@@ -563,7 +564,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     Impl& my = *impl_;
     if (!my.accepted.asperity.empty())
         throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while asperities are attached, which is not available yet");
-    my.indenter.x0 = x0, my.indenter.y0 = y0;
+    my.indenter.move(x0, y0);
     forget_levels();
 }
 

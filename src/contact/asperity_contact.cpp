@@ -411,10 +411,11 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size());
-    my.indenter.x0 = x0;
-    my.indenter.y0 = y0;
+    const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
+    my.indenter.move(x0, y0);
     if (my.of_difference && !my.law->path_dependent() &&
-        std::hypot(x0 - my.found_x, y0 - my.found_y) > summits_keep(my.of_surface, my.indenter, my.options)) {
+        (opens || std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y)) >
+                      summits_keep(my.of_surface, my.indenter, my.options))) {
         forget();
         return;
     }
