@@ -5,11 +5,6 @@
 
 namespace rsc {
 
-// Skewness and kurtosis of heights, by default of Gaussian ones.
-struct HeightShape {
-    double skewness = 0, kurtosis = 3;
-};
-
 // A power spectral density that is known at some wavenumbers: linear in logarithms between them, zero outside, and zero between two of
 // which one has none.
 class SpectrumTable {
