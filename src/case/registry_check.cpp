@@ -168,9 +168,6 @@ private:
         if (s.resistivity[0] > 0 || s.resistivity[1] > 0)
             complain({"solids%resistivity", "solids%layer_thickness"},
                      "resistivity: not available yet for a body with layers, whose conductance does not follow from its stiffness");
-        if (c_.indentation.boundary == Boundary::periodic && !by_elements(c_))
-            complain({"solids%layer_thickness", "solver%model"},
-                     "layer_thickness: with boundary = 'periodic' not available yet for asperities; use model = 'elements'");
     }
 
     void check_relaxation() {

@@ -143,10 +143,11 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     // An invalid n is rejected by RowSource.
     if (refined && n >= 2 && n % 2 == 0 && 2 * shortest_wave(spectrum) <= n)
         while (fine < 4 * shortest_wave(spectrum) * (1 - 1e-12)) fine += n;
-    const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
+    RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
+    if (source.whole()) return find_asperities(source.take(), curvature, count, threads, detail, fine / shortest_wave(spectrum), above);
     if (refined) {
         const std::vector<Stencil> stencils{Stencil::band_limited(fine / shortest_wave(spectrum))};
         std::vector<Part> parts = share_rows(fine, threads, [&](Part& part, int first, int last) {

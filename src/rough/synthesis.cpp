@@ -13,6 +13,14 @@ fftw_complex* fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
 using Buffer = std::unique_ptr<double[], HeightMap::Free>;
 
+HeightMap empty_map(double L, int n) {
+    HeightMap map;
+    map.allocate(n, n, (n + 7) / 8 * 8 + 8);  // rows aligned to 64 bytes, and not a power of two apart
+    map.dx = map.dy = L / n;
+    map.periodic = true;
+    return map;
+}
+
 }  // namespace
 
 RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -45,26 +53,30 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
                           double difference_step) {
     Spectrum mirrored = spectrum;
     mirrored.direction = 90 - spectrum.direction;
-    const RowSource other(mirrored, n_, normalise, seed, realization, threads, difference_step);
+    RowSource other(mirrored, n_, normalise, seed, realization, threads, difference_step);
     sampled_ = other.sampled_;
     differences_ = other.differences_;
     sampled_.tensor = other.sampled_.tensor.transposed();
-    transposed_.allocate(n_, n_, n_ + 8);
+    whole_ = empty_map(spectrum.L, n_);
     std::vector<Scratch> scratch;
     std::vector<Buffer> block;
+    // So many rows at once that what they write to a row of the other surface is whole lines of the cache.
+    constexpr int wide = 4 * kBlock;
     const std::ptrdiff_t stride = (n_ + 7) / 8 * 8 + 8;
     for (int t = 0; t < threads; ++t) {
         scratch.emplace_back(other);
-        block.emplace_back(allocate_doubles(static_cast<std::size_t>(kBlock * stride), "rows of a synthetic surface"));
+        block.emplace_back(allocate_doubles(static_cast<std::size_t>(wide * stride), "rows of a synthetic surface"));
     }
-    const int blocks = (n_ + kBlock - 1) / kBlock;
+    const int blocks = (n_ + wide - 1) / wide;
     parallel_for(blocks, 1, threads, [&](int b, std::size_t worker) {
         stopping_point();
         double* const rows = block[worker].get();
-        const int first = b * kBlock, count = std::min(kBlock, n_ - first);
+        const int first = b * wide, count = std::min(wide, n_ - first);
         other.rows(first, count, rows, stride, scratch[worker]);
-        for (int i = 0; i < n_; ++i)
-            for (int r = 0; r < count; ++r) transposed_.row(i)[first + r] = rows[r * stride + i];
+        for (int i = 0; i < n_; ++i) {
+            double* const to = whole_.row(i) + first;
+            for (int r = 0; r < count; ++r) to[r] = rows[r * stride + i];
+        }
     });
 }
 
@@ -127,10 +139,6 @@ RowSource::Scratch::Scratch(const RowSource& source)
     : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_), "rows of a synthetic surface")) {}
 
 void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const {
-    if (transposed_.data) {
-        for (int r = 0; r < count; ++r) std::copy_n(transposed_.row(((j + r) % n_ + n_) % n_), n_, out + r * stride);
-        return;
-    }
     const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
     double* const coefficients = scratch.coefficients_.get();
     const double factor = factor_;
@@ -160,11 +168,10 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
 HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, Moments* sampled,
                      int threads) {
     threads = std::max(threads, 1);
-    const RowSource source(spectrum, n, normalise, seed, realization, threads);
-    HeightMap map;
-    map.allocate(n, n, (n + 7) / 8 * 8 + 8);  // rows aligned to 64 bytes, and not a power of two apart
-    map.dx = map.dy = spectrum.L / n;
-    map.periodic = true;
+    RowSource source(spectrum, n, normalise, seed, realization, threads);
+    if (sampled) *sampled = source.sampled();
+    if (source.whole()) return source.take();
+    HeightMap map = empty_map(spectrum.L, n);
     std::vector<RowSource::Scratch> scratch;
     for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
     constexpr int few = 64;  // rows of a piece
@@ -173,7 +180,6 @@ HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::
         const int j = piece * few;
         source.rows(j, std::min(few, n - j), map.row(j), map.stride, scratch[worker]);
     });
-    if (sampled) *sampled = source.sampled();
     return map;
 }
 

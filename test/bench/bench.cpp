@@ -255,6 +255,8 @@ const Part kParts[] = {
     {"largest", bench_largest},
     {"many", bench_many},
     {"close", bench_close},
+    {"made", bench::made},
+    {"layers", bench::layers},
     {"elements", bench::elements},
     {"elements_growth", bench::elements_growth},
     {"elements_finest", bench::elements_finest, true},

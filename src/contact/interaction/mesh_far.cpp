@@ -242,7 +242,7 @@ FarField::FarField(const MeshDesign& design, const Lattice& lattice, double spac
     const double dx = lattice.period().x / static_cast<double>(period_x_), dy = lattice.period().y / static_cast<double>(period_y_);
     make_multiplier(design, [&](std::size_t m, std::size_t n) {
         const double x = static_cast<double>(m) * dx, y = static_cast<double>(n) * dy;
-        return far_part(kernel, x * x + y * y) + lattice.rest(x, y) - lattice.least();
+        return far_part(kernel, x * x + y * y) + lattice.nearest_smooth(x, y) + lattice.rest(x, y) - lattice.least();
     });
 }
 
