@@ -57,7 +57,7 @@ struct AsperityContact::Impl {
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
-    NewtonOutcome outcome;  // of pass() and settle()
+    NewtonOutcome outcome;  // outcome of pass() and settle()
     bool passed = false;    // the solution is that of pass() and has not been settled
     struct {
         double separation = 0;
@@ -66,7 +66,7 @@ struct AsperityContact::Impl {
 
     EarlierLevels earlier;
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
-    Products* products = nullptr;            // the one in use
+    Products* products = nullptr;            // the products in use
     Newton newton;
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)

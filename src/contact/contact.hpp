@@ -33,7 +33,7 @@ public:
     // Moves the tip to (x0, y0). The last level may be used as a starting point for the next. Throws Error(bad_input) if not finite.
     virtual void move_tip(double x0, double y0) = 0;
 
-    // Z0 at which the indenter touches the surface [length]; -Infinity when nothing lies under it.
+    // Z0 at which the indenter touches the surface [length]; -Infinity if nothing lies under it.
     virtual double first_touch() const = 0;
 
     virtual const Indenter& indenter() const = 0;

@@ -3,7 +3,7 @@
 
 namespace rsc {
 
-// ln(bound) = sum of coefficients times predictors: 1, slope, pressed, overlap, elongation, crowding, few, coarse, plastic, flats.
+// ln of the bound = sum of coefficient times predictor, the first one 1: slope, pressed, overlap, elongation, crowding, few, coarse, plastic, flats.
 inline constexpr int kErrorPredictors = 9;
 inline constexpr double kLeastError = 0.003, kMostError = 1000.0;
 inline constexpr double kErrorTable[3][2][kErrorPredictors + 1] = {

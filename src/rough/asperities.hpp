@@ -29,7 +29,7 @@ struct Asperities {
     std::size_t size() const { return x.size(); }
 };
 
-// The columns of Asperities, for loops over all of them.
+// Description of a column of Asperities.
 struct AsperityColumn {
     const char* name;
     std::vector<double> Asperities::*values;

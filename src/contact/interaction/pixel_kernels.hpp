@@ -32,8 +32,8 @@ inline double pixel_kernel(double x, double y, double aspect) {
 
 // Inner loops of pixel_tree.cpp, compiled for several instruction sets; the best supported one is chosen at run time.
 
-inline constexpr int kTileColumns = 8;  // pixels of a tile along x: one vector
-inline constexpr int kLane = 8;         // doubles of a vector
+inline constexpr int kTileColumns = 8;  // pixels of a tile along x, one vector
+inline constexpr int kLane = 8;         // doubles per vector
 
 // A source pixel inside its tile.
 struct TileSource {

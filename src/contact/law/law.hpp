@@ -69,14 +69,14 @@ public:
     virtual void forget() {}
 };
 
-// hertz         a paraboloid of the asperity's radius: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.
-// elliptic      Hertz with both principal curvatures, R_e = 1/sqrt(kappa1 kappa2): u/F2 in the law above, area times F1^2 (ellipse.hpp).
-// fourth_order  the elliptic law on the profile A (1 - J0(q r)), that of waves of one length from all directions: its curvature is
-//               1/R_e and its flattening the surface's own, q^2 = -nabla^4 z/nabla^2 z = biharmonic/(kappa1 + kappa2), A = 2/(R_e q^2).
-//               To fourth order it is r^2/(2 R_e) - b r^4, b = q^2/(32 R_e); its higher terms keep the flattening within bounds.
-//               Its contact: bessel_profile.hpp, at delta = u/F2. Beyond delta = 2 A, q a = pi, where the contact would meet its
-//               neighbours', a stays and the stiffness 2 E* a with it.
-// Throws Error(bad_input) when the asperities lack what the law needs.
+// hertz         paraboloid of the asperity's radius r: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.
+// elliptic      Hertz with both principal curvatures (ellipse.hpp): the same with R_e = 1/sqrt(kappa1 kappa2) for r and u/F2 for u, area
+//               times F1^2.
+// fourth_order  the elliptic law for the profile A (1 - J0(q r)) (bessel_profile.hpp, delta = u/F2), which is r^2/(2 R_e) - b r^4 to fourth
+//               order, b = q^2/(32 R_e), and remains bounded: curvature 1/R_e, q^2 = -nabla^4 z/nabla^2 z = biharmonic/(kappa1 + kappa2),
+//               A = 2/(R_e q^2). Beyond delta = 2 A (q a = pi), where the contact would reach its neighbours, a and the stiffness 2 E* a
+//               are constant.
+// Throws Error(bad_input) if data required by the law are missing.
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
 
 }  // namespace rsc
