@@ -1,4 +1,4 @@
-// Periods in two directions.
+// Two directions in which everything may repeat.
 #pragma once
 
 #include "std.hpp"
@@ -6,11 +6,11 @@
 namespace rsc {
 
 struct Period {
-    double x = std::numeric_limits<double>::infinity(), y = std::numeric_limits<double>::infinity();  // [length]; Infinity: not periodic
+    double x = std::numeric_limits<double>::infinity(), y = std::numeric_limits<double>::infinity();  // [length]; Infinity: repeats nowhere
 
     bool finite() const { return std::isfinite(x) && std::isfinite(y); }
     double area() const { return x * y; }
-    // Difference of two coordinates, to the nearest image.
+    // The difference of two coordinates to the nearest of all images.
     double nearest_x(double dx) const { return std::isfinite(x) ? std::remainder(dx, x) : dx; }
     double nearest_y(double dy) const { return std::isfinite(y) ? std::remainder(dy, y) : dy; }
 };

@@ -1,3 +1,5 @@
+// Number of OpenMP threads of a parallel region: no more than the system starts.
+//
 // Number of OpenMP threads, and stopping of long loops.
 #pragma once
 

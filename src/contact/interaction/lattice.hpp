@@ -1,32 +1,32 @@
-// Potential of a point and its images on a rectangular lattice in the plane: the periodic form of 1/d.
+// The potential of a point and of its images on a rectangular lattice in the plane: the periodic form of 1/d.
 #pragma once
 
 #include "contact/period.hpp"
 
 namespace rsc {
 
-// Gamma(x, y) = sum over images of 1/d - neutralising background, with mean 0 over a period. A mode exp(i k x) of sources has the potential
-// 2 pi/k exp(i k x). Ewald sum with A = Lx Ly and any b [1/length]:
+// Gamma(x, y) = sum over images 1/d - neutralising background: its mean over a period is 0. A mode exp(i k x) of sources answers
+// 2 pi/k exp(i k x). By Ewald's sum, b any length's inverse, A = Lx Ly:
 //     sum over images erfc(b d)/d + (2 pi/A) sum_{k != 0} erfc(k/2b) cos(k x)/k - 2 sqrt(pi)/(b A).
-// It is evaluated as the sum of 1/d over the 4 images around the point plus a precomputed polynomial in (Lx/2 - |x|)^2 and (Ly/2 - |y|)^2,
-// where |x|, |y| are the offsets from the nearest image; the error is below 1e-13/sqrt(A).
+// Worked out once: with |x|, |y| to the nearest image, Gamma = sum over the 4 images around the place of 1/d + a polynomial in
+// (Lx/2 - |x|)^2 and (Ly/2 - |y|)^2, whose error is below 1e-13 of 1/sqrt(A).
 class Lattice {
 public:
-    // Largest ratio of the longer to the shorter side.
+    // The longer side is at most this many shorter ones.
     static constexpr double kMostAspect = 4;
 
-    // Throws Error(bad_input) unless the sides are positive and finite and their ratio is at most kMostAspect.
+    // Throws Error(bad_input) for sides that are not positive and finite, or too different.
     explicit Lattice(Period period);
 
     const Period& period() const { return period_; }
     double at(double dx, double dy) const;   // offset not zero
-    double self() const { return self_; }    // at a source, without its own 1/d: -3.90026492/L on a square
-    double least() const { return least_; }  // smallest value, in the middle between images: -1.61554/L on a square
-    // Gamma minus 1/d of the nearest image.
+    double self() const { return self_; }    // at a source, its own 1/d left out: -3.90026492/L on a square
+    double least() const { return least_; }  // in the middle between images: -1.61554/L on a square
+    // Gamma less 1/d to the nearest image.
     double rest(double dx, double dy) const;
 
-    // phi[i] = sum_j fs[j] Gamma(target i - source j), i < n_targets, with self() for coinciding points, to a few units in the last place.
-    // Coordinates must be finite. phi must not overlap the other arrays.
+    // phi[i] = sum_j fs[j] Gamma(target i - source j), i < n_targets, self() where they coincide: to a few units of the last place.
+    // Coordinates are finite. phi may not overlap the other arrays.
     void potential(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs, const double* ys,
                    const double* fs, double* phi) const;
 
@@ -36,7 +36,7 @@ private:
     Period period_;
     double self_ = 0, least_ = 0;
     int degree_ = 0;
-    std::vector<double> c_;  // of u^a v^b, a + b <= degree, ordered by a, then b; u = 2 (1 - 2|x|/Lx)^2 - 1, v similarly
+    std::vector<double> c_;  // of u^a v^b, a + b <= degree, by a and then b; u, v = 2 (1 - 2|x|/Lx)^2 - 1 and alike
 };
 
 }  // namespace rsc
