@@ -57,7 +57,7 @@ struct AsperityContact::Impl {
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
-    NewtonOutcome outcome;  // of pass() and settle()
+    NewtonOutcome outcome;  // outcome of pass() and settle()
     bool passed = false;    // the solution is that of pass() and has not been settled
     struct {
         double separation = 0;
@@ -66,7 +66,7 @@ struct AsperityContact::Impl {
 
     EarlierLevels earlier;
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
-    Products* products = nullptr;            // the one in use
+    Products* products = nullptr;            // the products in use
     Newton newton;
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
@@ -318,7 +318,7 @@ std::vector<double> AsperityContact::memory() const {
 void AsperityContact::recall(const std::vector<double>& memory, const Level* level) {
     Impl& my = *impl_;
     if (relaxes()) {
-        if (memory.empty()) throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
+        if (memory.empty()) throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
         my.relaxing->read(std::span(memory).subspan(1));
         recall_time(memory[0]);
     } else {
@@ -326,7 +326,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
         Vector deepest;
         for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
             if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
-                throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
+                throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
             yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
         }
         my.law->forget();

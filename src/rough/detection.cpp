@@ -91,7 +91,7 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
         allocate_doubles(static_cast<std::size_t>(rows_held * stride), "rows of a synthetic surface"));
     RowSource::Scratch scratch(source);
     int held = 0;               // rows in the window; the first is row next - held
-    int next = first - margin;  // the row to make next
+    int next = first - margin;  // next row to synthesise
     while (next <= last - 1 + margin) {
         stopping_point();
         const int made = std::min(rows_held - held, last + margin - next);
