@@ -20,6 +20,29 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 using namespace rsc;
 using bench::kGold, bench::now, bench::peak_memory_mb, bench::shortest;
 
+namespace bench {
+
+// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii, under a nearly flat sphere.
+Asperities lattice(int n) {
+    const int side = static_cast<int>(std::lround(std::sqrt(n)));
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> jitter(-0.4, 0.4);
+    std::normal_distribution<double> normal;
+    const double h = 1.0 / side;
+    Asperities a;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            a.x.push_back((i + 0.5 + jitter(random)) * h);
+            a.y.push_back((j + 0.5 + jitter(random)) * h);
+            a.z.push_back(0.05 * h * normal(random));
+            a.radius.push_back(0.25 * h * std::exp(0.3 * normal(random)));
+        }
+    }
+    return a;
+}
+
+}  // namespace bench
+
 namespace {
 
 Asperities surface(double sigma, std::int64_t realization) {
@@ -154,30 +177,11 @@ void bench_pairs() {
     }
 }
 
-// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii, under a nearly flat sphere.
-Asperities lattice(int n) {
-    const int side = static_cast<int>(std::lround(std::sqrt(n)));
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> jitter(-0.4, 0.4);
-    std::normal_distribution<double> normal;
-    const double h = 1.0 / side;
-    Asperities a;
-    for (int j = 0; j < side; ++j) {
-        for (int i = 0; i < side; ++i) {
-            a.x.push_back((i + 0.5 + jitter(random)) * h);
-            a.y.push_back((j + 0.5 + jitter(random)) * h);
-            a.z.push_back(0.05 * h * normal(random));
-            a.radius.push_back(0.25 * h * std::exp(0.3 * normal(random)));
-        }
-    }
-    return a;
-}
-
 void bench_many() {
     std::printf("\nmany: one level cold on a jittered lattice, a third in contact, to a residual of 1e-6\n");
     std::vector<double> number, times;
     for (int n : {10000, 30000, 100000, 300000, 600000}) {
-        const Asperities a = lattice(n);
+        const Asperities a = bench::lattice(n);
         const double sigma = 0.05 / std::sqrt(n);
         SolverOptions options;
         options.sigma = sigma;
@@ -262,6 +266,7 @@ const Part kParts[] = {
     {"elements_finest", bench::elements_finest, true},
     {"observe", bench::observe},
     {"flats", bench::flats},
+    {"threads", bench::threads, true},
 };
 
 int main(int argc, char** argv) {

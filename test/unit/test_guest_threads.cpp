@@ -92,6 +92,23 @@ double height(const rsc_case* c) {
     return z[777];
 }
 
+// Every piece runs once, loops inside pieces included; an exception of one comes out.
+void test_pieces() {
+    for (const int threads : {1, 2, 3, 8}) {
+        std::vector<int> runs(1000, 0);
+        std::atomic<bool> strange{false};
+        rsc::parallel_for(100, 7, threads, [&](int i, std::size_t worker) {
+            if (worker >= static_cast<std::size_t>(threads)) strange = true;
+            rsc::parallel_for(10, 3, threads, [&](int j) { ++runs[static_cast<std::size_t>(10 * i + j)]; });
+        });
+        CHECK(!strange && runs == std::vector<int>(1000, 1));
+        const auto refuses = [](int k) {
+            if (k == 77) throw std::domain_error("77");
+        };
+        CHECK_THROWS(rsc::parallel_for(100, 1, threads, refuses), std::domain_error);
+    }
+}
+
 void test_more_threads_than_work() {
     rsc_case* c = small_case("");
     rsc_asperities* asperities = nullptr;
@@ -151,4 +168,5 @@ TESTS {
     test_fork();
     test_lock();
     test_stopping();
+    test_pieces();
 }
