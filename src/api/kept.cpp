@@ -3,6 +3,8 @@
 // The file has a line with its kind, a checksum, and named entries: texts and arrays of numbers in the machine's format. Later additions
 // get new names, so that later versions can read files of earlier ones.
 
+#include <unistd.h>
+
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "archive.hpp"
@@ -75,7 +77,8 @@ void write(const std::string& path, const char* what, Entries& entries) {
 Entries read(const std::string& path, const char* what) {
     const std::string head = kStart + what + "\n";
     const auto refuse = [&](const std::string& why) { throw Error(Failure::bad_input, "'" + path + "' " + why); };
-    if (!std::ifstream(path)) throw Error(Failure::bad_input, "cannot read '" + path + "'");
+    if (access(path.c_str(), R_OK) != 0)  // not by opening it: a FIFO would wait for a writer
+        throw Error(Failure::bad_input, "cannot read '" + path + "'");
     if (!begins_with(path, head)) refuse(std::string("is not ") + what + " saved by rsc");
     std::ifstream in(path, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

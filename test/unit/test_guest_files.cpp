@@ -127,6 +127,9 @@ void test_saves(const Folder& folder) {
     CHECK(folder.files() == 2);
     rsc_contact* again = nullptr;
     CHECK(rsc_contact_restore(&again, asperities, "/dev/zero") == -3 && !again);
+    const std::string fifo = folder / "nobody writes";
+    CHECK(mkfifo(fifo.c_str(), 0600) == 0);
+    CHECK(rsc_contact_restore(&again, asperities, fifo.c_str()) == -3 && !again);  // and does not wait for a writer
     rsc_contact_destroy(&contact);
     rsc_asperities_destroy(&asperities);
 }
