@@ -16,6 +16,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
+#include "contact/interaction/lattice.hpp"
 #include "error.hpp"
 #include "random_asperities.hpp"
 
@@ -155,7 +156,7 @@ void transforms() {
     for (const LayeredBody& body : bodies) {
         const double E_1 = body.layer[0].E / (1 - body.layer[0].nu * body.layer[0].nu);
         const auto smooth = make_layers(body, E_1);
-        for (const double ratio : {0.0, 1e-4, 0.01, 0.3, 1.0, 4.0, 30.0, 300.0, 1e3}) {
+        for (const double ratio : {0.0, 1e-4, 0.01, 0.3, 1.0, 4.0, 30.0, 300.0, 1e3, 1e4}) {
             const double d = 0.3 * ratio, point = 1 / (kPi * E_1 * std::max(d, 0.3));  // what G is, about
             CHECK_CLOSE(smooth->at(d), transformed(body, d), 1e-9 * point);
         }
@@ -328,6 +329,44 @@ void methods() {
     CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));
 }
 
+// Between flats: the sum over images against the sum over modes, and all methods against each other; a layer like its base is none.
+void repeating() {
+    const LayeredBody body = body_of({{0.1, 3, 0.5}, {0.1, 9, 0.2}}, 1, 0.3);
+    const double E_1 = 3 / (1 - 0.25), Lx = 2, Ly = 1.5;
+    const auto smooth = make_layers(body, E_1);
+    const Lattice lattice({Lx, Ly}, smooth.get(), 1 / (kPi * E_1)), plain({Lx, Ly});
+    for (const auto& [x, y] : {std::pair{0.1, 0.2}, {0.9, 0.7}, {0.37, 0.05}, {1.9, -3.3}}) {
+        double sum = 0;
+        for (int m = -80; m <= 80; ++m)
+            for (int n = -60; n <= 60; ++n) {
+                const double kx = 2 * kPi * m / Lx, ky = 2 * kPi * n / Ly, k = std::hypot(kx, ky);
+                if (k > 0) sum += 2 * kPi / (Lx * Ly * k) * (layered_answer(body, k) - 1) * std::cos(kx * x + ky * y);
+            }
+        CHECK_CLOSE(lattice.at(x, y), plain.at(x, y) + sum, 1e-8 * (1 + std::abs(sum)));
+        CHECK(lattice.at(x, y) >= lattice.least());
+    }
+    const Asperities asperities = random_asperities(800, 0.005, 0.01, 2e-3, 0.5, 3);
+    SolverOptions options;
+    options.tolerance = 1e-9;
+    options.sigma = 0.01;
+    const auto between_flats = [&](const LayeredBody& of, Method method) {
+        Indenter tip = layered(of, kInfinity, 0.5, 0.5);
+        tip.period = {1, 1};
+        options.method = method;
+        return std::make_unique<AsperityContact>(asperities, tip, options);
+    };
+    const auto direct = between_flats(body, Method::direct);
+    const Level truth = direct->at_separation(0.012);
+    CHECK(truth.contacts > 50);
+    for (const Method method : {Method::mesh, Method::dgesv}) {
+        const auto contact = between_flats(body, method);
+        same(*contact, contact->at_separation(0.012), *direct, truth, 1e-7);
+    }
+    const auto alike = between_flats(body_of({{0.2, 3, 0.3}}, 3, 0.3), Method::direct),
+               none = between_flats(body_of({}, 3, 0.3), Method::direct);
+    same(*alike, alike->at_separation(0.012), *none, none->at_separation(0.012), 1e-6);
+}
+
 // What cannot be is refused, each with the key that is wrong.
 void refusals() {
     const auto problems = [](std::vector<std::pair<const char*, const char*>> keys) {
@@ -367,5 +406,6 @@ TESTS {
     sphere_on_a_layer();
     limits();
     methods();
+    repeating();
     refusals();
 }

@@ -132,7 +132,7 @@ public:
 
 private:
     static constexpr double kStep = 0.02;
-    static constexpr std::size_t kEvery = 4;   // steps between distances
+    static constexpr std::size_t kEvery = 2;   // steps between distances
     static constexpr std::size_t kNodes = 10;  // of interpolation
 
     double wave(std::size_t i) const { return highest_ * std::exp(-kStep * (static_cast<double>(i) + 0.5)); }
