@@ -450,7 +450,6 @@ void test_refused() {
     };
     refused([](SolverOptions& o) { o.hardness.H0 = 3; });
     refused([](SolverOptions& o) { o.method = Method::dgesv; });
-    refused([](SolverOptions& o) { o.adhesion.range = 1e-3; });
     refused([](SolverOptions& o) { o.selection = Selection::paper; });
     const auto contact = make_asperity_contact(a, tip, sticky(0.01));
     CHECK_THROWS(contact->at_separation(std::nan("")), Error);

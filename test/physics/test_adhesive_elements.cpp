@@ -94,16 +94,10 @@ double pull_off_error(double lambda, double resolution) {
             CHECK_CLOSE(level.force, truth.pressed(u).f, 0.12 / resolution * lambda * unit + 0.05 * unit);
             CHECK_RELATIVE(level.a.at(0), truth.pressed(u).a, 0.12);
         }
-        if (std::getenv("SHOW"))
-            std::printf("u/end %.3f N %.4f truth %.4f a %.4f %.4f it %d jumps %d lost %.3g\n", u / end, level.force / unit,
-                        u > end ? truth.pressed(u).f / unit : 0, level.a.empty() ? 0 : level.a[0], truth.pressed(u).a, level.iterations,
-                        level.jumps, level.energy_lost);
     }
     level = contact->at_separation(2 * reach);
     CHECK(level.contacts == 0 && level.force == 0 && level.energy_lost > 0);
     CHECK_CLOSE(contact->energy(), 0.0, 0.0);
-    if (std::getenv("SHOW"))
-        std::printf("lambda %g z0/h %g pull-off %.4f truth %.4f n %d\n", lambda, resolution, least / unit, truth.pull_off() / unit, n);
     return least / truth.pull_off() - 1;
 }
 
@@ -132,9 +126,6 @@ void test_wave() {
         CHECK(level.status != LevelStatus::not_converged);
         const double share = (level.area_pixels + 0.4 * level.cohesive_area) / (rows * h), phi = pi / 2 * share;
         const double expected = pi * height * std::pow(std::sin(phi), 2) - std::sqrt(2 * w * std::tan(phi));
-        if (std::getenv("SHOW"))
-            std::printf("Z %.3f share %.4f cohesive %.4f p %.5f expected %.5f it %d jumps %d\n", Z, level.area_pixels / (rows * h),
-                        level.cohesive_area / (rows * h), level.pressure, expected, level.iterations, level.jumps);
         CHECK_CLOSE(level.pressure, expected, 0.04 * pi * height);  // edges stay where they are for some of a pixel
         wide = std::max(wide, share), narrow = std::min(narrow, share);
     }

@@ -51,14 +51,13 @@ void test_one() {
     for (double lambda : {0.1, 1.0, 5.0}) {
         const Maugis truth{0.7, 0.01, lambda};
         const double unit = pi * truth.w * truth.r, range = truth.range();
-        const auto contact = make_asperity_contact(of({0.5}, {0.5}, truth.r), {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
+        const Asperities a = of({0.5}, {0.5}, truth.r);
+        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
         CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
         CHECK(contact->at_separation(range * (1 - 1e-7)).force < 0);
-        double before = -1;
         for (double m = 1 + 0.01 / lambda; m < 30; m *= 1.02) {
             const Maugis::State state = truth.at(m);
-            if (before >= 0 && state.u > before) break;  // past the last stable one
-            before = state.u;
+            if (truth.at(1.02 * m).u > state.u - 1e-3 * range) break;  // near the last stable one
             const Level level = contact->at_separation(-state.u);
             if (level.contacts == 0) continue;
             CHECK_CLOSE(level.force, state.f, 1e-8 * std::max(unit, std::abs(state.f)));
@@ -67,7 +66,7 @@ void test_one() {
             (void)contact->at_separation(-state.u - step);
             const double change = contact->energy() - energy;
             (void)contact->at_separation(-state.u);
-            CHECK_CLOSE(change / step, level.force, 1e-3 * std::max(unit, std::abs(state.f)));
+            CHECK_CLOSE(change / step, level.force, 2e-3 * std::max(unit, std::abs(state.f)));
         }
     }
 }
@@ -81,7 +80,8 @@ void test_groups() {
         for (int k = 0; k < n; ++k) x.push_back(0.4 * std::cos(2 * pi * k / n)), y.push_back(0.4 * std::sin(2 * pi * k / n));
         double c = 0;
         for (int k = 1; k < n; ++k) c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
-        const auto contact = make_asperity_contact(of(x, y, law.r), {kE, kFlat, 0, 0}, sticky(law.w, range));
+        const Asperities a = of(x, y, law.r);
+        const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(law.w, range));
         for (double m : {1.05, 1.1, 1.2, 1.3}) {
             const Maugis::State state = law.at(m);
             const Level level = contact->at_separation(-state.u - c * state.f);
@@ -107,7 +107,8 @@ void test_limit() {
         for (double range : {3e-4, 1e-4, 3e-5}) {
             SolverOptions with = sticky(1e-3, range), jkr = sticky(1e-3, 0);
             with.law = jkr.law = law;
-            const auto one = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, with), other = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, jkr);
+            const auto one = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, with),
+                       other = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, jkr);
             (void)one->at_separation(-0.01), (void)other->at_separation(-0.01);
             const double there = other->at_separation(0.005).force, apart = std::abs(one->at_separation(0.005).force / there - 1);
             CHECK(apart < 0.6 * before);
