@@ -83,10 +83,9 @@ public:
             const auto shape = profile_.at(s.t * smooth);
             const double paraboloid = s.e * std::sqrt(s.r * smooth), stiffness = 2 * paraboloid * shape.radius;
             const double P = 4.0 / 3 * paraboloid * smooth * shape.load;
-            const Past more = grown(s.last, past);
-            force[k] = P + stiffness * more.load;
-            slope[k] = stiffness * more.radius;
-            work[k] = 8.0 / 15 * paraboloid * smooth * smooth * shape.work + P * past + stiffness * more.work;
+            force[k] = P + stiffness * past;
+            slope[k] = stiffness;
+            work[k] = 8.0 / 15 * paraboloid * smooth * smooth * shape.work + P * past + 0.5 * stiffness * past * past;
         }
     }
 
@@ -95,13 +94,13 @@ public:
         const Summit& s = summit(asperity);
         const double smooth = std::min(u, s.last), t = s.t * smooth, paraboloid = s.e * std::sqrt(s.r * smooth);
         const double P = 4.0 / 3 * paraboloid * smooth * profile_.load(t);
-        return u > smooth ? P + 2 * paraboloid * profile_.at(t).radius * grown(s.last, u - smooth).load : P;
+        return u > smooth ? P + 2 * paraboloid * profile_.at(t).radius * (u - smooth) : P;
     }
 
     double area(int asperity, double u) const override {
         if (!(u > 0)) return 0;
         const Summit& s = summit(asperity);
-        const double smooth = std::min(u, s.last), radius = profile_.radius(s.t * smooth) * grown(s.last, u - smooth).radius;
+        const double smooth = std::min(u, s.last), radius = profile_.radius(s.t * smooth);
         return s.spot * s.r * smooth * radius * radius;
     }
 
@@ -110,9 +109,8 @@ public:
 
     double widening(int asperity, double u) const override {
         const Summit& s = summit(asperity);
-        if (u > s.last) return 0.5 * kGrowth / (s.last + kGrowth * (u - s.last));
         const double t = s.t * u;
-        return t < 1 ? 0.5 / (u * profile_.radius(t) * std::sqrt(1 - t)) : 0.0;
+        return t < 1 && u <= s.last ? 0.5 / (u * profile_.radius(t) * std::sqrt(1 - t)) : 0.0;
     }
 
     // A(u) = spot r u R(t)^2 with t R(t)^2 = asin^2(sqrt(t)), up to t = kFlattest.
@@ -129,7 +127,7 @@ public:
         return result;
     }
 
-    // The mean pressure rises up to t = kFlattest, then falls, and rises on beyond `last`.
+    // The mean pressure rises up to t = kFlattest, then falls, and rises on beyond `last`, where the area stays.
     double yield_penetration(int asperity, double pressure) const override {
         const Summit& s = summit(asperity);
         const auto reached = [&](double u) { return force(asperity, u) >= pressure * area(asperity, u); };
@@ -141,8 +139,7 @@ public:
         for (int i = 0; i < 200; ++i) {
             double f, D, W;
             respond(1, &asperity, &u, &f, &D, &W);
-            const double A = area(asperity, u), mean = f / A,
-                         rise = u * (D / f - (u < s.last ? spread(asperity, u).slope / A : 2 * widening(asperity, u)));
+            const double A = area(asperity, u), mean = f / A, rise = u * (D / f - (u < s.last ? spread(asperity, u).slope / A : 0.0));
             (mean >= pressure ? high : low) = u;
             double next = u * std::exp(std::log(pressure / mean) / rise);
             if (std::abs(next - u) <= 4 * std::numeric_limits<double>::epsilon() * u) break;
@@ -170,19 +167,6 @@ private:
     }
 
     static constexpr double kDeepest = 100;  // |q| a where q^2 < 0: far beyond any contact, and cosh(2 |q| a) does not overflow
-
-    // Past u = last the contact grows into what surrounds the summit, a^2 in proportion to 1 + kGrowth (u - last)/last: its radius over that at
-    // `last`, and the integrals of this over u - last, once and twice. kGrowth is fitted to elements: constant radii (0) carry up to 9 % too
-    // little where one contact carries most of the load, radii as of a sphere (1) have too large an area.
-    static constexpr double kGrowth = 0.6;
-    struct Past {
-        double radius = 1, load = 0, work = 0;
-    };
-    static Past grown(double last, double past) {
-        if (!(past > 0)) return {};
-        const double w = 1 + kGrowth * past / last, root = std::sqrt(w), l = last / kGrowth;
-        return {root, 2.0 / 3 * l * (w * root - 1), 2.0 / 3 * l * (0.4 * l * (w * w * root - 1) - past)};
-    }
 
     // In terms of u, with delta = u/F2: a^2 = r u and t of BesselProfile = t u; forces are as with the modulus e.
     struct alignas(64) Summit {
