@@ -56,7 +56,8 @@ struct SurfaceDomain : Domain {
     double points_per_wave = 0;  // of the grid its summits are found on, in the shortest wave; 0: not known
     // Half a grid step of a map read: its points are cells that begin at 0, so the middle of the points lies half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
-    double rms_slope = 0;  // 0: not known (a list)
+    double rms_slope = 0;                             // 0: not known (a list)
+    std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
 };
 
 // The surface as contacts use it: asperities, or with solver%model = 'elements' the points of the surface.
@@ -69,6 +70,9 @@ struct SurfaceModel {
     bool list = false;                         // the asperities were given one by one; surface%L may correct the guessed domain
     std::shared_ptr<const Measured> measured;  // of a measured map
 };
+
+// The border points and spikes of a map that is not periodic.
+std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks);
 
 // The domain of a made surface, which is known before its asperities are.
 SurfaceDomain synthetic_domain(const Spectrum& spectrum);
