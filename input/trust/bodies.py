@@ -108,12 +108,12 @@ MAPS = [
     ("shot-peened blade", ALUMINIUM, RUBY, 1.0, 4e-3, 2.5, "force 0.1 0.3"),
     ("small window", GOLD, STEEL, 0.02, 2e-5, 10, "sigma 2 1"),
 ]
-# the same, with L/lambda_l, L/lambda_s, H, plateau, points in the shortest wave, further groups of the case
+# the same, with L/lambda_l, L/lambda_s, H, plateau, points in the shortest wave, further keys of &solids
 MADE = [
     ("bearing ball G5", SI3N4, BEARING, 0.25, 1.4e-5, 6.35, "force 0.1 0.3", 3, 32, 0.85, False, 8, ""),
     ("superfinished raceway", BEARING, BEARING, 0.4, 4e-5, 12, "force 0.1 0.3", 2, 40, 0.8, True, 8, ""),
     ("valve seat", STEEL, STEEL, 1.2, 5e-4, 4, "force 0.05 0.2", 6, 48, 0.7, False, 6, ""),
-    ("relay contact", GOLD, GOLD, 0.15, 6e-4, 1.0, "sigma 2.5 1.5", 6, 48, 0.8, False, 8, "&solids hardness=900 /\n"),
+    ("relay contact", GOLD, GOLD, 0.15, 6e-4, 1.0, "sigma 2.5 1.5", 6, 48, 0.8, False, 8, "hardness=900"),
     ("spring pin", BRASS, GOLD, 0.2, 3e-4, 0.3, "sigma 3 2", 4, 32, 0.9, False, 8, ""),
     ("seal ring, PEEK", PEEK, STEEL, 2.0, 8e-4, 40, "force 0.1 0.35", 4, 32, 0.8, True, 6, ""),
     ("brake disc", IRON, CARBON, 4.0, 3e-3, 200, "force 0.1 0.3", 8, 48, 0.8, True, 6, ""),
@@ -121,9 +121,9 @@ MADE = [
     ("watch jewel", RUBY, STEEL, 0.05, 5e-6, 0.2, "force 0.1 0.3", 2, 24, 0.9, False, 8, ""),
     ("probe on wafer", SILICON, SIC, 0.02, 5e-7, 0.02, "sigma 3 1", 2, 32, 0.7, False, 8, ""),
     ("few contacts", STEEL, RUBY, 0.3, 1e-3, 1.5, "sigma 3.2 2.8", 8, 32, 0.8, False, 8, ""),
-    ("gold bump on pad", GOLD, ALUMINIUM, 0.08, 4e-4, 0.6, "sigma 2 1", 3, 24, 0.9, True, 5, "&solids hardness=1200 /\n"),
-    ("machine joint", STEEL, IRON, 2.0, 1.5e-3, math.inf, "sigma 2.5 1.5", 8, 48, 0.8, True, 6, "&indentation boundary='periodic' /\n"),
-    ("optical flats", GLASS, GLASS, 0.5, 2e-6, math.inf, "sigma 2.5 1.5", 4, 32, 0.9, False, 8, "&indentation boundary='periodic' /\n"),
+    ("gold bump on pad", GOLD, ALUMINIUM, 0.08, 4e-4, 0.6, "sigma 2 1", 3, 24, 0.9, True, 5, "hardness=1200"),
+    ("machine joint", STEEL, IRON, 2.0, 1.5e-3, math.inf, "sigma 2.5 1.5", 8, 48, 0.8, True, 6, ""),
+    ("optical flats", GLASS, GLASS, 0.5, 2e-6, math.inf, "sigma 2.5 1.5", 4, 32, 0.9, False, 8, ""),
 ]
 
 
@@ -142,10 +142,10 @@ def run(rsc, text, folder):
         return {name: np.ravel(f[name][...]).astype(float) for name in names if name in f.variables}
 
 
-def pressed(what, E, L, R):
+def pressed(what, E, L, R, boundary):
     how, *values = what.split()
     if how == "sigma":
-        return f"&indentation levels={', '.join(values)} /\n"
+        return f"&indentation levels={', '.join(values)}{boundary} /\n"
     return "&indentation control='force' levels=" + ", ".join(repr(4 / 3 * E * (float(v) * L / 2) ** 3 / R) for v in values) + " /\n"
 
 
@@ -162,27 +162,28 @@ def main():
             if o.names and name not in o.names:
                 continue
             E = 1 / ((1 - nu1**2) / E1 + (1 - nu2**2) / E2)
-            case = f"&run threads=1 seed={zlib.crc32(name.encode()) % 1000} /\n&solids E={E1}, {E2} nu={nu1}, {nu2} R=Infinity, {'Infinity' if math.isinf(R) else R} /\n"
-            extra = ""
+            flats, extra = math.isinf(R), body[12] if len(body) > 7 else ""
+            case = f"&run threads=1 seed={zlib.crc32(name.encode()) % 1000} /\n&solids E={E1}, {E2} nu={nu1}, {nu2} R=Infinity, {'Infinity' if flats else R} {extra} /\n"
+            boundary = " boundary='periodic'" if flats else ""
             if len(body) == 7:
                 fine, coarse = os.path.join(folder, "fine.nc"), os.path.join(folder, "map.nc")
                 z = measured(name, 2 * POINTS) * sigma
                 write_map(fine, z, L), write_map(coarse, z[::2, ::2], L)
                 surface, resolved = f"&surface source='heights' file='{coarse}' /\n", f"&surface source='heights' file='{fine}' /\n"
             else:
-                longest, shortest, hurst, plateau, points, extra = body[7:]
+                longest, shortest, hurst, plateau, points = body[7:12]
                 surface = (f"&surface L={L} sigma={sigma!r} L_lambda_l={longest} L_lambda_s={shortest} hurst={hurst} "
                            f"plateau={'.true.' if plateau else '.false.'} n={2 * math.ceil(points * shortest / 2)} /\n")
                 resolved = surface + "&elements points_per_wave=12 /\n"
             for law in ("default", "hertz", "elliptic", "fourth_order"):
                 by = "" if law == "default" else f"&solver model='asperities' /\n&asperities law='{law}' /\n"
-                r = run(o.rsc, case + surface + extra + pressed(what, E, L, R) + by, folder)
+                r = run(o.rsc, case + surface + pressed(what, E, L, R, boundary) + by, folder)
                 if isinstance(r, str):
                     print(f"{name:25s} {law:13s} refused: {r[:150]}", flush=True)
                     continue
                 levels = ", ".join(repr(float(v)) for v in r["separation"])
-                tip = f"centre={float(r['tip_x'][0])!r}, {float(r['tip_y'][0])!r}" if "tip_x" in r and math.isfinite(R) else ""
-                t = run(o.rsc, case + resolved + extra + f"&indentation unit='length' levels={levels} {tip} /\n&solver model='elements' /\n", folder)
+                tip = f"centre={float(r['tip_x'][0])!r}, {float(r['tip_y'][0])!r}" if "tip_x" in r and not flats else ""
+                t = run(o.rsc, case + resolved + f"&indentation unit='length' levels={levels} {tip}{boundary} /\n&solver model='elements' /\n", folder)
                 if isinstance(t, str):
                     print(f"{name:25s} {law:13s} elements refused: {t[:150]}", flush=True)
                     continue

@@ -6,6 +6,7 @@
     python3 input/trust/trust.py asperities  solves the same levels by the three laws (likewise)
     python3 input/trust/trust.py fit         fits the bounds to the first of the surfaces, tells how often they hold on the others, group by
                                              group, and writes src/contact/expected_error_table.hpp
+    python3 input/trust/trust.py slopes      N and A over those of elements by slope_ratio and law (the table in test/README)
 
 Options: --rsc ./rsc  the program;  --out DIR  where results are kept (output/trust);  --surfaces N  how many (500; 540 with the broad spectra);  --first K.
 Needs numpy, scipy and netCDF4. All surfaces are drawn here from their number, so that a study is the same wherever it runs.
@@ -354,10 +355,37 @@ def fit(out, header):
     pathlib.Path(header).write_text("\n".join(lines))
 
 
+def slopes(out):
+    """N and A over elements' by slope_ratio: median, and the range of nine in ten levels; free surfaces whose levels are resolved."""
+    elements, asperities = read(out, "elements"), read(out, "asperities")
+    edges = (0, 0.05, 0.1, 0.2, 0.4, 0.8, 2, 10)
+    found = {}
+    for number, e in elements.items():
+        laws = asperities.get(number, {}).get("laws", {})
+        if e.get("refused") or e["group"] == "flats" or "fourth_order" not in laws:
+            continue
+        for k in range(len(e["N"])):
+            x = laws["fourth_order"]["x"][k]  # the same slope for all laws
+            if not usable(e, k) or x is None or x["plastic"] > 0:
+                continue
+            ratio = 0.2 * math.sqrt(math.expm1(x["slope"]))
+            for law, a in laws.items():
+                if a["status"][k] != 4:
+                    found.setdefault((law, int(np.searchsorted(edges, ratio, "right")) - 1), []).append((a["N"][k] / e["N"][k], a["A"][k] / e["A"][k], a["status"][k] == 0))
+    for law in LAWS:
+        for b in range(len(edges) - 1):
+            v = np.array(found.get((law, b), []), float)
+            if len(v):
+                n, a = np.percentile(v[:, 0], [50, 5, 95]), np.percentile(v[:, 1], [50, 5, 95])
+                sure = v[v[:, 2] == 1]
+                print(f"{law:13s} {edges[b]:5.2f} - {edges[b + 1]:5.2f}: {len(v):4d} levels  N {n[0]:5.2f} ({n[1]:5.2f} {n[2]:5.2f})  A {a[0]:5.2f} ({a[1]:5.2f} {a[2]:5.2f})  "
+                      f"status 0: {len(sure)}, of these N within 5 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.05)}, 10 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.1)}")
+
+
 def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("what", choices=["elements", "asperities", "fit"])
+    p.add_argument("what", choices=["elements", "asperities", "fit", "slopes"])
     p.add_argument("--rsc", default="./rsc")
     p.add_argument("--out", type=pathlib.Path, default=here / "output" / "trust")
     p.add_argument("--surfaces", type=int, default=500)
@@ -367,6 +395,8 @@ def main():
     o.out.mkdir(parents=True, exist_ok=True)
     if o.what == "fit":
         fit(o.out, o.table)
+    elif o.what == "slopes":
+        slopes(o.out)
     else:
         study(os.path.abspath(o.rsc), o.out, o.what, range(o.first, o.surfaces))
 

@@ -36,6 +36,7 @@ struct AdhesiveContact::Impl {
     const Asperities& of_surface;
     SummitSearch search;
     std::optional<Asperities> of_difference;
+    mutable FlankTouch flanks;
     const Asperities& asperities;  // one of the two
     Indenter indenter;
     SolverOptions options;
@@ -507,7 +508,7 @@ Level AdhesiveContact::Impl::report() {
         l.area += state.area;
         l.beyond_law += state.beyond || law->beyond(i, now.s[k]);
     }
-    judge_asperities(l, *law, asperities, indenter, options, !of_difference);
+    judge_asperities(l, *law, asperities, indenter, options, of_difference ? nullptr : &flanks);
     if (options.adhesion.range > 0) l.cohesive_area = cohesive;
     l.jumps = jumps;
     l.energy_lost = now.lost;

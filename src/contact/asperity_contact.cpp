@@ -44,6 +44,7 @@ struct AsperityContact::Impl {
     const Asperities& of_surface;
     SummitSearch search;
     std::optional<Asperities> of_difference;
+    mutable FlankTouch flanks;
     const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
     SolverOptions options;
@@ -169,7 +170,7 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
-    judge_asperities(level, *law, asperities, indenter, options, !of_difference);
+    judge_asperities(level, *law, asperities, indenter, options, of_difference ? nullptr : &flanks);
     return level;
 }
 

@@ -71,7 +71,7 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, const W
 }
 
 void judge_asperities(Level& level, const Law& law, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                      bool of_surface) {
+                      FlankTouch* flanks) {
     if (traits(options.law).elliptic_spots)
         level.area = union_area(spots_of(level, law, asperities), &level.overlapping_pairs, indenter.period, &level.own_area);
     else
@@ -81,7 +81,11 @@ void judge_asperities(Level& level, const Law& law, const Asperities& asperities
     if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options);  // calibrated without adhesion
     judge_range(level, indenter, options);
     // Summits of the surface are the contact points only if the indenter is nearly flat beside them.
-    if (of_surface && (level.slope_ratio > kMostSlopeRatio || (level.contacts == 0 && level.separation < beside(asperities, indenter))))
+    const auto flank_touches = [&] {
+        if (flanks->x0 != indenter.x0 || flanks->y0 != indenter.y0) *flanks = {indenter.x0, indenter.y0, beside(asperities, indenter)};
+        return level.separation < flanks->Z0;
+    };
+    if (flanks && (level.slope_ratio > kMostSlopeRatio || (level.contacts == 0 && flank_touches())))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

@@ -7,8 +7,8 @@ namespace {
 
 using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is the constant 1
 
-// Descriptions of the predictors in the order of the table, as in input/trust/trust.py.
-constexpr const char* kCauses[kErrorPredictors + 1] = {
+// In the order of the table; the same as in input/trust/trust.py.
+constexpr const char* kCauses[kErrorPredictors + 2] = {
     "",
     "the slope of the indenter at the contacts, which touches points beside summits (slope_ratio)",
     "contacts as wide as the waves of the surface: the law describes a summit, not its surroundings",
@@ -19,6 +19,7 @@ constexpr const char* kCauses[kErrorPredictors + 1] = {
     "few points in the shortest wave",
     "yielding contacts",
     "two flats",
+    "spikes one point wide, of unknown shape",
 };
 
 Predictors predictors(const Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
@@ -50,6 +51,17 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             indenter.period.finite() ? 1.0 : 0.0};
 }
 
+// Share of the force on spikes, which may carry any load.
+double spike_share(const Level& level, const MapMarks& marks) {
+    double force = 0;
+    for (std::size_t k = 0; k < level.x.size() && !marks.spikes.empty(); ++k)
+        if (std::any_of(marks.spikes.begin(), marks.spikes.end(), [&](const auto& s) {
+                return std::hypot(s[0] - level.x[k], s[1] - level.y[k]) < std::max(1.5 * marks.reach, level.a[k]);
+            }))
+            force += level.f[k];
+    return force / level.force;
+}
+
 }  // namespace
 
 const char* error_cause(std::int32_t cause) { return kCauses[cause]; }
@@ -67,12 +79,15 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
     const auto& [of_force, of_area] = kErrorTable[static_cast<std::size_t>(options.law)];
     level.force_error_expected = bound(of_force);
     level.area_error_expected = bound(of_area);
+    const double spikes = options.marks ? spike_share(level, *options.marks) : 0;
+    level.force_error_expected += spikes, level.area_error_expected += spikes;
     // The cause is the predictor with the largest contribution above that of its most favourable value.
     double most = 0;
     for (std::size_t k = 1; k < x.size(); ++k) {
         const double least = of_force[k] > 0 && k == 5 ? std::log(1e-2) : 0.0;
         if (const double part = of_force[k] * (x[k] - least); part > most) most = part, level.error_cause = static_cast<std::int32_t>(k);
     }
+    if (spikes > kMuchError) level.error_cause = kErrorPredictors + 1;
 }
 
 }  // namespace rsc

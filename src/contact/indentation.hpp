@@ -84,6 +84,13 @@ struct Adhesion {
     double range = 0;  // z0 of the attraction [length]; 0: JKR
 };
 
+// Points of a measured map that asperities do not represent.
+struct MapMarks {
+    std::vector<std::array<double, 3>> border;  // x, y, z of the outermost points of the map, where no summits are found [length]
+    std::vector<std::array<double, 2>> spikes;  // x, y of the spikes one point wide (rough/breaks.hpp) [length]
+    double reach = 0;                           // a grid step [length]
+};
+
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
@@ -102,6 +109,7 @@ struct SolverOptions {
     double points_per_wave = 0;  // of the grid that the asperities were found on, in the shortest wave; 0: not known
     double rms_slope = 0;        // of the surface, sqrt(2 m2), which the indenter's slopes are measured by; 0: not known
     Rectangle surface;           // the free surface, for counting contacts near its border; not known: not counted
+    std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map; null: none
 };
 
 }  // namespace rsc

@@ -24,6 +24,24 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
 }
 
 // Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
+// Border points of a measured map that would touch: no asperity represents them. Neighbouring points count once.
+std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks) {
+    std::vector<Vec2> touching;
+    std::int32_t count = 0;
+    for (const auto& [x, y, z] : marks.border) {
+        double gap = indenter.clearance(x, y, z) - level.separation;
+        for (std::size_t k = 0; k < level.x.size() && gap > 0; ++k) {
+            const double distance = std::max(std::hypot(level.x[k] - x, level.y[k] - y), level.a[k]);
+            gap -= level.f[k] / (std::numbers::pi * indenter.E_star * distance);
+        }
+        if (!(gap > 0)) continue;
+        count +=
+            std::none_of(touching.begin(), touching.end(), [&](const Vec2& t) { return std::hypot(t.x - x, t.y - y) < 1.5 * marks.reach; });
+        touching.push_back({x, y});
+    }
+    return count;
+}
+
 void count_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
     level.edge_contacts = 0;
     Rectangle surface = options.surface;
@@ -43,6 +61,7 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows) cut[static_cast<std::size_t>(p.contact[k])] = true;
     }
     level.edge_contacts = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
+    if (options.marks && p.index.empty()) level.edge_contacts += border_contacts(level, indenter, *options.marks);
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
             };
             if (!spike && !left(Breaks::pit)) continue;
             marked.push_back({i, j});
+            if (spike) breaks.spikes.push_back({i, j});
             if (!spike && !left(Breaks::spike)) continue;
             const auto jump = [](const Profile& p) {
                 return std::max(p.has(-1) ? std::abs(p.at(0) - p.at(-1)) : 0, p.has(1) ? std::abs(p.at(1) - p.at(0)) : 0);

@@ -17,7 +17,7 @@ struct Breaks {
         double size = 0;  // depth, height or jump of the largest [length]
     };
     std::array<Found, kKinds> found;  // by Kind
-    std::vector<Place> pits;
+    std::vector<Place> pits, spikes;
     // Column and row of a step that runs through most of the map, such as a seam between stitched windows; -1: none.
     int seam_column = -1, seam_row = -1;
     std::vector<std::uint8_t> clear;  // distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty: none

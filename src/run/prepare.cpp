@@ -230,6 +230,18 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     return domain;
 }
 
+std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks) {
+    auto marks = std::make_shared<MapMarks>();
+    const auto x = [&](int i) { return map.x0 + i * map.dx; };
+    const auto y = [&](int j) { return map.y0 + j * map.dy; };
+    const auto border = [&](int i, int j) { marks->border.push_back({x(i), y(j), map(i, j)}); };
+    for (int i = 0; i < map.nx; ++i) border(i, 0), border(i, map.ny - 1);
+    for (int j = 1; j < map.ny - 1; ++j) border(0, j), border(map.nx - 1, j);
+    for (const Breaks::Place& spike : breaks.spikes) marks->spikes.push_back({x(spike.i), y(spike.j)});
+    marks->reach = std::max(map.dx, map.dy);
+    return marks;
+}
+
 SurfaceModel make_surface_model(const Surface& surface, const Case& settings, int threads) {
     const HeightMap& map = surface.map;
     SurfaceModel model;
@@ -268,6 +280,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     model.statistics = bare.statistics;
     model.measured = bare.measured;
     if (!surface.origin.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
+    if (!map.periodic) model.domain.marks = marks_of(map, *breaks);
     count_summits(count, model.statistics);
     return model;
 }
@@ -449,6 +462,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.points_per_wave = domain.points_per_wave;
     options.rms_slope = domain.rms_slope;
     const bool free = settings.indentation.boundary == Boundary::free;
+    if (free) options.marks = domain.marks;
     if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
         throw Error(Failure::bad_input,

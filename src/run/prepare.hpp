@@ -58,6 +58,7 @@ struct SurfaceDomain : Domain {
     double half_step_x = 0, half_step_y = 0;
     double rms_slope = 0;  // 0: not known (a list)
     bool repeats = false;  // beyond its rectangle: made surfaces, and heights that are said to
+    std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
 };
 
 // The surface as contacts use it: asperities, or with solver%model = 'elements' the points of the surface.
@@ -70,6 +71,9 @@ struct SurfaceModel {
     bool list = false;                         // the asperities were given one by one; surface%L may correct the guessed domain
     std::shared_ptr<const Measured> measured;  // of a measured map
 };
+
+// The border points and spikes of a map that is not periodic.
+std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks);
 
 // The domain of a made surface, which is known before its asperities are.
 SurfaceDomain synthetic_domain(const Spectrum& spectrum);

@@ -1,0 +1,62 @@
+// Points of a measured map that asperities do not represent: those of its border, and spikes one point wide.
+#include "check.hpp"
+
+#include "contact/asperity_contact.hpp"
+#include "rough/breaks.hpp"
+#include "rough/detection.hpp"
+#include "run/prepare.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr int kPoints = 64;
+
+HeightMap hills(double at_border, double spike) {
+    HeightMap map;
+    map.allocate(kPoints, kPoints, kPoints);
+    map.dx = map.dy = 1.0 / kPoints;
+    for (int j = 0; j < kPoints; ++j)
+        for (int i = 0; i < kPoints; ++i) {
+            const auto hill = [&](double x, double y) { return std::exp(-(std::pow(i - x, 2) + std::pow(j - y, 2)) / 50); };
+            map.row(j)[i] = 1e-3 * (hill(30, 34) + at_border * hill(20, -2) + 1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
+        }
+    map.row(50)[50] += spike;
+    return map;
+}
+
+Level press(const HeightMap& map, double separation) {
+    const Breaks breaks = find_breaks(map, 0);
+    SummitCount count;
+    const Asperities a = find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 0, nullptr, &breaks);
+    SolverOptions options;
+    options.law = LawKind::fourth_order;
+    options.mean_spacing = 0.1, options.rms_slope = 0.01, options.sigma = 2e-4;
+    options.surface = {0, 0, 1, 1};
+    options.marks = marks_of(map, breaks);
+    const auto contact = make_asperity_contact(a, Indenter{1e5, std::numeric_limits<double>::infinity(), 0.5, 0.5}, options);
+    return contact->at_separation(separation);
+}
+
+void border() {
+    CHECK(press(hills(0, 0), 5e-4).edge_contacts == 0);
+    const Level cut = press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
+    CHECK(cut.edge_contacts == 1 && cut.status == LevelStatus::out_of_validity);
+    CHECK(press(hills(0.3, 0), 5e-4).edge_contacts == 0);    // too low to touch
+    CHECK(press(hills(1.5, 0), 1.2e-3).edge_contacts == 1);  // nothing else touches
+}
+
+void spikes() {
+    const HeightMap map = hills(0, 2e-3);
+    CHECK(find_breaks(map, 0).spikes.size() == 1);
+    const Level on_spike = press(map, 5e-4), without = press(hills(0, 0), 5e-4);
+    CHECK(on_spike.force_error_expected > 0.1 && on_spike.status == LevelStatus::out_of_validity);
+    CHECK(!(without.force_error_expected > 0.1));
+}
+
+}  // namespace
+
+TESTS {
+    border();
+    spikes();
+}
