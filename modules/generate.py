@@ -374,7 +374,7 @@ def subroutine_77(name, f, left_out):
     if texts:
         called = f"{' && '.join('c_' + t for t in texts)} ? {called} : RSC_NO_MEMORY"
     head = f"RSC_API void {name}_({', '.join([*parameters, 'int32_t* ierr', *lengths])})"
-    body = ["BEGIN;", *sorted(find, key=lambda line: "made" in line), *before, f"*ierr = {called};", *[f"free(c_{t});" for t in texts], *after]
+    body = ["BEGIN", *sorted(find, key=lambda line: "made" in line), *before, f"*ierr = {called};", *[f"free(c_{t});" for t in texts], *after]
     fill = lambda line: textwrap.wrap(line, 140, subsequent_indent=" " * 8, break_long_words=False)
     return [*fill(head + ";"), *fill(head + " {"), *[part for line in body for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)], "}", ""]
 

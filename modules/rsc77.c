@@ -3,14 +3,16 @@
  *
  *     CALL RSCIND(ICON, Z0, FORCE, IERR)
  *
- * INTEGER has 4 bytes and DOUBLE PRECISION 8, the default of compilers; RSCINT checks it. Arrays and scalars are passed by address; the length of
- * a CHARACTER follows all arguments by value, as with gfortran and flang; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the
- * i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG returns the message. Outputs keep their values after a failure,
- * except for IERR = 1 (not converged). Indices count from 1. A handle of 0 means none: for a case, the defaults.
+ * INTEGER is 4 bytes and DOUBLE PRECISION 8, as compilers have them unless told otherwise. No compiler or linker tells when it is not
+ * (-fdefault-integer-8, -i8), so that every call before one of RSCINT, which finds it out, is refused. Arrays and scalars go by address; of a
+ * CHARACTER the length follows all arguments by value, as gfortran and flang pass it; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the
+ * i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG says why. Outputs keep what they held after a failure, but for
+ * IERR = 1 (not converged). Indices count from 1. A handle of 0 is none: for a case, the defaults.
  *
  * Different handles may be used by different threads at the same time, as rsc.h says; the table of handles has its own lock.
  */
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,7 +115,17 @@ static void put_text(const char* text, char* characters, size_t length) {
     if (n < length) memset(characters + n, ' ', length - n);
 }
 
-#define BEGIN own_message[0] = '\0'
+/* Whether RSCINT has found INTEGER to have 4 bytes. */
+static atomic_int integers_fit;
+
+/* Begins every call; returns from it until then. */
+#define BEGIN                                                                                                       \
+    own_message[0] = '\0';                                                                                          \
+    if (!atomic_load(&integers_fit)) {                                                                              \
+        refuse(0, "call RSCINT first, with an INTEGER array of 1 and 2: it tells whether INTEGER has 4 bytes");     \
+        *ierr = RSC_NO_RESULT;                                                                                      \
+        return;                                                                                                     \
+    }
 /* Finds the object of a handle, or returns with the number of that argument. A case of 0 means the defaults. */
 #define FIND(type, name, handle, kind, argument)                                        \
     type* const name = object_of(*(handle), kind);                                      \
@@ -162,16 +174,17 @@ RSC_API void rscmsg_(char* text, size_t length) {
 
 RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr);
 RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr) {
-    BEGIN;
-    *ierr =
-        one_and_two[0] == 1 && one_and_two[1] == 2 ? 0 : refuse(1, "INTEGER must have 4 bytes: compile without -fdefault-integer-8 or -i8");
+    own_message[0] = '\0';
+    const int fits = one_and_two[0] == 1 && one_and_two[1] == 2;
+    atomic_store(&integers_fit, fits);
+    *ierr = fits ? 0 : refuse(1, "INTEGER must have 4 bytes: compile without -fdefault-integer-8 or -i8");
 }
 
 /* ---- all handles ------------------------------------------------------------------------------------------------------------ */
 
 RSC_API void rscdel_(int32_t* handle, int32_t* ierr);
 RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
-    BEGIN;
+    BEGIN
     *ierr = 0;
     if (*handle == 0) return;
     const struct entry entry = entry_of(*handle, 1);
@@ -185,7 +198,7 @@ RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
 
 RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr);
 RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
-    BEGIN;
+    BEGIN
     const struct entry entry = entry_of(*original, 0);
     void* made = NULL;
     switch (entry.kind) {
@@ -203,7 +216,7 @@ RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
 
 RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr, size_t name_length, size_t value_length);
 RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr, size_t name_length, size_t value_length) {
-    BEGIN;
+    BEGIN
     FIND(rsc_case, a_case, icase, CASE, 1)
     char* const c_name = text_of(name, name_length);
     char* const buffer = malloc(value_length + 1);
@@ -219,7 +232,7 @@ RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, d
                      int32_t* ierr);
 RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, double* force, double* radius, double* penetration,
                      int32_t* ierr) {
-    BEGIN;
+    BEGIN
     FIND(const rsc_contact, contact, icon, CONTACT, 1)
     int64_t contacts = 0;
     *ierr = rsc_contact_result(contact, NULL, NULL, NULL, &contacts);

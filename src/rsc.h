@@ -309,8 +309,11 @@ RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* origi
 RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
 
 /* Moves the tip sideways. The results remain those of the last level until the next one is computed.
- * contact: the contact; x0, y0: new position [length], above the surface; for asperities from arrays without surface%L, no farther
- * from them than the sphere's radius. Errors: -1 null; -2, -3 not finite; -2 a position outside, in which case the tip is not moved;
+ * contact: the contact; x0, y0: new position [length]. On a periodic surface (made from a spectrum, or heights declared periodic) any
+ * position: whole periods do not count, and rsc_contact_tip returns the position within the surface's rectangle. From the first move on
+ * contacts continue across the border of such a surface, half a period to each side of the tip (elements: at least a quarter). On other
+ * surfaces a position above the surface; for asperities from arrays without surface%L, no farther from them than the sphere's radius.
+ * Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic, in which case the tip is not moved;
  * RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 

@@ -110,14 +110,14 @@ def height_map(s, fine):
     return z / z.std() * s["sigma"]
 
 
-def write_map(path, z):
+def write_map(path, z, L=1.0):
     import netCDF4
     with netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_DATA") as f:
         f.createDimension("y", z.shape[0]), f.createDimension("x", z.shape[1])
         for axis in "xy":
             v = f.createVariable(axis, "f8", (axis,))
             v.units = "mm"
-            v[:] = np.arange(z.shape[0]) / z.shape[0]
+            v[:] = np.arange(z.shape[0]) / z.shape[0] * L
         v = f.createVariable("height", "f8", ("y", "x"))
         v.units = "mm"
         v[:] = z

@@ -12,7 +12,11 @@ C     Hertz, what is wrong is told and changes nothing.
       CHARACTER*200 TEXT
       INTEGER ITWO(2), IOLD
       DATA ITWO /1, 2/
-C     Were INTEGER of 8 bytes (-fdefault-integer-8), it would be told.
+C     Were INTEGER of 8 bytes (-fdefault-integer-8), it would be told,
+C     and nothing goes before that is asked.
+      IERR = 0
+      CALL RSCCAS(ICASE, IERR)
+      IF (IERR .NE. 4) CALL WRONG('a call before RSCINT')
       CALL RSCINT(ITWO, IERR)
       CALL CHECK('RSCINT', IERR)
 C     Units: mm and N.

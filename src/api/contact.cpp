@@ -167,9 +167,9 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
         if (settings.indenter.shape != 0) refuse(7, "a_case", "has a shape other than a sphere: use rsc_contact_create_from_case");
         const auto& on = asperities->model;
         require_model(*on, settings, 7);
-        const rsc::Period period = rsc::period_of(settings, domain_of(settings, *on));
-        auto made =
-            std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings), rsc::Indenter{E_star, R, x0, y0, period});
+        const rsc::SurfaceDomain domain = domain_of(settings, *on);
+        const rsc::Indenter indenter{E_star, R, x0, y0, rsc::period_of(settings, domain)};
+        auto made = std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings), surrounded(indenter, domain));
         made->given = {E_star, R};
         return made.release();
     });
@@ -183,8 +183,8 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
         require_sound(settings, {"solids", "indenter"});
         const auto& on = asperities->model;
         require_model(*on, settings, 3);
-        const rsc::Indenter indenter = rsc::indenter_of(settings, domain_of(settings, *on));
-        return new rsc_contact(on, std::make_shared<const rsc::Case>(settings), indenter);
+        const rsc::SurfaceDomain domain = domain_of(settings, *on);
+        return new rsc_contact(on, std::make_shared<const rsc::Case>(settings), surrounded(rsc::indenter_of(settings, domain), domain));
     });
 }
 
@@ -195,8 +195,9 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         require(contact, 1, "contact");
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
-        require_place(*contact, x0, y0);
-        contact->contact.move_tip(x0, y0);
+        const rsc::Vec2 place = place_of(*contact, x0, y0);
+        const rsc::Indenter& now = contact->contact.indenter();
+        if (place.x != now.x0 || place.y != now.y0) contact->contact.move_tip(place.x, place.y);
     });
 }
 
@@ -386,9 +387,13 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
-        const auto& indenter = contact->contact.indenter();
+        rsc::Indenter indenter = contact->contact.indenter();
+        indenter.x0 = contact->known.x0, indenter.y0 = contact->known.y0;
         const auto kernel = rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
-        for (int64_t i = 0; i < n; ++i) deflection[i] = rsc::deflection(level, *kernel, x[i], y[i]);
+        for (int64_t i = 0; i < n; ++i) {
+            const rsc::Vec2 at = indenter.image(x[i], y[i]);
+            deflection[i] = rsc::deflection(level, *kernel, at.x, at.y);
+        }
     });
 }
 

@@ -11,15 +11,33 @@ SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on) {
     return on.list && settings.surface.L ? list_domain(on.asperities, settings.surface.L, "the asperities") : on.domain;
 }
 
-void require_place(const rsc_contact& contact, double x0, double y0) {
+namespace {
+
+double onto(double v, double first, double length) {
+    if (v >= first && v < first + length) return v;
+    const double beyond = std::fmod(v - first, length);
+    return first + (beyond < 0 ? beyond + length : beyond);
+}
+
+}  // namespace
+
+Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     const Indenter& indenter = contact.contact.indenter();
-    if (indenter.period.finite()) return;
     SurfaceDomain domain = contact.on->domain;
+    if (indenter.period.finite() || indenter.repeats.finite()) return {onto(x0, domain.x0, domain.Lx), onto(y0, domain.y0, domain.Ly)};
     if (const Rectangle& known = contact.options.surface; known.known()) {
         domain = {known.x0, known.y0, known.Lx, known.Ly};
         domain.guessed = false;
     }
     require_tip_above(domain, indenter.shape, x0, y0);
+    return {x0, y0};
+}
+
+Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
+    if (!domain.repeats || indenter.period.finite()) return indenter;
+    indenter.repeats = {domain.Lx, domain.Ly};
+    indenter.x0 = onto(indenter.x0, domain.x0, domain.Lx), indenter.y0 = onto(indenter.y0, domain.y0, domain.Ly);
+    return indenter;
 }
 
 namespace {

@@ -138,16 +138,16 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
         require(friction, 1, "friction");
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
-        require_place(friction->outer, x0, y0);
+        const rsc::Vec2 to = place_of(friction->outer, x0, y0);
         const rsc::Indenter& indenter = friction->outer.contact.indenter();
         const rsc::Vec2 before{indenter.x0, indenter.y0};
-        if (before.x == x0 && before.y == y0) return;
+        if (before.x == to.x && before.y == to.y) return;
         with_levels(*friction, [&] {
             rsc::FrictionHistory& history = friction->history;
             const double delta = history.approach();
             try {
                 const rsc::Level here = history.force() > 0 ? friction->curve.level(delta) : rsc::Level{};
-                put_tip(*friction, {x0, y0});
+                put_tip(*friction, to);
                 if (history.state().begun)
                     history.move(friction->curve, here.force > 0 ? shared_force(here, friction->curve.level(delta)) : 0);
             } catch (...) {

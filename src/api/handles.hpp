@@ -96,8 +96,12 @@ void require_sound(const Case& settings, std::initializer_list<std::string_view>
 
 int threads_of(const Case& settings);
 
-// Refuses argument 2 unless the tip may be at this position.
-void require_place(const rsc_contact& contact, double x0, double y0);
+// The position of the tip for the contact: on a periodic surface moved by whole periods onto its rectangle. Refuses argument 2 for a
+// position outside the surface.
+Vec2 place_of(const rsc_contact& contact, double x0, double y0);
+
+// The indenter of a contact of the library, which can move across the borders of a periodic surface.
+Indenter surrounded(Indenter indenter, const SurfaceDomain& domain);
 
 // For asperities from arrays the size of the surface is that of the case (surface%L).
 SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on);

@@ -114,6 +114,7 @@ void put_making(Entries& to, const rsc_contact& contact) {
     const Indenter& indenter = contact.contact.indenter();
     to.numbers["ground"] = {digest(*contact.on)};
     to.numbers["tip"] = {indenter.x0, indenter.y0};
+    to.numbers["moved"] = {double(indenter.around.finite())};
     if (contact.given) to.numbers["given"] = {(*contact.given)[0], (*contact.given)[1]};
     to.texts["case"] = effective_namelist(*contact.keys);
 }
@@ -129,6 +130,8 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     Indenter indenter =
         told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0, period_of(*keys, domain)} : indenter_of(*keys, domain);
     indenter.x0 = tip[0], indenter.y0 = tip[1];
+    indenter = surrounded(std::move(indenter), domain);
+    if (from.numbers.contains("moved") && from.one("moved") != 0) indenter.around = indenter.repeats;
     auto made = std::make_unique<rsc_contact>(asperities.model, keys, indenter);
     if (told) made->given = {from.of("given")[0], from.of("given")[1]};
     return made;

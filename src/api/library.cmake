@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set_target_properties(rsc_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-set(rsc_dependencies LAPACK::LAPACK OpenMP::OpenMP_CXX PkgConfig::FFTW PkgConfig::NETCDF rsc_udunits ZLIB::ZLIB)
+set(rsc_dependencies LAPACK::LAPACK Threads::Threads PkgConfig::FFTW PkgConfig::NETCDF rsc_udunits ZLIB::ZLIB)
 
 add_library(rsc_shared SHARED $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_shared PROPERTIES OUTPUT_NAME rsc EXPORT_NAME rsc VERSION ${PROJECT_VERSION}
@@ -12,14 +12,15 @@ set_target_properties(rsc_shared PROPERTIES OUTPUT_NAME rsc EXPORT_NAME rsc VERS
 target_link_libraries(rsc_shared PRIVATE $<BUILD_INTERFACE:${rsc_dependencies}>)
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")  # templates of the C++ library would be visible otherwise
   set(rsc_symbols ${CMAKE_CURRENT_LIST_DIR}/rsc.map)
-  target_link_options(rsc_shared PRIVATE "LINKER:--version-script=${rsc_symbols}")
+  # nodelete: the threads of its loops sleep in the library until the process ends, so dlclose leaves it where it is.
+  target_link_options(rsc_shared PRIVATE "LINKER:--version-script=${rsc_symbols}" "LINKER:-z,nodelete")
   set_target_properties(rsc_shared PROPERTIES LINK_DEPENDS ${rsc_symbols})
 endif()
 
 add_library(rsc_static STATIC $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_static PROPERTIES OUTPUT_NAME rsc EXPORT_NAME static LINKER_LANGUAGE CXX)
 target_link_libraries(rsc_static PUBLIC "$<BUILD_INTERFACE:${rsc_dependencies}>"
-                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;OpenMP::OpenMP_CXX;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2;ZLIB::ZLIB>")
+                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;Threads::Threads;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2;ZLIB::ZLIB>")
 
 foreach(library rsc_shared rsc_static)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -99,7 +100,7 @@ foreach(library ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
     list(APPEND rsc_private_libraries "${library}")
   endif()
 endforeach()
-list(APPEND rsc_private_libraries -lfftw3_threads -lfftw3f_threads -ludunits2 ${OpenMP_CXX_FLAGS} -lstdc++ -lm)
+list(APPEND rsc_private_libraries -lfftw3_threads -lfftw3f_threads -ludunits2 ${CMAKE_THREAD_LIBS_INIT} -lstdc++ -lm)
 list(REMOVE_DUPLICATES rsc_private_libraries)
 list(JOIN rsc_private_libraries " " rsc_private_libraries)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/rsc.pc.in ${PROJECT_BINARY_DIR}/rsc.pc @ONLY)

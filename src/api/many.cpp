@@ -25,15 +25,13 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
         }
         std::vector<std::int32_t> outcome(static_cast<std::size_t>(n), RSC_SUCCESS);
         std::vector<std::string> reason(static_cast<std::size_t>(n));
-#pragma omp parallel for schedule(dynamic) num_threads(omp_team(static_cast <std::size_t>(n), threads))
-        for (std::int64_t k = 0; k < n; ++k) {
-            outcome[static_cast<std::size_t>(k)] = each(k);
-            if (outcome[static_cast<std::size_t>(k)] != RSC_SUCCESS) {
-                char text[500] = "";
-                rsc_message(text, sizeof text, nullptr);
-                (void)guarded(0, [&] { reason[static_cast<std::size_t>(k)] = text; });
-            }
-        }
+        parallel_for(static_cast<std::size_t>(n), 1, threads, [&](std::size_t k) {
+            outcome[k] = each(static_cast<std::int64_t>(k));
+            if (outcome[k] == RSC_SUCCESS) return;
+            char text[500] = "";
+            rsc_message(text, sizeof text, nullptr);
+            reason[k] = text;
+        });
         if (status) std::copy(outcome.begin(), outcome.end(), status);
         const auto bad = std::find_if(outcome.begin(), outcome.end(), [](std::int32_t s) { return s != RSC_SUCCESS; });
         if (bad == outcome.end()) return;

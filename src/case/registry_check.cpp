@@ -12,6 +12,7 @@ namespace rsc {
 namespace {
 
 constexpr double kMostMapValues = 1e9;    // of one map variable: 8 GB
+constexpr double kMostCircles = 2e6;      // radial_bins times map_cells, to which the work of the radial means is proportional: a second
 constexpr double kMostLevelValues = 1e9;  // realizations x levels
 
 class Checker {
@@ -119,10 +120,11 @@ private:
         refuse(std::isfinite(s.hardness), "solids%hardness", "with solids%hardness it is not available yet");
         refuse(s.friction > 0, "solids%friction", "with solids%friction it is not available yet");
         refuse(relaxes(c_), "solids%relaxation_share", "with solids%relaxation_share it is not available yet");
-        refuse(s.adhesion_range > 0, "solids%adhesion_range", "with adhesion_range > 0 it is not available yet; 0 is JKR");
-        refuse(by_elements(c_), "solver%model", "with model = 'elements' it is not available yet");
+        refuse(s.adhesion_range > 0 && !by_elements(c_) && c_.asperities.law == LawKind::fourth_order, "asperities%law",
+               "with adhesion_range > 0 law = 'fourth_order' is not available yet; give 'hertz' or 'elliptic'");
+        refuse(!(s.adhesion_range > 0) && by_elements(c_), "solids%adhesion_range", "model = 'elements' needs adhesion_range > 0");
         refuse(!c_.output.fields.empty(), "output%fields", "fields of contacts with adhesion are not available yet");
-        refuse(c_.compare.listed(), "compare%levels", "with model = 'elements' it is not available yet; give no compare%levels");
+        refuse(c_.compare.listed() && !(s.adhesion_range > 0), "compare%levels", "elements need adhesion_range > 0");
         refuse(c_.solver.method == Method::dgesv, "solver%method", "method = 'dgesv' does not support tensile forces; give another method");
         refuse(c_.indentation.selection == Selection::paper, "indentation%selection",
                "needs asperities beyond the circle of selection = 'paper'; give 'overlap'");
@@ -166,9 +168,6 @@ private:
         if (s.resistivity[0] > 0 || s.resistivity[1] > 0)
             complain({"solids%resistivity", "solids%layer_thickness"},
                      "resistivity: not available yet for a body with layers, whose conductance does not follow from its stiffness");
-        if (c_.indentation.boundary == Boundary::periodic && !by_elements(c_))
-            complain({"solids%layer_thickness", "solver%model"},
-                     "layer_thickness: with boundary = 'periodic' not available yet for asperities; use model = 'elements'");
     }
 
     void check_relaxation() {
@@ -388,6 +387,9 @@ private:
         if (levels * c_.output.radial_bins > kMostMapValues)
             complain({"output%radial_bins", by}, "radial_bins = " + std::to_string(c_.output.radial_bins) + ": the radial means of " +
                                                      count(levels) + " levels would hold more than " + count(kMostMapValues) + " values");
+        if (cells * c_.output.radial_bins > kMostCircles)
+            complain({"output%radial_bins", "output%map_cells"},
+                     "radial_bins = " + std::to_string(c_.output.radial_bins) + ": times map_cells at most " + count(kMostCircles));
         if (levels * c_.run.realizations > kMostLevelValues)
             complain({"run%realizations", by}, "realizations = " + std::to_string(c_.run.realizations) + ": with " + count(levels) +
                                                    " levels more than " + count(kMostLevelValues) + " values of each curve");
@@ -437,7 +439,8 @@ ModelChoice model_of(const Case& settings) {
     }
     // Keys that elements do not support.
     if (settings.compare.listed()) return {Model::asperities, "compare%levels compares them with elements"};
-    if (settings.solids.adhesion > 0) return {Model::asperities, "solids%adhesion needs them"};
+    if (settings.solids.adhesion > 0 && !(settings.solids.adhesion_range > 0))
+        return {Model::asperities, "solids%adhesion without adhesion_range needs them"};
     if (settings.solids.friction > 0) return {Model::asperities, "solids%friction needs them"};
     if (settings.solids.hardness < Case::kInfinity && settings.solids.size_effect > 0)
         return {Model::asperities, "solids%size_effect needs them"};

@@ -60,14 +60,14 @@ struct AdhesiveContact::Impl {
     Vector clearance;
     std::vector<int> place;      // of an asperity in the set; -1: not in it
     double covered = kInfinity;  // places with a clearance above this are in the set
-    double margin = 0;           // by which forces may raise a place
+    double margin = 0;           // by which forces may raise a place, and the range of the attraction
     std::vector<int> active;     // positions in the set
 
     // A state on the way.
     struct Point {
         double Z = 0;
         Vector s;  // of the attached
-        Vector u;  // penetrations of the others
+        Vector u;  // penetrations of the others, from where they attach
         std::vector<Sticking::State> states;
         double force = 0, energy = 0, residual = 0;
         AttachedSolver::Change change;
@@ -83,7 +83,7 @@ struct AdhesiveContact::Impl {
           options(options_),
           kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
           law(make_law(options_.law, asperities, indenter_.E_star)),
-          sticking(*law, options_.adhesion.work),
+          sticking(*law, options_.adhesion.work, options_.adhesion.range),
           direct(make_direct_products(kernel)),
           solver(sticking),
           place(asperities.size(), -1) {
@@ -92,7 +92,9 @@ struct AdhesiveContact::Impl {
         if (!options.relaxation.none()) refuse("solids%relaxation_share it is not available yet");
         if (options.method == Method::dgesv) refuse("solver%method = 'dgesv' it is not available: the paper's method knows no tension");
         if (options.selection == Selection::paper) refuse("indentation%selection = 'paper' it is not available: others are pulled in, too");
-        if (options.adhesion.range > 0) refuse("solids%adhesion_range > 0 (Maugis and Dugdale) it is not available yet");
+        if (options.adhesion.range > 0 && options.law == LawKind::fourth_order)
+            refuse("solids%adhesion_range > 0 and asperities%law = 'fourth_order' it is not available yet");
+        margin = options.adhesion.range;
         ranking.assign(asperities, indenter);
     }
 
@@ -128,7 +130,8 @@ void AdhesiveContact::Impl::cover(double lowest) {
     const auto add = [&](int i, double height) {
         place[at(i)] = set.size();
         set.asperity.push_back(i);
-        set.x.push_back(asperities.x[at(i)]), set.y.push_back(asperities.y[at(i)]);
+        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        set.x.push_back(image.x), set.y.push_back(image.y);
         clearance.push_back(height);
     };
     for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
@@ -168,7 +171,7 @@ bool AdhesiveContact::Impl::find(double Z, Vector s, Point& point) {
     point.states = solver.states();
     point.force = solver.force(), point.energy = solver.energy(), point.residual = solver.residual();
     point.u.clear();
-    for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)]);
+    for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)] - sticking.touches());
     return true;
 }
 
@@ -178,9 +181,10 @@ double AdhesiveContact::Impl::raised() const {
     for (double phi : solver.phi()) most = std::max(most, -phi);
     for (std::size_t k = 0; k < solver.states().size(); ++k) {  // beside a contact that pulls
         const Sticking::State& state = solver.states()[k];
-        most = std::max(most, -solver.phi()[at(active[k])] - state.f * kernel->near() / std::sqrt(state.area / std::numbers::pi));
+        most = std::max(most, -solver.phi()[at(active[k])] - state.f * kernel->near() / std::sqrt(state.outer / std::numbers::pi));
     }
-    return 1.2 * most > margin ? 2 * most : 0.0;
+    const double range = options.adhesion.range;
+    return 1.2 * most > margin - range ? 2 * most + range : 0.0;
 }
 
 // How the state found last changes with Z.
@@ -216,7 +220,7 @@ bool AdhesiveContact::Impl::settle(double Z, Vector s) {
         }
         const auto before = std::lower_bound(active.begin(), active.end(), touching) - active.begin();
         active.insert(active.begin() + before, touching);
-        s.insert(s.begin() + before, sticking.state_at(set.asperity[at(touching)], deepest * scale(touching)));
+        s.insert(s.begin() + before, sticking.state_at(set.asperity[at(touching)], sticking.touches() + deepest * scale(touching)));
         products->set_active(active);
     }
     return false;
@@ -286,7 +290,7 @@ bool AdhesiveContact::Impl::begin(double target) {
     lost_way = false;
     active.clear();
     here = {};
-    const double highest = ranking.highest();
+    const double highest = ranking.highest() - sticking.touches();
     if (now.asperity.empty()) {
         if (!(target < highest)) {
             for (int i : set.asperity) place[at(i)] = -1;
@@ -339,7 +343,7 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
             Vector s = here.s;
             const auto k = std::lower_bound(active.begin(), active.end(), *touching) - active.begin();
             active.insert(active.begin() + k, *touching);
-            s.insert(s.begin() + k, sticking.state_at(set.asperity[at(*touching)], 0.0));
+            s.insert(s.begin() + k, sticking.state_at(set.asperity[at(*touching)], sticking.touches()));
             products->set_active(active);
             jump(here.Z, here.energy, std::move(s));
             known = false, shorter = 1;
@@ -492,15 +496,19 @@ Level AdhesiveContact::Impl::report() {
     l.iterations = steps;
     l.products = direct->count() + (mesh ? mesh->count() : 0) - products_before;
     l.method = products == mesh.get() && mesh ? Method::mesh : Method::direct;
+    double cohesive = 0;
     for (std::size_t k = 0; k < now.asperity.size(); ++k) {
         const int i = now.asperity[k];
         const Sticking::State state = sticking.at(i, now.s[k]);
-        l.add_contact(i, asperities.x[at(i)], asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
+        if (state.area > 0)
+            l.add_contact(i, asperities.x[at(i)], asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
+        cohesive += state.outer - state.area;
         l.force += state.f;
         l.area += state.area;
         l.beyond_law += state.beyond || law->beyond(i, now.s[k]);
     }
     judge_asperities(l, *law, asperities, indenter, options, !of_difference);
+    if (options.adhesion.range > 0) l.cohesive_area = cohesive;
     l.jumps = jumps;
     l.energy_lost = now.lost;
     l.least_force = now.least_force;
@@ -556,7 +564,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     Impl& my = *impl_;
     if (!my.accepted.asperity.empty())
         throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while asperities are attached, which is not available yet");
-    my.indenter.x0 = x0, my.indenter.y0 = y0;
+    my.indenter.move(x0, y0);
     forget_levels();
 }
 

@@ -6,15 +6,15 @@
 
 namespace rsc {
 
-// Constriction (Barber, Proc. R. Soc. A 459, 2003): the conductance of the contact is 2 S/(E* (rho_1 + rho_2)), S = -dN/dZ0, for one
-// spot 4 a/(rho_1 + rho_2) (Holm); with point interaction it is Greenwood's (1966) problem of many spots. 2 S/E* is a length that needs
-// no material data [length]. `stiffness` is dN/dZ0, negative.
+// Conductance length 2 S/E* [length], where `stiffness` is dN/dZ0 = -S (negative). The conductance of the contact is this length over
+// (rho_1 + rho_2) (Barber, Proc. R. Soc. A 459, 2003): 4 a/(rho_1 + rho_2) for one spot (Holm), and Greenwood's (1966) result for many
+// spots with point interaction.
 double conductance_length(double stiffness, double E_star);
 
-// (rho_1 + rho_2) over that length; NaN without contact and for resistivities that are both 0 [resistivity/length].
+// Constriction resistance (rho_1 + rho_2)/conductance_length [resistivity/length]; NaN without contact or if both resistivities are 0.
 double constriction_resistance(double conductance_length, const double (&resistivity)[2]);
 
-// Puts them into the last level of a contact. One more solution of linear equations, for the stiffness.
+// Adds these results to the last level of a contact. The stiffness requires one more linear solve.
 void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]);
 
 }  // namespace rsc

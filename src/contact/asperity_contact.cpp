@@ -57,7 +57,7 @@ struct AsperityContact::Impl {
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
-    NewtonOutcome outcome;  // of pass() and settle()
+    NewtonOutcome outcome;  // outcome of pass() and settle()
     bool passed = false;    // the solution is that of pass() and has not been settled
     struct {
         double separation = 0;
@@ -66,7 +66,7 @@ struct AsperityContact::Impl {
 
     EarlierLevels earlier;
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
-    Products* products = nullptr;            // the one in use
+    Products* products = nullptr;            // the products in use
     Newton newton;
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
@@ -318,7 +318,7 @@ std::vector<double> AsperityContact::memory() const {
 void AsperityContact::recall(const std::vector<double>& memory, const Level* level) {
     Impl& my = *impl_;
     if (relaxes()) {
-        if (memory.empty()) throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
+        if (memory.empty()) throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
         my.relaxing->read(std::span(memory).subspan(1));
         recall_time(memory[0]);
     } else {
@@ -326,7 +326,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
         Vector deepest;
         for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
             if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
-                throw Error(Failure::bad_input, "this is not the state of a contact of these asperities");
+                throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
             yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
         }
         my.law->forget();
@@ -411,10 +411,11 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size());
-    my.indenter.x0 = x0;
-    my.indenter.y0 = y0;
+    const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
+    my.indenter.move(x0, y0);
     if (my.of_difference && !my.law->path_dependent() &&
-        std::hypot(x0 - my.found_x, y0 - my.found_y) > summits_keep(my.of_surface, my.indenter, my.options)) {
+        (opens || std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y)) >
+                      summits_keep(my.of_surface, my.indenter, my.options))) {
         forget();
         return;
     }

@@ -1,4 +1,4 @@
-// The asperities of a rough surface pressed by an indenter: the deterministic multi-asperity model (paper, section 4).
+// Contact of the asperities of a rough surface with an indenter: the deterministic multi-asperity model (paper, section 4).
 #pragma once
 
 #include "contact/contact.hpp"
@@ -9,24 +9,24 @@ namespace rsc {
 
 class AsperityContact final : public Contact {
 public:
-    // The asperities are the summits of the surface and must outlive the contact. Laws that take summits between the points, given a
-    // search, are applied to the summits of the difference between surface and indenter: found by the search where the indenter is steeper
-    // than kMostSlopeRatio of options.rms_slope above what it may touch, elsewhere moved from those of the surface. Otherwise the
-    // asperities are taken as they are. Throws Error(bad_input) for moduli, shapes or options out of range.
+    // The asperities are the summits of the surface and must outlive the contact. If `search` is given, laws for summits between grid
+    // points use the summits of the difference between surface and indenter instead. These are detected by `search` if the slope of the
+    // indenter in the possible contact region exceeds kMostSlopeRatio times options.rms_slope; otherwise the given summits are moved.
+    // Throws Error(bad_input) for moduli, shapes or options out of range.
     AsperityContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search = {});
     ~AsperityContact() override;
     AsperityContact(AsperityContact&&) noexcept;
 
     double stiffness() override;
 
-    // W = sum W_i(u_i) + F'BF/2 with the work W_i = int_0^u f du of the asperities and the interaction energy: since u + B F = g0,
-    // dW/dZ0 = F'dg0/dZ0 = -N, the contact is conservative. Evaluated as -E(F) of solver/newton.hpp, which equals W at the solution
-    // and is in error only by the square of the residual.
+    // W = sum W_i(u_i) + F'BF/2: the work W_i = int_0^u f du of the asperities plus the interaction energy. Since u + B F = g0, dW/dZ0 =
+    // F'dg0/dZ0 = -N. It is evaluated as -E(F) of solver/newton.hpp, which equals W at the solution with an error of the order of the
+    // square of the residual.
     double energy() const override;
 
-    // The last level goes on as a start for the next where the solution is proved unique. Summits of the difference are found anew once
-    // the tip has moved by a tenth of a summit's size, and by as much as tilts the indenter by a fiftieth of the surface's rms slope; then
-    // the contact goes on as one newly made. Those that remember their path keep their summits.
+    // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are detected again, as in
+    // a new contact, when the tip has moved by more than a tenth of the size of a summit and by a distance that tilts the indenter by more
+    // than a fiftieth of the rms slope. Path-dependent contacts keep their summits.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
@@ -39,8 +39,8 @@ public:
 
 protected:
     void forget_levels() override;
-    // The answer depends on Z0 alone: earlier levels are used as a start where the solution is proved unique, and not otherwise. Where the
-    // law remembers its path, the answer is the one to which the accepted levels lead.
+    // The solution depends only on Z0: earlier levels are used as starting points only if the solution is proved unique. With
+    // path-dependent laws the solution continues the accepted levels.
     Level solve(double Z0) override;
     Level pass(double Z0) override;
     Level settle(const Level& passed) override;
@@ -58,7 +58,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// The contact of asperities that the options ask for: this one, or with adhesion the one of adhesive_contact.hpp.
+// Creates an AsperityContact, or with adhesion an AdhesiveContact (adhesive_contact.hpp).
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                SummitSearch search = {});
 

@@ -25,7 +25,7 @@ std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities&
 double beside(const Asperities& asperities, const Indenter& indenter) {
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < asperities.size(); ++i) {
-        const Vec2 slope = indenter.shape->gradient(asperities.x[i] - indenter.x0, asperities.y[i] - indenter.y0);
+        const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), slope = indenter.shape->gradient(d.x, d.y);
         const double nearer = 0.5 * (slope.x * slope.x + slope.y * slope.y) * asperities.radius[i];
         highest = std::fmax(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer);
     }
@@ -46,7 +46,7 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
     const double steepest = steepest_above(asperities, indenter, highest - depth * options.sigma);
     if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
         Asperities found = search(indenter);
-        add_flanks(found, asperities, kFlankSpacing * options.mean_spacing);
+        add_flanks(found, asperities, kFlankSpacing * options.mean_spacing, indenter.around);
         return found;
     }
     return moved_summits(asperities, indenter);

@@ -1,5 +1,4 @@
-// What contacts of asperities have in common, whatever holds them: which summits touch, how products are taken, what a level says beside
-// its forces.
+// Common parts of contacts of asperities with and without adhesion: selection of summits and method, and evaluation of levels.
 #pragma once
 
 #include "contact/law/law.hpp"
@@ -9,15 +8,15 @@
 
 namespace rsc {
 
-// The summits of the difference between surface and indenter, or nothing where the asperities are to be taken as they are.
+// Summits of the difference between surface and indenter; absent if the given asperities are to be used.
 std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                 const SummitSearch& search);
 
-// `auto`: direct or mesh by what a Newton solve costs, from the rates test/bench measures.
+// Resolves method `auto` to direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench.
 Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates);
 
-// To a level that has its contacts, their force and the sum of their areas: the area of the union of elliptic spots, overlaps, the range of
-// the model, the error expected, and with them its status. `of_surface`: the asperities are summits of the surface, not of the difference.
+// Completes a level that has contacts, force and the sum of areas: area of the union of elliptic spots, overlaps, validity of the model,
+// expected errors and status. `of_surface`: the asperities are summits of the surface, not of the difference.
 void judge_asperities(Level& level, const Law& law, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                       bool of_surface);
 

@@ -16,12 +16,12 @@ Candidates select_candidates(Ranking& ranking, const Asperities& asperities, con
     WorkingSet& set = candidates.set;
     for (std::size_t r = 0; r < last; ++r) {
         const auto i = static_cast<std::size_t>(ranking[r].asperity);
-        const double dx = asperities.x[i] - indenter.x0, dy = asperities.y[i] - indenter.y0;
-        if (dx * dx + dy * dy > r0_squared) continue;
+        const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), image = indenter.image(asperities.x[i], asperities.y[i]);
+        if (d.x * d.x + d.y * d.y > r0_squared) continue;
         candidates.rank.push_back(r);
         set.asperity.push_back(ranking[r].asperity);
-        set.x.push_back(asperities.x[i]);
-        set.y.push_back(asperities.y[i]);
+        set.x.push_back(image.x);
+        set.y.push_back(image.y);
         set.g0.push_back(ranking[r].height - Z0);
     }
     return candidates;

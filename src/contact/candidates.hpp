@@ -1,4 +1,4 @@
-// The asperities a level is solved for.
+// Candidates: the asperities for which a level is solved.
 #pragma once
 
 #include "contact/indentation.hpp"
@@ -11,12 +11,12 @@ namespace rsc {
 
 struct Candidates {
     WorkingSet set;
-    std::vector<std::size_t> rank;  // of each candidate in the ranking
+    std::vector<std::size_t> rank;  // position of each candidate in the ranking
     int size() const { return set.size(); }
 };
 
-// Those with g0 > 0: where every force only lowers the surface (B F >= 0), nothing else can touch. Selection::paper drops also those
-// outside r0 = 1.5 sqrt(2 (4 sigma - Z0) R) (paper, section 4). The law is prepared for all of them.
+// Selects the asperities with g0 > 0. No others can touch, because forces only lower the surface (B F >= 0). Selection::paper also drops
+// those outside r0 = 1.5 sqrt(2 (4 sigma - Z0) R) (paper, section 4). The law is prepared for all candidates.
 Candidates select_candidates(Ranking& ranking, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                              Law& law, double Z0);
 

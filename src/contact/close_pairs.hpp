@@ -1,14 +1,14 @@
-// Pairs of points that lie close to each other, by a sweep along the longer side of the area they take: the points are sorted by where their
-// reach begins, and each is compared with those that begin before its own reach ends.
+// Search for pairs of close points by a sweep along the longer side of their bounding box. Points are sorted by the lower ends of their
+// reaches, and each is compared with those whose reach begins before its own ends.
 #pragma once
 
 #include "contact/period.hpp"
 
 namespace rsc {
 
-// Calls visit(i, j, d) once for every pair i < j with d < reach[i] + reach[j], in an order that depends on the points alone. Points
-// without reach (<= 0) have no pairs. Cost: n log n for n points, and the pairs whose reaches meet along the sweep: some sqrt(n) a point
-// where points lie as far apart as they reach.
+// Calls visit(i, j, d) once for every pair i < j with d < reach[i] + reach[j], in an order that depends only on the points. Points with
+// reach <= 0 have no pairs. Cost: n log n for n points, plus the pairs whose reaches overlap along the sweep (about sqrt(n) per point if
+// the reach is similar to the spacing).
 template <class Visit>
 void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& reach, Visit&& visit) {
     struct Point {
@@ -36,15 +36,15 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
     }
 }
 
-// The same with distances to the nearest of all images, each pair once.
+// Periodic version: d is the distance to the nearest image, and each pair is visited once.
 template <class Visit>
 void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& reach, const Period& period,
                      Visit&& visit) {
     if (!period.finite()) return for_close_pairs(x, y, reach, visit);
-    // Points near the low borders once more beyond the high ones.
+    // Copies of points near the lower borders beyond the upper ones.
     struct Image {
         std::size_t index;
-        bool x, y;  // moved by a period
+        bool x, y;  // true if shifted by a period
     };
     double longest = 0;
     for (double r : reach) longest = std::max(longest, r);
@@ -64,7 +64,7 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
     }
     for_close_pairs(xs, ys, reaches, [&](std::size_t a, std::size_t b, double d) {
         const Image &p = images[a], &q = images[b];
-        if (p.index == q.index || (p.x && q.x) || (p.y && q.y)) return;  // an image of itself, or a pair that came up already
+        if (p.index == q.index || (p.x && q.x) || (p.y && q.y)) return;  // an image of itself, or a pair that was visited already
         const std::size_t i = p.index < q.index ? a : b, j = p.index < q.index ? b : a;
         const auto nearest = [](double offset, double side) { return -side / 2 < offset && offset <= side / 2; };
         if (nearest(xs[j] - xs[i], period.x) && nearest(ys[j] - ys[i], period.y)) visit(images[i].index, images[j].index, d);

@@ -1,4 +1,5 @@
-// The contact of a rough surface with an indenter, level by level, whatever it is made of: asperities (asperity_contact.hpp) or elements.
+// Interface of contacts of a rough surface with an indenter, solved level by level: asperities (asperity_contact.hpp) or boundary elements
+// (element_contact.hpp).
 #pragma once
 
 #include "contact/level.hpp"
@@ -9,16 +10,16 @@ class Contact {
 public:
     virtual ~Contact() = default;
 
-    // The answer at the separation Z0 [length], which is accepted: where path_dependent(), later levels depend on it. Never
-    // throws for a level that did not converge: see Level::status. Throws Error(bad_input) if Z0 is not finite.
+    // Solves at the separation Z0 [length] and accepts the level; if path_dependent(), later levels depend on it. Failure to converge is
+    // reported by Level::status. Throws Error(bad_input) if Z0 is not finite.
     Level at_separation(double Z0);
 
-    // The separation at which the indenter carries the force N [force], N > 0 but with adhesion, and the answer there, to the tolerance or to the
-    // spacing of floating-point numbers Z0, whichever is coarser. Separations tried on the way have no effect on later levels.
+    // Finds the separation at which the indenter carries the force N [force] (N > 0 unless there is adhesion), to the tolerance or the
+    // floating-point resolution of Z0, and accepts the level. Intermediate trial separations have no effect on later levels.
     Level at_force(double N);
 
-    // The time of the levels that follow, for bodies that relax (relaxes(); others do not ask): loads are taken to change linearly with it
-    // from the last accepted level; the first level is reached at once. Throws Error(bad_input) if it is not finite or before that level.
+    // Sets the time of the following levels, used only if relaxes(). The load changes linearly from the last accepted level; the first
+    // level is applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the last level.
     void set_time(double time);
     double time() const { return time_; }
     virtual bool relaxes() const { return false; }
@@ -26,102 +27,102 @@ public:
     // Of the last level:
     // dN/dZ0 (negative; 0 without contact) [force/length].
     virtual double stiffness() = 0;
-    // Elastic energy W, with dW/dZ0 = -N [force length]. Its error is of the order of the square of the residual.
+    // Elastic energy W, with dW/dZ0 = -N [force length]. The error is of the order of the square of the residual.
     virtual double energy() const = 0;
 
-    // Moves the tip to (x0, y0). The last level may serve as a start for the next. Throws Error(bad_input) if not finite.
+    // Moves the tip to (x0, y0). The last level may be used as a starting point for the next. Throws Error(bad_input) if not finite.
     virtual void move_tip(double x0, double y0) = 0;
 
-    // Z0 at which the indenter touches the surface [length]; -Infinity when nothing lies under it.
+    // Z0 at which the indenter touches the surface [length]; -Infinity if nothing lies under it.
     virtual double first_touch() const = 0;
 
     virtual const Indenter& indenter() const = 0;
 
-    // The asperities it is made of, as they touch now: their places, heights and curvatures. Null for elements.
+    // Asperities used at present (positions, heights, curvatures); null for boundary elements.
     virtual const Asperities* asperities() const { return nullptr; }
 
-    // Goes on as a contact newly made with the tip here: earlier levels are no start for the next.
+    // Resets to the state of a new contact at this position of the tip: earlier levels are no longer used as starting points.
     void forget() {
         last_.reset();
         last_force_ = 0;
         forget_levels();
     }
 
-    // True if a level depends on those before it. energy() is then the recoverable energy, and stiffness() that of unloading; of bodies that
-    // relax, the energy their springs hold, and the stiffness of a sudden step.
+    // True if a level depends on earlier ones. energy() is then the recoverable energy and stiffness() the unloading stiffness; for
+    // relaxing bodies, the energy stored in their springs and the instantaneous stiffness.
     virtual bool path_dependent() const { return false; }
-    // Whether forces may be negative: adhesion.
+    // True if forces may be negative (adhesion).
     virtual bool pulls() const { return false; }
-    // All that accepted levels leave behind, as numbers that only a contact made alike understands; empty where nothing stays.
+    // State left by accepted levels, as numbers that only an identically constructed contact can interpret; empty if there is none.
     virtual std::vector<double> memory() const { return {}; }
-    // Goes back to such a memory and to the last level that was accepted before it was taken; null: there was none. energy() and stiffness()
-    // speak of that level, and later levels start from it. The tip must be at its place of then.
+    // Restores a state returned by memory() and the last level accepted before it (null: none). energy() and stiffness() then refer to this
+    // level, and later levels start from it. The tip must be at its position of that time.
     virtual void recall(const std::vector<double>& memory, const Level* level) = 0;
 
-    // Residual depth of each asperity without force [length]; empty if none yielded.
+    // Residual depth of each asperity after unloading [length]; empty if none yielded.
     virtual std::vector<double> residual_depths() const { return {}; }
-    // Elements: the points that yielded, and how far each stays lowered.
+    // Boundary elements: the points that yielded and their residual depths.
     virtual ResidualProfile residual_profile() const { return {}; }
 
 protected:
-    // State that a model keeps of earlier levels.
+    // Discards the state of the model from earlier levels.
     virtual void forget_levels() = 0;
 
-    // A trial: the answer at Z0, which stiffness() and energy() then speak of.
+    // Solves a trial level at Z0, to which stiffness() and energy() then refer.
     virtual Level solve(double Z0) = 0;
-    // The answer under the force N, of a model that can solve for a force directly; force control then uses nothing else.
+    // Solves for the force N directly, if the model can; force control then uses only this function.
     virtual std::optional<Level> solve_under(double N) {
         (void)N;
         return std::nullopt;
     }
-    // On the way to a separation: a solution at Z0 near the last one, of its force, cheaper than solve() but not its answer where there
-    // are several. settle() then gives the answer there; its counts are those of what more was done.
+    // Intermediate trial during force control: a solution at Z0 near the last one, cheaper than solve() but possibly a different one if
+    // there are several. settle() then returns the result of solve() there, with the counts of the additional work.
     virtual Level pass(double Z0) { return solve(Z0); }
     virtual Level settle(const Level& passed) {
         Level level = passed;
         level.iterations = 0, level.products = 0;
         return level;
     }
-    // dN/dZ0 of the last trial as solve() counts separations, good enough for Newton's method on Z0.
+    // dN/dZ0 of the last trial, with separations as in solve(), accurate enough for Newton's method on Z0.
     virtual double slope();
-    // The last level solved is accepted: a model with a path stores it, and adds the plastic work to the level.
+    // Accepts the last level solved: path-dependent models store it and add the dissipated work to the level.
     virtual void accept(Level& level) { (void)level; }
-    // Where relaxes(): trials that follow end a step that began at the last accepted level and takes dt.
+    // If relaxes(): following trials end a time step dt that begins at the last accepted level.
     virtual void step(double dt) { (void)dt; }
-    // The time of the last accepted level, as the first number of memory(); NaN: there is none.
+    // Time of the last accepted level, the first number of memory(); NaN: none.
     double accepted_time() const { return accepted_.value_or(std::numeric_limits<double>::quiet_NaN()); }
     void recall_time(double accepted);
 
-    // Between flats that repeat, solve() counts separations from where no force raises the surface (Kernel::shift()): the level at
-    // the separation Z0 of the mean planes is its Z0 - shift() N. first_touch() is the same.
+    // For periodic flats, solve() uses a reference plane that no force raises (Kernel::shift()): the separation Z0 of the mean planes
+    // corresponds to Z0 - shift() N in solve(). first_touch() is the same in both.
     virtual double shift() const { return 0; }
 
-    // The separation of full contact: at and below it solve() has no solution.
+    // Separation of full contact, at and below which solve() has no solution.
     virtual double closed() const { return -std::numeric_limits<double>::infinity(); }
 
-    // Functions of a model that force control needs.
-    virtual double tolerance() const = 0;                         // relative, of the force
-    virtual double force_at_most(double depth) = 0;               // pressed in so far from the first touch; a bound, exact for one place
-    virtual std::optional<double> likely_separation() const = 0;  // where to begin; none: near first touch
-    virtual std::size_t levels_since_move() const = 0;            // solved since the tip was moved, at most a few
+    // Functions required by force control.
+    virtual double tolerance() const = 0;                         // relative tolerance of the force
+    virtual double force_at_most(double depth) = 0;               // upper bound at a depth below first touch; exact for one asperity
+    virtual std::optional<double> likely_separation() const = 0;  // initial guess; absent: near first touch
+    virtual std::size_t levels_since_move() const = 0;            // number of levels since the tip was moved, at most a few
 
 private:
-    // Level at the separation Z0 of the mean planes, where shift() > 0.
+    // Solves at the separation Z0 of the mean planes if shift() > 0.
     Level solve_between_planes(double Z0);
 
     struct Trial {
-        double separation, force, slope;  // as solve() and slope() have them
+        double separation, force, slope;  // as used by solve() and slope()
     };
-    std::optional<Trial> last_;  // the last level, where shift() > 0: a place to begin
+    std::optional<Trial> last_;  // last level if shift() > 0, a starting point
 
-    // Accepts a level, unless it did not converge, and completes it by what an area is needed for.
+    // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
     double last_force_ = 0;  // of the last level, 0 if it did not converge
     void begin() {
         if (relaxes()) step(accepted_ ? time_ - *accepted_ : 0.0);
     }
     double time_ = 0;
-    std::optional<double> accepted_;  // the time of the last accepted level
+    std::optional<double> accepted_;  // time of the last accepted level
 };
 
 }  // namespace rsc

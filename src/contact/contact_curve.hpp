@@ -1,4 +1,4 @@
-// The load curve of a contact, level by level, at any order of approaches.
+// Load curve of a contact, computed level by level for approaches in any order.
 #pragma once
 
 #include "contact/contact.hpp"
@@ -7,8 +7,8 @@
 
 namespace rsc {
 
-// Two contacts of the same asperities, sphere and options take turns: friction asks for the approach at hand and for one further out, and
-// each is reached faster from its own last level. Which one answers depends on the approaches asked for alone.
+// Uses two contacts of the same asperities, sphere and options: friction requests the current approach and a smaller one alternately, and
+// each is solved faster from its own last level. The choice depends only on the requested approaches.
 class ContactCurve : public LoadCurve {
 public:
     ContactCurve(Contact& one, Contact& other) : contact_{&one, &other} {}
@@ -18,13 +18,13 @@ public:
     double stiffness(double delta) override;
     double approach(double force) override;
 
-    // Forgets the last levels, as if newly made. The caller makes the contacts forget theirs, too.
+    // Discards the last levels. The caller must also call forget() of the contacts.
     void forget() { last_[0].reset(), last_[1].reset(); }
 
-    // Levels computed so far, and those of them that did not converge.
+    // Number of levels computed, and of those that did not converge.
     long levels() const { return levels_; }
     long failed() const { return failed_; }
-    // The level at an approach: computed, unless it is the last one of either contact.
+    // Level at an approach; computed unless it is the last one of either contact.
     const Level& level(double delta);
 
 private:
@@ -35,14 +35,14 @@ private:
     long levels_ = 0, failed_ = 0;
 };
 
-// Friction at the spots of the present level: q_i = -m sum over the pieces of u' [f_i(s_end) - f_i(s_begin)], and the stick
-// radius, that of the spot at stick_approach() (0 where all of it slips): its area sticks, the rest of the spot slips.
+// Friction of the spots of the current level: forces q_i = -m sum over the pieces of u' [f_i(s_end) - f_i(s_begin)], and stick radii. The
+// stick radius is that of the spot at stick_approach(), 0 if all of it slips; the rest of the spot slips.
 struct SpotSlip {
-    int asperity = 0;  // 0-based, in increasing order: the contacts of the level at history.approach()
+    int asperity = 0;  // 0-based index, increasing: the contacts of the level at history.approach()
     double radius = 0, stick_radius = 0;
     Slide force;
 };
-// Asks `curve` for a level for each piece of memory.
+// Requests one level of `curve` for each piece of the memory.
 std::vector<SpotSlip> slip_of_spots(ContactCurve& curve, const FrictionHistory& history);
 
 }  // namespace rsc

@@ -1,5 +1,6 @@
 #include "contact/element_contact.hpp"
 
+#include "contact/adhesive_elements.hpp"
 #include "contact/load_memory.hpp"
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
+constexpr double kMostTimes = 30;     // of the last force, for a start from its pressures
+constexpr double kMargin = 0.3;       // by which pixels are chosen lower than the step to the separation expected
 constexpr int kBlock = 16;            // pixels of a side of the blocks whose highest points are kept
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -23,6 +26,9 @@ struct ElementContact::Impl {
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
+    // Pixels are counted from the map's column turn_x and row turn_y, where a surface that repeats is cut open: away from the tip. Else 0.
+    int turn_x = 0, turn_y = 0;
+    HeightMap frame;  // their number, steps, and the place of pixel (0, 0); no heights
     double bulge;
     std::unique_ptr<PixelProducts> products;
     ElementsSolver solver;
@@ -55,8 +61,15 @@ struct ElementContact::Impl {
     std::vector<double> lowered;
 
     double scale() const { return loads ? loads->compliance() : 1.0; }
-    std::int32_t place(const Pixel& pixel) const { return static_cast<std::int32_t>(pixel.y * heights.nx + pixel.x); }
-    std::vector<double> deflections(std::vector<Pixel> where, const std::vector<std::int32_t>& places, const std::vector<double>& q);
+    // Of the map: column, row, and a pixel's index.
+    int column(int i) const { return i + turn_x < heights.nx ? i + turn_x : i + turn_x - heights.nx; }
+    int row(int j) const { return j + turn_y < heights.ny ? j + turn_y : j + turn_y - heights.ny; }
+    std::int32_t place(const Pixel& pixel) const { return static_cast<std::int32_t>(row(pixel.y) * heights.nx + column(pixel.x)); }
+    // And back.
+    int pixel_x(int column) const { return column >= turn_x ? column - turn_x : column - turn_x + heights.nx; }
+    int pixel_y(int row) const { return row >= turn_y ? row - turn_y : row - turn_y + heights.ny; }
+    Pixel pixel_at(std::int32_t place) const { return {pixel_x(place % heights.nx), pixel_y(place / heights.nx)}; }
+    std::vector<double> deflections(const std::vector<Pixel>& where, const std::vector<std::int32_t>& places, const std::vector<double>& q);
     void take_off_rest(double Z0);
 
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
@@ -69,6 +82,8 @@ struct ElementContact::Impl {
           blocks_x((heights_.nx + kBlock - 1) / kBlock),
           blocks_y((heights_.ny + kBlock - 1) / kBlock),
           pressed(heights_.nx, heights_.ny) {
+        frame.nx = heights.nx, frame.ny = heights.ny, frame.dx = heights.dx, frame.dy = heights.dy;
+        cut_open();
         if (!options.relaxation.none()) loads.emplace(Creep(options.relaxation));
         block_top.assign(at(blocks_x) * at(blocks_y), -kInfinity);
         for (int j = 0; j < heights.ny; ++j) {
@@ -79,23 +94,42 @@ struct ElementContact::Impl {
         find_top();
     }
 
-    double x(int i) const { return heights.x0 + i * heights.dx; }
-    double y(int j) const { return heights.y0 + j * heights.dy; }
-    double height(int i, int j) const { return indenter.clearance(x(i), y(j), heights(i, j) - pressed(i, j)); }
+    double x(int i) const { return frame.x0 + i * frame.dx; }
+    double y(int j) const { return frame.y0 + j * frame.dy; }
+    double height(int i, int j) const {
+        const int c = column(i), r = row(j);
+        return indenter.clearance(x(i), y(j), heights(c, r) - pressed(c, r));
+    }
 
     // No point of the block is higher under the indenter: its highest one, before anything was pressed out, under the lowest part of the
     // face above the block.
     double bound(int bi, int bj) const {
-        const Box block{x(bi * kBlock) - indenter.x0, x(std::min((bi + 1) * kBlock, heights.nx) - 1) - indenter.x0,
-                        y(bj * kBlock) - indenter.y0, y(std::min((bj + 1) * kBlock, heights.ny) - 1) - indenter.y0};
+        const Box block{x(pixel_x(bi * kBlock)) - indenter.x0, x(pixel_x(std::min((bi + 1) * kBlock, heights.nx) - 1)) - indenter.x0,
+                        y(pixel_y(bj * kBlock)) - indenter.y0, y(pixel_y(std::min((bj + 1) * kBlock, heights.ny) - 1)) - indenter.y0};
         return block_top[at(bj) * at(blocks_x) + at(bi)] - indenter.shape->lowest(block);
     }
 
+    void cut_open();
     void find_top();
     void select(double Z0);
     void predict(double Z0);
+    void remember(double Z0);
+    void number_by_map(Level& level) const;
     Level report(double Z0, const ElementsOutcome& outcome) const;
 };
+
+// Half a period further where the tip lies in the outer quarters, at the border of a block.
+void ElementContact::Impl::cut_open() {
+    const auto cut = [](double tip, double first, double step, int n, bool repeats, int& turn, double& origin) {
+        turn = 0, origin = first;
+        const double place = (tip - first) / (n * step);
+        if (!repeats || (place >= 0.25 && place < 0.75)) return;
+        turn = n / 2 / kBlock * kBlock;
+        origin = first + (place < 0.25 && turn > 0 ? turn - n : turn) * step;
+    };
+    cut(indenter.x0, heights.x0, heights.dx, heights.nx, indenter.around.finite(), turn_x, frame.x0);
+    cut(indenter.y0, heights.y0, heights.dy, heights.ny, indenter.around.finite(), turn_y, frame.y0);
+}
 
 void ElementContact::Impl::find_top() {
     top = -kInfinity;
@@ -103,7 +137,8 @@ void ElementContact::Impl::find_top() {
         for (int bi = 0; bi < blocks_x; ++bi) {
             if (!(bound(bi, bj) > top)) continue;
             for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights.ny); ++j)
-                for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights.nx); ++i) top = std::max(top, height(i, j));
+                for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights.nx); ++i)
+                    top = std::max(top, height(pixel_x(i), pixel_y(j)));
         }
 }
 
@@ -112,49 +147,45 @@ void ElementContact::Impl::select(double Z0) {
     pixels.clear();
     g0.clear();
     std::vector<int> high;
-    for (int bj = 0; bj < blocks_y; ++bj) {
+    for (int b = 0; b < blocks_y; ++b) {
+        const int bj = (b + turn_y / kBlock) % blocks_y;
         high.clear();
-        for (int bi = 0; bi < blocks_x; ++bi) {
+        for (int a = 0; a < blocks_x; ++a) {
+            const int bi = (a + turn_x / kBlock) % blocks_x;
             if (bound(bi, bj) > Z0) high.push_back(bi);
         }
         if (high.empty()) continue;
-        for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights.ny); ++j)
+        for (int r = bj * kBlock; r < std::min((bj + 1) * kBlock, heights.ny); ++r)
             for (int bi : high)
-                for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights.nx); ++i) {
-                    const double g = height(i, j) - Z0;
+                for (int c = bi * kBlock; c < std::min((bi + 1) * kBlock, heights.nx); ++c) {
+                    const Pixel pixel{pixel_x(c), pixel_y(r)};
+                    const double g = height(pixel.x, pixel.y) - Z0;
                     if (!(g > 0)) continue;
-                    pixels.push_back({i, j});
+                    pixels.push_back(pixel);
                     g0.push_back(g);
                 }
     }
 }
 
-// K q at the pixels `where`, row by row, of pressures q on the places of the memory.
-std::vector<double> ElementContact::Impl::deflections(std::vector<Pixel> where, const std::vector<std::int32_t>& places,
+// K q at the pixels `where` of pressures q on the places of the memory.
+std::vector<double> ElementContact::Impl::deflections(const std::vector<Pixel>& where, const std::vector<std::int32_t>& places,
                                                       const std::vector<double>& q) {
     if (!loads_products)
         loads_products = make_tree_products(substrate_of(indenter), heights.dx, heights.dy, kInnerError, 0.1 * options.tolerance);
-    std::vector<Pixel> all;
-    std::vector<double> source, w;
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < places.size() || k < where.size();) {
-        const std::int32_t next = k < where.size() ? place(where[k]) : std::numeric_limits<std::int32_t>::max();
-        const bool carries = i < places.size() && places[i] <= next;
-        const std::int32_t now = carries ? places[i] : next;
-        all.push_back({now % heights.nx, now / heights.nx});
-        source.push_back(carries ? q[i++] : 0.0);
-        k += now == next;
-    }
-    w.resize(all.size());
-    if (all.empty()) return w;
+    const auto before = [](const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
+    std::vector<Pixel> all = where;
+    for (const std::int32_t loaded : places) all.push_back(pixel_at(loaded));
+    std::sort(all.begin(), all.end(), before);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const auto of = [&](const Pixel& pixel) {
+        return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), pixel, before) - all.begin());
+    };
+    std::vector<double> source(all.size(), 0.0), w(all.size()), wanted;
+    if (all.empty()) return wanted;
+    for (std::size_t k = 0; k < places.size(); ++k) source[of(pixel_at(places[k]))] = q[k];
     loads_products->set_pixels(all);
     loads_products->apply(source.data(), w.data(), PixelProducts::Accuracy::full);
-    std::vector<double> wanted;
-    std::size_t j = 0;
-    for (const Pixel& pixel : where) {
-        while (!(all[j] == pixel)) ++j;
-        wanted.push_back(w[j]);
-    }
+    for (const Pixel& pixel : where) wanted.push_back(w[of(pixel)]);
     return wanted;
 }
 
@@ -197,6 +228,25 @@ void ElementContact::Impl::predict(double Z0) {
     for (double& v : p) v = std::max(v, 0.0);
 }
 
+// Contacts get the index that their pixel has on the map, and are sorted by it.
+void ElementContact::Impl::number_by_map(Level& level) const {
+    const std::size_t n = level.asperity.size();
+    std::vector<std::size_t> order(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        order[k] = k;
+        level.asperity[k] = place({level.asperity[k] % heights.nx, level.asperity[k] / heights.nx});
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return level.asperity[a] < level.asperity[b]; });
+    const auto sort = [&](auto& values) {
+        const auto before = values;
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = before[order[k]];
+    };
+    sort(level.asperity), sort(level.x), sort(level.y), sort(level.f), sort(level.a), sort(level.u), sort(level.yields);
+    std::vector<std::int32_t> now(n);
+    for (std::size_t k = 0; k < n; ++k) now[order[k]] = static_cast<std::int32_t>(k);
+    for (std::int32_t& contact : level.pixels.contact) contact = now[at(contact)];
+}
+
 Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) const {
     Level level;
     level.separation = Z0;
@@ -214,7 +264,8 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
         touching.push_back(pixels[k]);
         pressure.push_back(p[k] / scale());
     }
-    add_pixels(level, heights, indenter, options.hardness.H0, touching, std::move(pressure));
+    add_pixels(level, frame, indenter, options.hardness.H0, touching, std::move(pressure));
+    if (turn_x > 0 || turn_y > 0) number_by_map(level);
     judge_edges(level, indenter, options);
     return level;
 }
@@ -230,31 +281,80 @@ Level ElementContact::solve(double Z0) {
     if (my.loads) my.take_off_rest(Z0);
     my.predict(Z0);
     const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p);
-    Impl::Past now{Z0, {}, {}};
-    for (std::size_t k = 0; k < my.p.size(); ++k) {
-        if (!(my.p[k] > 0)) continue;
-        now.pixels.push_back(my.pixels[k]);
-        now.p.push_back(my.p[k]);
-    }
-    my.past.push_front(std::move(now));
-    if (my.past.size() > 2) my.past.pop_back();
-    my.since_move = std::min<std::size_t>(my.since_move + 1, 2);
-    my.accepted = false;
+    my.remember(Z0);
     return my.report(Z0, outcome);
+}
+
+// The force is the sum of the pressures, and Z0 one unknown more of the same solution (Polonsky and Keer). Pixels are chosen at a Z0 that lies
+// lower than the one expected: N grows with a power of the depth that the last two levels tell.
+std::optional<Level> ElementContact::solve_under(double N) {
+    Impl& my = *impl_;
+    if (path_dependent() || my.bulge > 0 || my.past.empty()) return std::nullopt;
+    const double pixel = my.heights.dx * my.heights.dy;
+    const auto force = [pixel](const Impl::Past& level) { return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0); };
+    const double N0 = force(my.past[0]), depth = my.top - my.past[0].separation;
+    if (!(depth > 0) || !(N0 > N / kMostTimes) || !(N0 < N * kMostTimes)) return std::nullopt;
+    double power = 1.5;  // of a sphere; rough ones have more
+    if (my.past.size() > 1) {
+        const double grown = std::log(force(my.past[1]) / N0) / std::log((my.top - my.past[1].separation) / depth);
+        if (grown > power) power = grown;
+    }
+    double expected = my.top - depth * std::pow(N / N0, 1 / power),
+           lowest = expected - kMargin * std::abs(expected - my.past[0].separation);
+    constexpr int trials = 4;
+    for (int i = 0; i < trials; ++i) {
+        my.select(lowest);
+        my.predict(expected);
+        if (std::none_of(my.p.begin(), my.p.end(), [](double p) { return p > 0; })) return std::nullopt;
+        const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p, N / pixel);
+        if (!outcome.converged) return std::nullopt;
+        const double rise = my.solver.rise();
+        if (rise < 0) {
+            expected = lowest + rise;
+            lowest = expected - kMargin * std::abs(rise);
+            continue;
+        }
+        std::size_t kept = 0;  // what lies below Z0 only was a candidate
+        for (std::size_t k = 0; k < my.pixels.size(); ++k) {
+            if (!(my.g0[k] > rise)) continue;
+            my.pixels[kept] = my.pixels[k], my.g0[kept] = my.g0[k] - rise, my.p[kept++] = my.p[k];
+        }
+        my.pixels.resize(kept), my.g0.resize(kept), my.p.resize(kept);
+        my.remember(lowest + rise);
+        return my.report(lowest + rise, outcome);
+    }
+    return std::nullopt;
+}
+
+// The level just solved, for the start of later ones.
+void ElementContact::Impl::remember(double Z0) {
+    Past now{Z0, {}, {}};
+    for (std::size_t k = 0; k < p.size(); ++k) {
+        if (!(p[k] > 0)) continue;
+        now.pixels.push_back(pixels[k]);
+        now.p.push_back(p[k]);
+    }
+    past.push_front(std::move(now));
+    if (past.size() > 2) past.pop_back();
+    since_move = std::min<std::size_t>(since_move + 1, 2);
+    accepted = false;
 }
 
 void ElementContact::accept(Level& level) {
     Impl& my = *impl_;
     my.accepted = true;
     if (my.loads) {
+        std::vector<std::pair<std::int32_t, double>> loaded;
+        for (std::size_t k = 0; k < my.p.size(); ++k)
+            if (my.p[k] > 0) loaded.emplace_back(my.place(my.pixels[k]), my.p[k] / my.scale());
+        std::sort(loaded.begin(), loaded.end());
         std::vector<std::int32_t> where;
         std::vector<double> p;
-        for (std::size_t k = 0; k < my.p.size(); ++k)
-            if (my.p[k] > 0) where.push_back(my.place(my.pixels[k])), p.push_back(my.p[k] / my.scale());
+        for (const auto& [place, pressure] : loaded) where.push_back(place), p.push_back(pressure);
         my.loads->accept(where, p, [&](const std::vector<double>& q) {
             std::vector<Pixel> places;
-            for (const std::int32_t i : my.loads->places()) places.push_back({i % my.heights.nx, i / my.heights.nx});
-            return my.deflections(std::move(places), my.loads->places(), q);
+            for (const std::int32_t i : my.loads->places()) places.push_back(my.pixel_at(i));
+            return my.deflections(places, my.loads->places(), q);
         });
         level.energy_lost = my.heights.dx * my.heights.dy * my.loads->lost();
         return;
@@ -263,7 +363,7 @@ void ElementContact::accept(Level& level) {
     std::vector<Pixel> pixels;
     std::vector<double> depth;
     my.solver.press_out(pixels, depth);
-    for (std::size_t k = 0; k < pixels.size(); ++k) my.pressed.add(pixels[k].x, pixels[k].y, depth[k]);
+    for (std::size_t k = 0; k < pixels.size(); ++k) my.pressed.add(my.column(pixels[k].x), my.row(pixels[k].y), depth[k]);
     if (!pixels.empty()) my.find_top();
     level.plastic_work = my.options.hardness.H0 * my.heights.dx * my.heights.dy * my.pressed.sum();
 }
@@ -312,8 +412,8 @@ ResidualProfile ElementContact::residual_profile() const {
     const Impl& my = *impl_;
     ResidualProfile profile{{}, {}, {}, my.heights.dx, my.heights.dy};
     for (const auto& [i, j, depth] : my.pressed.points()) {
-        profile.x.push_back(my.x(i));
-        profile.y.push_back(my.y(j));
+        profile.x.push_back(my.x(my.pixel_x(i)));
+        profile.y.push_back(my.y(my.pixel_y(j)));
         profile.depth.push_back(depth);
     }
     return profile;
@@ -342,10 +442,12 @@ double ElementContact::shift() const { return impl_->bulge; }
 void ElementContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
-    my.indenter.x0 = x0;
-    my.indenter.y0 = y0;
+    my.indenter.move(x0, y0);
     if (my.past.size() > 1) my.past.resize(1);
     my.since_move = 0;
+    const int turn_x = my.turn_x, turn_y = my.turn_y;
+    my.cut_open();
+    if (my.turn_x != turn_x || my.turn_y != turn_y) my.past.clear(), my.lowered_at = kUnknown;
     my.find_top();
 }
 
@@ -374,6 +476,7 @@ std::optional<double> ElementContact::likely_separation() const {
 std::size_t ElementContact::levels_since_move() const { return impl_->since_move; }
 
 std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
+    if (options.adhesion.work > 0) return std::make_unique<AdhesiveElements>(heights, indenter, options);
     if (indenter.period.finite()) return std::make_unique<PeriodicElementContact>(heights, indenter, options);
     return std::make_unique<ElementContact>(heights, indenter, options);
 }

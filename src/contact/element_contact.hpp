@@ -41,6 +41,7 @@ protected:
     // There is one solution (K is positive definite); earlier levels are a start, and change the answer within the tolerance only.
     // Contacts and their areas: pixel_spots.hpp.
     Level solve(double Z0) override;
+    std::optional<Level> solve_under(double N) override;
     void accept(Level& level) override;
     void step(double dt) override;
     double slope() override;

@@ -7,7 +7,7 @@ namespace {
 
 using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is the constant 1
 
-// In the order of the table; the same as in input/trust/trust.py.
+// Descriptions of the predictors in the order of the table, as in input/trust/trust.py.
 constexpr const char* kCauses[kErrorPredictors + 1] = {
     "",
     "the slope of the indenter at the contacts, which touches points beside summits (slope_ratio)",

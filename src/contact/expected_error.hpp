@@ -1,5 +1,5 @@
-// How far N and A of asperities may be from the truth, that is from elements: bounds that were kept in nine of ten cases on surfaces of many
-// kinds (input/trust, which fits and checks them).
+// Expected errors of N and A of the asperity model, relative to boundary elements: bounds that hold in nine of ten cases on surfaces of
+// many kinds (fitted and checked in input/trust).
 #pragma once
 
 #include "contact/indentation.hpp"
@@ -8,14 +8,14 @@
 
 namespace rsc {
 
-// A bound on N above this makes a level out_of_validity.
+// A level with a larger bound on the error of N is out_of_validity.
 inline constexpr double kMuchError = 0.1;
 
-// LevelValues::error_cause in words; empty for 0.
+// Description of LevelValues::error_cause; empty for 0.
 const char* error_cause(std::int32_t cause);
 
-// Fills force_error_expected, area_error_expected and error_cause of a level whose contacts and counts are there. Nothing where nothing touches,
-// or where the bounds were not calibrated: without interaction, with selection = 'paper', and where mean spacing or rms slope are not known.
+// Sets force_error_expected, area_error_expected and error_cause of a level that has its contacts and counts. They are not set without
+// contact, or where the bounds were not calibrated: without interaction, with selection = 'paper', or if the mean spacing is unknown.
 void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options);
 
 }  // namespace rsc

@@ -92,6 +92,16 @@ void Contact::finish(Level& level) {
         accept(level);
         accepted_ = time_;
     }
+    // A residual as large as the forces is that of no state: none of its numbers is passed on.
+    if (!converged && level.fallback != Fallback::held && !(level.residual < 1)) {
+        Level nothing;
+        nothing.separation = level.separation;
+        nothing.force = nothing.area = kNotComputed;
+        nothing.residual = std::isfinite(level.residual) ? level.residual : std::numeric_limits<double>::max();
+        nothing.candidates = level.candidates, nothing.iterations = level.iterations, nothing.products = level.products;
+        nothing.status = level.status, nothing.method = level.method, nothing.fallback = level.fallback;
+        level = std::move(nothing);
+    }
     if (relaxes()) level.time = time_;
     last_force_ = converged ? level.force : 0.0;
     if (const Period& period = indenter().period; period.finite()) {

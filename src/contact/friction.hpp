@@ -1,20 +1,20 @@
-// Friction of a contact whose normal answer is known: partial slip is the normal problem twice (Ciavarella, Int. J. Solids Struct. 35,
-// 1998; Jaeger, Arch. Appl. Mech. 68, 1998).
+// Friction of a contact with a known load curve. Partial slip is the superposition of two normal contacts (Ciavarella, Int. J. Solids
+// Struct. 35, 1998; Jaeger, Arch. Appl. Mech. 68, 1998).
 //
-// With the approach delta = -Z0, the load N(delta), its stiffness S = dN/ddelta and its energy W, dW/ddelta = N, a contact with
-// friction mu answers to a slide xi as springs do. The spring labelled s touches when the approach is s; per ds it has the normal
-// stiffness S'(s) and the tangential stiffness m S'(s), so that
+// With the approach delta = -Z0, the load N(delta), its stiffness S = dN/ddelta and its energy W, dW/ddelta = N, a contact with friction mu
+// responds to a slide xi like a set of springs. Spring s touches at the approach s; per ds it has the normal stiffness S'(s) and the
+// tangential stiffness m S'(s), so that
 //     N = int S'(s) (delta - s) ds,   Q = m int S'(s) u(s) ds,   |u(s)| <= (mu/m) (delta - s),   m = 4 G*/E*,
-// u being the spring's tangential deflection: it follows the slide, except where it would leave the disc of its friction limit.
-// u(s) changes by mu/m per unit of s at most, and is made of straight pieces; integrated by parts
+// u is the tangential deflection of the spring: it follows the slide within the disc of its friction limit. u(s) is piecewise linear and
+// changes by at most mu/m per unit of s; integration by parts gives
 //     Q = -m sum over the pieces of u' [N(s_end) - N(s_begin)],
-// so that the load at the ends of the pieces, the memory of the contact, is all that is needed: no level is interpolated. A larger
-// reversal, or less load, wipes out the pieces above the point where it meets the limit.
+// so that only loads at the ends of the pieces (the memory of the contact) are needed and no level is interpolated. A larger reversal or a
+// smaller load removes the pieces above the point where it reaches the limit.
 //
-// Not included: the coupling of normal and tangential problem for unlike bodies (Poisson's ratio), and that the direction of slip varies
-// within a spot. With slides in two directions, all that slips at a time is taken to pull in one direction, that of the spring at the
-// inner edge of the slip: the slipping part of Q has the magnitude mu [N(delta) - N(s*)] (circular disc rule for the sum). The work
-// lost is positive whatever the path; slides along one line are exact.
+// Not included: coupling of the normal and tangential problems for different materials (Poisson's ratio), and the variation of the
+// direction of slip within a spot. For slides in two directions, all slipping springs are assumed to pull in the direction of the spring at
+// the inner edge of the slip, and the slipping part of Q has the magnitude mu [N(delta) - N(s*)]. The dissipated work is positive for all
+// paths; slides along one line are exact.
 #pragma once
 
 #include "contact/load_curve.hpp"
@@ -25,11 +25,11 @@ namespace rsc {
 struct Friction {
     double coefficient = 0;  // mu >= 0
     double ratio = 1;        // m = 4 G*/E*: tangential stiffness over the normal one
-    // (mu/m): full slip after first loading by delta takes the slide (mu/m) delta.
+    // mu/m: after loading by delta, full slip begins at the slide (mu/m) delta.
     double slide_per_approach() const { return coefficient / ratio; }
 };
 
-// Throws Error(bad_input): mu negative or not finite, m not positive and finite.
+// Throws Error(bad_input) unless mu is finite and not negative and m is finite and positive.
 void require_friction(const Friction& friction);
 
 struct Slide {
@@ -41,41 +41,42 @@ class FrictionHistory {
 public:
     explicit FrictionHistory(const Friction& friction);  // throws as require_friction
 
-    // Goes on a straight path to (delta, xi). The first call only says where the path begins: the contact there, if any, is one that was
-    // pressed without being slid. A slide without contact does nothing: only differences of xi count. `curve` must be that of every call
-    // before. If it throws, nothing has changed.
+    // Follows a straight path to (delta, xi). The first call defines the beginning of the path, with a contact (if any) that has been
+    // pressed without sliding. A slide without contact has no effect: only differences of xi matter. `curve` must be the same in all calls.
+    // If it throws, the state is unchanged.
     void go_to(LoadCurve& curve, double delta, Slide xi);
 
-    // The sphere has moved to where its load curve is `curve`; the approach stays. Deflections are kept at the same share of the depth below the
-    // first touch, times the share of the force that asperities carry at both places. Their energy falls or stays; what it falls by is lost.
+    // To be called after the sphere has moved to a place with the load curve `curve`, at the same approach. Deflections are kept at the
+    // same relative depth below first touch and multiplied by `share`, the share of the force carried by asperities common to both places.
+    // The tangential energy does not increase; its decrease counts as dissipated work.
     void move(LoadCurve& curve, double share);
 
     double approach() const { return now_.delta; }
     Slide slide() const { return now_.xi; }
     double force() const { return now_.nodes.empty() ? 0 : now_.nodes.back().load; }  // N
-    // Force of the contact against the slide: it points along +xi after a first slide along +xi; the sphere is pulled back by it.
+    // Tangential force Q: along +xi after a first slide along +xi; it pulls the sphere back.
     Slide tangential_force() const;
-    // Elastic energies: W of the normal problem, and that stored by the slide, (m/2) int S' u^2 ds.
+    // Elastic energies: W of the normal contact, and (m/2) int S' u^2 ds stored by the slide.
     double normal_energy() const { return now_.nodes.empty() ? 0 : now_.nodes.back().energy; }
     double tangential_energy() const;
-    // Friction work, in total and of the last step. Along any path, int Q dxi = change of tangential_energy() + work lost.
+    // Dissipated friction work, in total and of the last step. Along any path, int Q dxi = change of tangential_energy() + work_lost().
     double work_lost() const { return now_.lost; }
     double step_lost() const { return now_.step_lost; }
-    // The spring (approach) inside which all stick: approach() where all do, first touch where none does.
+    // Approach s below which all springs stick: approach() if all do, first touch if none does.
     double stick_approach() const;
 
-    // dQ/dxi, row by row, of a further slide at this approach in the direction of what slips now; m S(delta) in all directions where
-    // nothing slips, and for a slide back.
+    // Tangential stiffness dQ/dxi for a further slide at constant approach that continues the present slip. Without slip, and for a
+    // reversed slide, it is m S(delta) in all directions.
     struct Tangent {
         double xx = 0, xy = 0, yx = 0, yy = 0;
     };
     Tangent stiffness(LoadCurve& curve) const;
 
-    // The state is a value: commit() makes it the one that rollback() goes back to.
+    // commit() stores the state that rollback() restores.
     void commit() { committed_ = now_; }
     void rollback() { now_ = committed_; }
 
-    // u(s) is straight between nodes; the first node is the first touch, the last one delta, where u = 0.
+    // u(s) is linear between nodes; the first node is at first touch, the last at delta, where u = 0.
     struct Node {
         double approach = 0, load = 0, energy = 0;  // s, N(s), W(s)
         Slide deflection;                           // u(s)
@@ -90,11 +91,11 @@ public:
     const Friction& friction() const { return friction_; }
     const State& state() const { return now_; }
     const State& committed() const { return committed_; }
-    // Restores states returned by state() and committed(). Throws Error(bad_input) where they are none of this friction.
+    // Restores states returned by state() and committed(). Throws Error(bad_input) if they do not belong to this friction.
     void restore(const State& now, const State& committed);
 
 private:
-    // The path within a step, between points where a spring of the memory lets go.
+    // Advance along a part of a step within which no node of the memory is released.
     void advance(LoadCurve& curve, State& state, double delta, Slide dxi) const;
     void slip(LoadCurve& curve, State& state, double dd, Slide dxi, double old_delta, std::vector<Node> free) const;
 
@@ -104,31 +105,32 @@ private:
 
 // --- First loading and cycles at a constant approach ----------------------------------------------------------------------------
 
-// Pressed to delta at rest, then slid: springs above delta* slip, Q = mu [N(delta) - N(delta*)], xi = (mu/m) (delta - delta*), with the
-// tangential stiffness m S(delta*).
+// First loading: pressed to delta without sliding, then slid. Springs above delta* slip: Q = mu [N(delta) - N(delta*)], xi = (mu/m) (delta
+// - delta*), tangential stiffness m S(delta*).
 struct SlidePoint {
     double stick_approach = 0;  // delta*
     double displacement = 0;    // xi
     double force = 0;           // Q
 };
-// At given slides xi >= 0; beyond full slip Q = mu N. Throws Error(bad_input): no contact at delta, a slide negative or not finite.
+// Solves for given slides xi >= 0; beyond full slip Q = mu N. Throws Error(bad_input) without contact at delta, or for a slide that is
+// negative or not finite.
 std::vector<SlidePoint> slide_to(LoadCurve& curve, const Friction& friction, double delta, const std::vector<double>& xi);
-// At a given force 0 <= Q <= mu N(delta). Throws Error(bad_input) beyond that, and without contact.
+// Solves for a given force 0 <= Q <= mu N(delta). Throws Error(bad_input) for other forces and without contact.
 SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double delta, double Q);
-// The slide at which all slips, (mu/m) (delta - first touch).
+// Slide at which full slip begins, (mu/m) (delta - first touch).
 double full_slip(const LoadCurve& curve, const Friction& friction, double delta);
 
-// First loading in equal steps of xi to full slip, then from the point at `amplitude` of it to the opposite one and back:
-// on the way from A, Q = Q_A - 2 mu [N - N(delta**)], xi = xi_A - 2 (mu/m) (delta - delta**).
+// First loading in equal steps of xi to full slip, then a cycle between +-kCycleAmplitude of it. After a reversal at A, Q = Q_A - 2 mu [N -
+// N(delta**)] and xi = xi_A - 2 (mu/m) (delta - delta**).
 struct SlideCycle {
-    std::vector<double> displacement, force;  // first loading, 0 to full slip; then the cycle, closed
-    std::size_t first = 0;                    // points of the first loading
-    double work = 0;                          // lost in one cycle: the loop's area
+    std::vector<double> displacement, force;  // first loading from 0 to full slip, then the closed cycle
+    std::size_t first = 0;                    // number of points of the first loading
+    double work = 0;                          // dissipated in one cycle, the area of the loop
 };
-// `steps` of the first loading, 20 or more in multiples of 10; amplitude = 0.9.
+// `steps` is the number of steps of the first loading, a multiple of 10 and at least 20.
 inline constexpr double kCycleAmplitude = 0.9;
 SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, int steps);
-// Number of points of slide_cycle(), those of the first loading included.
+// Number of points of slide_cycle(), including those of the first loading.
 std::size_t slide_cycle_points(int steps);
 
 }  // namespace rsc

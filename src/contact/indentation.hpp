@@ -42,10 +42,25 @@ struct Indenter {
     double x0 = 0, y0 = 0;
     Period period = {};  // finite: surface and contact repeat (two flats, boundary='periodic')
     LayeredBody layers = {};
+    // Finite `repeats`: the surface repeats although the bodies do not, as a ball on a made surface. It ends at its border until the tip is
+    // moved; from then on `around` is the same, and of each point the image nearest to the tip counts.
+    Period repeats = {}, around = {};
+
+    void move(double x, double y) { x0 = x, y0 = y, around = repeats; }
+
+    Vec2 from_tip(double x, double y) const { return {around.nearest_x(x - x0), around.nearest_y(y - y0)}; }
+    // The image of a point that is nearest to the tip.
+    Vec2 image(double x, double y) const {
+        const Vec2 d = from_tip(x, y);
+        return {x + (d.x - (x - x0)), y + (d.y - (y - y0))};
+    }
 
     // A point of the surface less the indenter's face above it, z - s; the penetration without interaction is g0 = clearance - Z0.
     // -Infinity where the indenter does not reach.
-    double clearance(double x, double y, double z) const { return z - shape->height(x - x0, y - y0); }
+    double clearance(double x, double y, double z) const {
+        const Vec2 d = from_tip(x, y);
+        return z - shape->height(d.x, d.y);
+    }
 };
 
 // Throws Error(bad_input) unless E* is positive and finite, there is a shape, and with a finite period one that repeats with it.

@@ -1,17 +1,17 @@
-// Lateral force and moment on an indenter held above its place (Hellmann-Feynman on the elastic energy of the contact).
+// Lateral force and moment on an indenter at a fixed position, by the derivative of the elastic energy.
 #pragma once
 
 #include "contact/level.hpp"
 
 namespace rsc {
 
-// The force that pushes the indenter sideways at fixed Z0 [force]: F = -dW/d(x0, y0) with W the elastic energy of the contact. At a
-// solution dW = sum f_i dg0_i, so F = -sum f_i grad s(x_i - x0, y_i - y0): exact in the forces f_i at the places (x_i, y_i), those of
-// pixels where a level has them, without another solve. Positive along x, y; 0 for a flat and without contact.
+// Lateral force on the indenter at fixed Z0 [force]: F = -dW/d(x0, y0), where W is the elastic energy. At a solution dW = sum f_i dg0_i, so
+// F = -sum f_i grad s(x_i - x0, y_i - y0) with the forces f_i of contacts or pixels at (x_i, y_i); no further solve is required. Positive
+// along x, y; 0 for a flat and without contact.
 Vec2 lateral_force(const Indenter& indenter, const Level& level);
 
-// The moment of the contact's forces on the indenter about its tip [force length]. A force f_i acts at (x_i - x0, y_i - y0, s) along
-// the normal of the face, f_i (-grad s, 1).
+// Moment of the contact forces on the indenter about its tip [force length]. A force f_i acts at (x_i - x0, y_i - y0, s) along the normal
+// of the face, f_i (-grad s, 1).
 Vec2 tip_moment(const Indenter& indenter, const Level& level);
 
 }  // namespace rsc

@@ -59,6 +59,8 @@ struct LevelValues {
     double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
     // Adhesion:
     double least_force = kNotComputed;  // the smallest met since the beginning [force]
+    double cohesive_area = kNotComputed;        // of the points that attract without touching [length^2]
+    double cohesive_resolution = kNotComputed;  // elements: z0 over the side of a pixel
     std::int32_t jumps = 0;             // on the way from the level before
     std::int32_t plastic_contacts = 0;  // contacts that yield at this level
     double time = kNotComputed;         // of bodies that relax [time]

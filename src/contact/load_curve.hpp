@@ -1,4 +1,4 @@
-// The normal answer of a contact as a function of the approach alone: friction needs nothing else of a contact.
+// Load curve of a contact as a function of the approach, the only property of a contact that friction uses.
 #pragma once
 
 namespace rsc {
@@ -10,7 +10,7 @@ public:
         double energy = 0;  // W(delta), dW/ddelta = N [force length]
     };
     virtual ~LoadCurve() = default;
-    // The approach of the first touch, at and below which everything is 0; Infinity when nothing can touch.
+    // Approach at first touch, at and below which all results are 0; Infinity if nothing can touch.
     virtual double first_touch() const = 0;
     virtual Load load(double delta) = 0;
     virtual double stiffness(double delta) = 0;  // S = dN/ddelta >= 0

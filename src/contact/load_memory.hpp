@@ -1,7 +1,7 @@
-// What a body that relaxes remembers of the loads on its places (law/relaxation.hpp): loads f at the end of a step deflect
+// Effect of earlier loads on a relaxing body (law/relaxation.hpp): the deflection under loads f at the end of a step is
 //     K [compliance f + r],   r the rest of earlier loads,
-// K being the instantaneous body's deflections, so that a step is an elastic problem with a known gap. Exact where loads change linearly
-// within each step, up or down.
+// where K f are the deflections of the instantaneous body. A step is thus an elastic problem with a known gap. Exact if loads change
+// linearly within each step.
 #pragma once
 
 #include "contact/law/relaxation.hpp"
@@ -13,25 +13,26 @@ class LoadMemory {
 public:
     explicit LoadMemory(const Creep& creep);
 
-    // The step that begins with the last accepted loads and takes dt. May be told anew until loads are accepted.
+    // Sets the duration dt of the step that begins with the last accepted loads; may be called again until loads are accepted.
     void step(double dt) { passage_ = Passage(creep_, dt); }
     double compliance() const { return passage_.compliance; }
 
-    // Places that ever carried a load, increasing, and the rest of each at the end of the step: never negative where loads never were.
+    // Points that have ever carried a load, in increasing order, and the rest of each at the end of the step.
     const std::vector<std::int32_t>& places() const { return places_; }
     std::vector<double> rest() const;
 
-    // Loads f at the end of the step, > 0 at `where` (increasing) and 0 elsewhere. `deflect` gives K f over the places, those of `where`
-    // among them.
+    // Accepts loads f at the end of the step, > 0 at `where` (increasing) and 0 elsewhere. `deflect` returns K f over all places(),
+    // including `where`.
     using Deflect = std::function<std::vector<double>(const std::vector<double>& f)>;
     void accept(std::span<const std::int32_t> where, std::span<const double> f, const Deflect& deflect);
 
-    // In units of load times deflection: what is stored, f'Kf/2 and that of each retardation, and what has been lost since the first load.
+    // Stored energy (f'Kf/2 and that of each retardation) and energy dissipated since the first load, in units of load times deflection.
     double stored() const;
     double lost() const { return lost_; }
 
     void forget();
-    // All of it, as numbers, and back; returns how many numbers were its own. Throws Error(bad_input) for what is none.
+    // Writes the state as numbers, and restores it; read() returns how many numbers it used and throws Error(bad_input) if they are
+    // invalid.
     void write(std::vector<double>& numbers) const;
     std::size_t read(std::span<const double> numbers);
 
@@ -40,13 +41,13 @@ private:
     Passage passage_;
     std::vector<std::int32_t> places_;
     std::vector<double> f_;
-    std::vector<std::vector<double>> y_;  // of each retardation
+    std::vector<std::vector<double>> y_;  // loads of each retardation
     // f'Kf, y_k'Kf, y_k'Ky_k.
     double ff_ = 0, lost_ = 0;
     std::vector<double> yf_, yy_;
 };
 
-// Of the pixels of a map, behind a first number. Throws Error(bad_input) where they do not lie on it.
+// Restores the loads on the pixels of a map from `memory` without its first number. Throws Error(bad_input) if they do not lie on the map.
 void recall_loads(LoadMemory& loads, const std::vector<double>& memory, const HeightMap& map);
 
 }  // namespace rsc

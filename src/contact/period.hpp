@@ -11,8 +11,8 @@ struct Period {
     bool finite() const { return std::isfinite(x) && std::isfinite(y); }
     double area() const { return x * y; }
     // The difference of two coordinates to the nearest of all images.
-    double nearest_x(double dx) const { return std::isfinite(x) ? std::remainder(dx, x) : dx; }
-    double nearest_y(double dy) const { return std::isfinite(y) ? std::remainder(dy, y) : dy; }
+    double nearest_x(double dx) const { return 2 * std::abs(dx) <= x ? dx : std::remainder(dx, x); }
+    double nearest_y(double dy) const { return 2 * std::abs(dy) <= y ? dy : std::remainder(dy, y); }
 };
 
 }  // namespace rsc

@@ -69,27 +69,28 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
 }
 
 void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0, const std::vector<Pixel>& touching,
-                std::vector<double> pressure) {
+                std::vector<double> pressure, double tension) {
     const bool periodic = indenter.period.finite();
     std::vector<int> label;
     const int contacts = connected_sets(touching, label, periodic ? map.nx : 0, periodic ? map.ny : 0);
     const std::vector<int> open = open_sides(touching, map.nx, map.ny, periodic);
     struct Sum {
-        double p = 0, px = 0, py = 0, highest = 0, own = 0;
-        long pixels = 0, hard = 0, border = 0;  // hard: pixels at the hardness; border: sides without a neighbour of the other pixels
+        double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
+        long pixels = 0, hard = 0, border = 0;  // at the hardness; sides without a neighbour, of those that are not
         Pixel peak{0, 0};
     };
     std::vector<Sum> sums(at(contacts));
     double extreme = 0;  // number of pixels
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
-        s.p += pressure[k];
+        const double weight = pressure[k] + tension;
+        s.p += pressure[k], s.weight += weight;
         s.pixels += 1;
         const bool yields = pressure[k] >= H0;
         s.hard += yields;
         if (!yields) s.border += open[k];
         if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
-        if (pressure[k] > s.highest) s.highest = pressure[k], s.peak = touching[k];
+        if (weight > s.highest) s.highest = weight, s.peak = touching[k];
     }
     // Positions relative to the highest pressure, to the nearest image.
     const auto nearest = [&](int offset, int n) {
@@ -101,8 +102,8 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
         const int dx = nearest(touching[k].x - s.peak.x, map.nx), dy = nearest(touching[k].y - s.peak.y, map.ny);
-        s.px += pressure[k] * dx;
-        s.py += pressure[k] * dy;
+        s.px += (pressure[k] + tension) * dx;
+        s.py += (pressure[k] + tension) * dy;
         s.own += pressure[k] * substrate.under_pixel(dx * map.dx, dy * map.dy, map.dx, map.dy);
     }
     if (!touching.empty()) level.pixels_per_contact = median_by_area(sums);
@@ -112,8 +113,9 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     for (const Sum& s : sums) {
         const double flat = static_cast<double>(s.hard) / static_cast<double>(s.pixels);
         const double area = pixel * (static_cast<double>(s.pixels) - (1 + flat * flat) * border * static_cast<double>(s.border));
-        level.add_contact(s.peak.y * map.nx + s.peak.x, map.x0 + map.dx * inside(s.peak.x + s.px / s.p, map.nx),
-                          map.y0 + map.dy * inside(s.peak.y + s.py / s.p, map.ny), s.p * pixel, std::sqrt(area / std::numbers::pi), s.own);
+        level.add_contact(s.peak.y * map.nx + s.peak.x, map.x0 + map.dx * inside(s.peak.x + s.px / s.weight, map.nx),
+                          map.y0 + map.dy * inside(s.peak.y + s.py / s.weight, map.ny), s.p * pixel, std::sqrt(area / std::numbers::pi),
+                          s.own);
         level.force += s.p * pixel;
         level.area += area;
         if (std::isfinite(H0)) level.yields.push_back(s.hard > 0);

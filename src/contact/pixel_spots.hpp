@@ -18,8 +18,8 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
 // 1 + s^2 times, s the share of the contact's pixels at the hardness, because the pressure may fall from H0 to 0 within one of them (ours,
 // measured on smooth spheres 2 to 20 pixels wide: within 4 % of fine grids, 1 % where most yields). A contact yields when one of its pixels
 // does. Its penetration is how far it alone presses in the place of its highest pressure (Johnson 1985, eq. 3.25).
-// `touching`: pixels under pressure, row by row, with their pressures > 0 [force/length^2].
+// `touching`: pixels in contact, row by row, with their pressures > -tension [force/length^2].
 void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0, const std::vector<Pixel>& touching,
-                std::vector<double> pressure);
+                std::vector<double> pressure, double tension = 0);
 
 }  // namespace rsc

@@ -1,29 +1,29 @@
-// Plastic residual: the permanent lowering of the points of a surface whose elements yielded.
+// Plastic residual: permanent lowering of points of a surface (boundary elements).
 #pragma once
 
 #include "rough/surface.hpp"
 
 namespace rsc {
 
-// Depths [length] of a map of nx x ny points, kept in squares where there are some: few points of a rough surface ever yield.
+// Depths [length] on a map of nx x ny points, stored sparsely in square blocks, because few points of a rough surface yield.
 class PressedOut {
 public:
     PressedOut(int nx, int ny);
 
-    double operator()(int i, int j) const {  // 0 where nothing was pressed out
+    double operator()(int i, int j) const {  // 0 for points without a residual
         const auto& square = squares_[square_of(i, j)];
         return square ? square[place_of(i, j)] : 0.0;
     }
     void add(int i, int j, double depth);
 
     bool none() const { return sum_ == 0; }
-    double sum() const { return sum_; }  // of all depths
+    double sum() const { return sum_; }  // sum of all depths
 
     struct Point {
         int i, j;
         double depth;
     };
-    std::vector<Point> points() const;  // with a depth, row by row
+    std::vector<Point> points() const;  // points with a nonzero depth, row by row
 
 private:
     static constexpr int kSide = 16;
@@ -38,7 +38,7 @@ private:
     double sum_ = 0;
 };
 
-// From triples: column, row, depth. Throws Error(bad_input) where they do not lie on the map.
+// Constructs it from triples of column, row and depth. Throws Error(bad_input) if they do not lie on the map.
 PressedOut pressed_out_of(const HeightMap& map, const std::vector<double>& triples);
 
 }  // namespace rsc

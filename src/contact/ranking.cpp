@@ -56,9 +56,9 @@ double Ranking::bound_on_rest() const {
 
 void Ranking::move(double x0, double y0) {
     if (x0 == now_.x0 && y0 == now_.y0) return;
-    now_.x0 = x0;
-    now_.y0 = y0;
-    if (sorted_ == 0) return assign(*asperities_, now_);
+    const bool opens = now_.repeats.finite() && !now_.around.finite();
+    now_.move(x0, y0);
+    if (sorted_ == 0 || opens) return assign(*asperities_, now_);
     const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
     for (auto e = first; e != rest; ++e) {
         const auto i = static_cast<std::size_t>(e->asperity);

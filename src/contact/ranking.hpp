@@ -1,4 +1,4 @@
-// Asperities by falling height under the indenter, so that the candidates of a level are the first ones.
+// Asperities sorted by decreasing height under the indenter, so that the candidates of a level come first.
 #pragma once
 
 #include "contact/indentation.hpp"
@@ -13,18 +13,18 @@ public:
         int asperity;
     };
 
-    // Asperities where the indenter does not reach are left out. They must outlive the ranking, or its next assign.
+    // Assigns asperities, without those beyond the reach of the indenter. They must outlive the ranking or its next assign().
     void assign(const Asperities& asperities, const Indenter& indenter);
 
-    // The same as assign, of the same asperities, after the tip moved to (x0, y0). Only what was sorted is ranked anew as long as a
-    // bound on the heights of the rest says that none of it comes up to where levels were.
+    // Updates the ranking after the tip moved to (x0, y0). Only sorted entries are ranked again, unless the bound on the heights of the
+    // others shows that these may have become relevant.
     void move(double x0, double y0);
     bool empty() const { return entries_.empty(); }
-    // Height of the highest, -Infinity if there is none.
+    // Largest height; -Infinity if there are no entries.
     double highest() const;
 
-    // Number of entries with height > Z0: they come first, highest first, ties by asperity. Asperities ranked for the first time
-    // are appended to `fresh`. Asperities are sorted only as deep as levels need, and slightly deeper.
+    // Number of entries with height > Z0, which come first, in decreasing order (ties by asperity). Asperities ranked for the first time
+    // are appended to `fresh`. Sorting extends only slightly deeper than required.
     std::size_t above(double Z0, std::vector<int>& fresh);
     const Entry& operator[](std::size_t rank) const { return entries_[rank]; }
 
@@ -35,10 +35,10 @@ private:
     std::vector<Entry> entries_;
     std::size_t sorted_ = 0;
     Indenter now_;
-    // Of what is not sorted: heights are those with the tip at (x_rest_, y_rest_), where highest_rest_ is the highest.
+    // Unsorted entries: their heights, the highest of which is highest_rest_, are those with the tip at (x_rest_, y_rest_).
     double x_rest_ = 0, y_rest_ = 0;
     double highest_rest_ = -std::numeric_limits<double>::infinity();
-    double highest_z_ = -std::numeric_limits<double>::infinity();  // of all asperities, including those that the indenter cannot reach
+    double highest_z_ = -std::numeric_limits<double>::infinity();  // largest z of all asperities, also beyond the indenter
 };
 
 }  // namespace rsc

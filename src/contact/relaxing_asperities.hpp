@@ -1,5 +1,5 @@
-// Asperities of a body that relaxes, by their law (law/relaxing.hpp): what its rests and energies mean for their interaction. What
-// asperity_contact.hpp asks beside the law.
+// Interaction of asperities of a relaxing body: effect of the rests of their law (law/relaxing.hpp), and energies. Used by
+// asperity_contact.
 #pragma once
 
 #include "contact/candidates.hpp"
@@ -11,21 +11,21 @@ namespace rsc {
 
 class RelaxingAsperities {
 public:
-    // The asperities and the law must outlive it. Deflections are accurate to `tolerance`, that of the levels.
+    // The asperities and the law must outlive this object. Deflections are accurate to `tolerance`, that of the levels.
     RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep, double tolerance);
 
     void step(double dt);
-    // Forces of the law are so many times the true ones.
+    // Ratio of the forces of the law to the true ones.
     double scale() const { return 1 / law_.modulus(); }
-    // The sum of all rests: between flats the surface rises by the kernel's shift times it.
+    // Sum of all rests: for periodic flats the surface rises by the kernel's shift times this sum.
     double rest() const { return rest_; }
 
-    // Takes what earlier loads have left off the gaps of candidates, and drops those that cannot touch then.
+    // Subtracts the deflection by earlier loads from g0 of the candidates, and drops those that can no longer touch.
     void lower(Candidates& candidates, Products& products);
-    // The solution over the candidates is accepted; a step of no time follows.
+    // Accepts the solution over the candidates; the next step has zero duration until step() is called.
     void accept(const WorkingSet& candidates, const Solution& solution, Products& products);
 
-    // What the springs hold and what the interaction adds: f'Bf/2 and that of each retardation; and what has been lost [force length].
+    // Stored energy of the springs and of the interaction (f'Bf/2 and that of each retardation), and dissipated energy [force length].
     double stored() const { return law_.stored() + stored_; }
     double lost() const { return law_.lost() + lost_; }
 
@@ -39,12 +39,12 @@ private:
     RelaxingLaw& law_;
     Creep creep_;
     double tolerance_;
-    // Of the last accepted level, in the order of touched(): forces f, loads that act elsewhere, f + sum y_k; energies.
+    // Last accepted level: forces f and interaction loads f + sum y_k, in the order of touched(); energies.
     std::vector<double> force_, load_;
     double stored_ = 0, lost_ = 0, held_ = 0;  // held_: f'B load
     std::vector<double> rests_;
     double rest_ = 0;
-    // Of this step: how far earlier loads lower each asperity; NaN: not known.
+    // Current step: deflection of each asperity by earlier loads; NaN: unknown.
     std::vector<double> lowered_;
     std::vector<int> known_;
 };

@@ -1,5 +1,5 @@
-// The start of the solution of a level: predicted from earlier levels where that is safe, otherwise given by the rule that defines the
-// answer.
+// Starting points for the solution of a level: predicted from earlier levels if that is safe, otherwise the default start, which defines
+// the solution.
 #pragma once
 
 #include "contact/candidates.hpp"
@@ -10,27 +10,28 @@ namespace rsc {
 // Earlier levels, from which B F of the next level is extrapolated.
 class EarlierLevels {
 public:
-    // The level at Z0 with penetrations v over the candidates. `unique`: it is proved to be the only solution.
+    // Stores the level at Z0 with penetrations v over the candidates. `unique`: its solution is proved to be unique.
     void remember(double Z0, const Candidates& candidates, const std::vector<double>& v, bool unique);
 
-    // The same of a solution that will not stay: it gives way to the next. It may be one of several.
+    // Stores an intermediate solution, which is replaced by the next one and need not be unique.
     void remember_passed(double Z0, const Candidates& candidates, const std::vector<double>& v);
 
-    // The tip moves: ranks lose their meaning, the last level is kept by asperity as the start of the first level after the move.
+    // To be called when the tip moves and ranks become invalid: stores the last level by asperity as the start of the next level.
     void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities);
 
-    bool unique() const { return unique_; }  // the last is proved to be the only solution
-    // Penetrations to start from at Z0; candidates that no earlier level knew are taken not to touch (which is checked at the end). False: none.
+    bool unique() const { return unique_; }  // the last solution is proved to be unique
+    // Predicts penetrations at Z0. Candidates that are not in earlier levels are assumed not to touch (which is checked later). Returns
+    // false without a prediction.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
-    // A start for force control, if there is one below `first_touch`.
+    // Start for force control, if there is one below `first_touch`.
     std::optional<double> likely_separation(double first_touch) const;
-    std::size_t size() const { return solved_; }  // remembered since the tip moved
+    std::size_t size() const { return solved_; }  // number of levels stored since the tip moved
 
 private:
     struct Past {
         double separation;
-        std::vector<double> phi;  // B F by rank; NaN: not known
+        std::vector<double> phi;  // B F by rank; NaN: unknown
         bool passed = false;
     };
     std::deque<Past> past_;
@@ -39,13 +40,13 @@ private:
 
     struct Carried {
         double separation = 0;
-        std::vector<double> phi;  // B F by asperity; NaN: not known
-        std::vector<int> known;   // whose is known; empty: none
+        std::vector<double> phi;  // B F by asperity; NaN: unknown
+        std::vector<int> known;   // asperities with known B F
     } carried_;
 };
 
-// The no-interaction forces F = f(<g0 - s>) of a sphere held higher by s, where s is the mean of B F over those forces: the mean field
-// of the interaction. Found by bisection, with a fixed number of products. Returns the penetrations g0 - s.
+// Mean-field start: penetrations g0 - s of the no-interaction forces F = f(<g0 - s>), where s is the mean of B F weighted with F. s is
+// found by bisection with a fixed number of products.
 std::vector<double> cold_start(const Law& law, Products& products, const WorkingSet& candidates);
 
 }  // namespace rsc

@@ -9,13 +9,13 @@ void Face::row(int n, double x0, double dx, double y, double* height) const {
     double x[block];
     for (int first = 0; first < n; first += block) {
         const int count = std::min(block, n - first);
-        for (int k = 0; k < count; ++k) x[k] = x0 + (first + k) * dx - indenter_.x0;
-        indenter_.shape->heights(count, x, y - indenter_.y0, height + first);
+        for (int k = 0; k < count; ++k) x[k] = indenter_.around.nearest_x(x0 + (first + k) * dx - indenter_.x0);
+        indenter_.shape->heights(count, x, indenter_.around.nearest_y(y - indenter_.y0), height + first);
     }
 }
 
 BodyAbove::Form Face::at(double x, double y) const {
-    const double dx = x - indenter_.x0, dy = y - indenter_.y0;
+    const auto [dx, dy] = indenter_.from_tip(x, y);
     Form form;
     form.height = indenter_.shape->height(dx, dy);
     if (!std::isfinite(form.height)) return form;
@@ -52,8 +52,8 @@ Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter)
     return moved;
 }
 
-void add_flanks(Asperities& found, const Asperities& of_surface, double spacing) {
-    constexpr double kNear = 0.4, kWidest = 0.8;  // relative to the spacing; calibrated with boundary elements
+void add_flanks(Asperities& found, const Asperities& of_surface, double spacing, const Period& period) {
+    constexpr double kNear = 0.4, kWidest = 0.8;  // of the spacing; found by trial against elements
     if (!(spacing > 0)) return;
     using Cell = std::pair<long, long>;
     const auto cell = [spacing](double x, double y) {
@@ -68,8 +68,15 @@ void add_flanks(Asperities& found, const Asperities& of_surface, double spacing)
                 if (std::hypot(found.x[at->second] - x, found.y[at->second] - y) < distance) return true;
         return false;
     };
+    const std::vector<double> whole = {-1, 0, 1}, none = {0};
+    const auto near_image = [&](double x, double y) {
+        for (const double m : std::isfinite(period.x) ? whole : none)
+            for (const double n : std::isfinite(period.y) ? whole : none)
+                if (near(m == 0 ? x : x + m * period.x, n == 0 ? y : y + n * period.y, kNear * spacing)) return true;
+        return false;
+    };
     for (std::size_t i = 0; i < of_surface.size(); ++i) {
-        if (near(of_surface.x[i], of_surface.y[i], kNear * spacing)) continue;
+        if (near_image(of_surface.x[i], of_surface.y[i])) continue;
         for (const AsperityColumn& column : kAsperityColumns)
             if (!(of_surface.*column.values).empty()) (found.*column.values).push_back((of_surface.*column.values)[i]);
         // Limits the largest contact width, q a = pi (law/law.hpp), to the spacing of the summits.
@@ -83,7 +90,7 @@ double steepest_above(const Asperities& asperities, const Indenter& indenter, do
     double steepest = 0;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         if (!(indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > least)) continue;
-        const Vec2 slope = indenter.shape->gradient(asperities.x[i] - indenter.x0, asperities.y[i] - indenter.y0);
+        const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), slope = indenter.shape->gradient(d.x, d.y);
         steepest = std::max(steepest, std::hypot(slope.x, slope.y));
     }
     return steepest;

@@ -13,7 +13,7 @@ public:
     explicit Face(const Indenter& indenter) : indenter_(indenter) {}
     void row(int n, double x0, double dx, double y, double* height) const override;
     Form at(double x, double y) const override;
-    bool periodic() const override { return indenter_.period.finite(); }
+    bool periodic() const override { return indenter_.period.finite() || indenter_.around.finite(); }
 
 private:
     const Indenter& indenter_;
@@ -32,8 +32,9 @@ inline constexpr double kMostSlopeRatio = 0.2;
 Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter);
 
 // Adds to the summits found of the difference those of the surface that have none near: on the flanks of a steep face, where the difference has no
-// summits, they are what the contact comes to when it is pressed further. `spacing`: mean distance of the surface's summits.
-void add_flanks(Asperities& found, const Asperities& of_surface, double spacing);
+// summits, they are what the contact comes to when it is pressed further. `spacing`: mean distance of the surface's summits; `period`: in which
+// the surface repeats.
+void add_flanks(Asperities& found, const Asperities& of_surface, double spacing, const Period& period);
 
 // Largest slope of the face above asperities it may touch, those with a clearance above `least`; 0 without any.
 double steepest_above(const Asperities& asperities, const Indenter& indenter, double least);

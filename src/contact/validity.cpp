@@ -23,15 +23,21 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
-// Counts contacts whose distance from the border is less than <d> or their radius, and those with a pixel on it.
-void count_edges(Level& level, const SolverOptions& options) {
+// Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
+void count_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
     level.edge_contacts = 0;
-    if (!options.surface.known()) return;
+    Rectangle surface = options.surface;
+    if (!surface.known()) return;
+    if (indenter.around.finite()) {  // cut open far from the tip
+        const bool points = !level.pixels.index.empty();
+        surface.x0 = points ? level.pixels.x0 : indenter.x0 - 0.5 * surface.Lx;
+        surface.y0 = points ? level.pixels.y0 : indenter.y0 - 0.5 * surface.Ly;
+    }
     std::vector<bool> cut(level.x.size(), false);
     for (std::size_t k = 0; k < cut.size(); ++k)
-        cut[k] = inside(options.surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+        cut[k] = inside(surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
     const LevelPixels& p = level.pixels;
-    const auto rows = p.dy > 0 ? static_cast<std::int32_t>(std::lround(options.surface.Ly / p.dy)) : 0;
+    const auto rows = p.dy > 0 ? static_cast<std::int32_t>(std::lround(surface.Ly / p.dy)) : 0;
     for (std::size_t k = 0; k < p.index.size(); ++k) {
         const std::int32_t column = p.index[k] % p.columns, row = p.index[k] / p.columns;
         if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows) cut[static_cast<std::size_t>(p.contact[k])] = true;
@@ -51,7 +57,7 @@ void judge_range(Level& level, const Indenter& indenter, const SolverOptions& op
     for (std::size_t k = 0; k < level.x.size() && options.mean_spacing > 0; ++k) {
         level.large_contacts += level.a[k] > options.mean_spacing / 4;
     }
-    count_edges(level, options);
+    count_edges(level, indenter, options);
     level.nominal_area = nominal_area(level, indenter, options.surface);
     if (indenter.layers.count > 0) {
         const double widest = indenter.layers.layer[0].thickness / 5;
@@ -71,7 +77,7 @@ void judge_edges(Level& level, const Indenter& indenter, const SolverOptions& op
     for (std::size_t k = 0; k < level.x.size(); ++k) {
         level.large_contacts += options.mean_spacing > 0 && level.a[k] > options.mean_spacing / 4;
     }
-    count_edges(level, options);
+    count_edges(level, indenter, options);
     level.nominal_area = nominal_area(level, indenter, options.surface);
     if (level.edge_contacts > 0) level.status = graver(level.status, LevelStatus::out_of_validity);
 }

@@ -153,10 +153,13 @@ void ResultTable::measured() {
          {"hurst", one(found.hurst.value)},
          {"hurst_error", one(found.hurst.error)},
          {"plateau", std::vector<std::int32_t>{found.plateau ? 1 : 0}},
+         {"plateau_seen", std::vector<std::int32_t>{found.plateau_seen ? 1 : 0}},
+         {"kl_seen", std::vector<std::int32_t>{found.kl_seen ? 1 : 0}},
          {"ks_seen", std::vector<std::int32_t>{found.ks_seen ? 1 : 0}},
          {"comment",
           "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, k = hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction "
-          "[degree] of the lay, mean over all directions; least squares in logarithms; ks_seen 0: the power law extends to the shortest wavelength of the grid"}});
+          "[degree] of the lay, mean over all directions; errors are 90 % intervals; ks_seen 0: the power law extends to the shortest wavelength of the grid; "
+          "kl_seen 0: kl is an upper bound, the map is too small to show it; plateau_seen 0: whether there is a plateau cannot be decided"}});
 }
 
 }  // namespace rsc

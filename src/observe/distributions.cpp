@@ -118,7 +118,7 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
             spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
         }
     }
-    add_pixels(d.pressure, level, bins.pressure_width());
+    if (std::isnan(level.least_force)) add_pixels(d.pressure, level, bins.pressure_width());
     return d;
 }
 

@@ -1,6 +1,7 @@
 #include "observe/map.hpp"
 
 #include "error.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 
@@ -153,19 +154,23 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
         double weight;
     };
     std::vector<Part> parts;
+    std::vector<std::size_t> touched;  // cells of the circle
     for (int b = 0; b < bins; ++b) {
+        stopping_point();
         const double r = (b + 0.5) * ring_width_;
         radii_.push_back(r);
         // A multiple of 4 preserves the symmetry of a square with the tip at its centre.
         const int angles = 4 * std::max(16, static_cast<int>(std::ceil(4 * std::numbers::pi * r / grid.side)));
-        std::fill(row.begin(), row.end(), 0.0);
+        touched.clear();
         for (int k = 0; k < angles; ++k) {
             const double phi = 2 * std::numbers::pi * (k + 0.5) / angles;
-            for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi),
-                            [&](std::size_t cell, double weight) { row[cell] += weight / angles; });
+            for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi), [&](std::size_t cell, double weight) {
+                if (row[cell] == 0) touched.push_back(cell);
+                row[cell] += weight / angles;
+            });
         }
-        for (std::size_t c = 0; c < cells; ++c)
-            if (row[c] != 0) parts.push_back({c, b, row[c]});
+        for (const std::size_t c : touched)
+            if (const double weight = std::exchange(row[c], 0.0); weight != 0) parts.push_back({c, b, weight});
     }
     start_.assign(cells + 1, 0);
     for (const Part& part : parts) ++start_[part.cell + 1];

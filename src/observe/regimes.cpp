@@ -15,7 +15,7 @@ double Hertz::pressure(double r) const {
 }
 
 Hertz hertz_contact(double force, double R, double E_star) {
-    if (!(force >= 0) || !std::isfinite(force)) throw Error(Failure::bad_input, "Hertz contact: the force must be finite, at least 0");
+    if (!(force >= 0) || !std::isfinite(force)) throw Error(Failure::bad_input, "Hertz contact: the force must be finite and not negative");
     if (!(R > 0) || !std::isfinite(R)) throw Error(Failure::bad_input, "Hertz contact: the radius must be positive and finite");
     if (!(E_star > 0) || !std::isfinite(E_star)) throw Error(Failure::bad_input, "Hertz contact: E* must be positive and finite");
     Hertz h;

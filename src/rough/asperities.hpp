@@ -8,7 +8,7 @@ namespace rsc {
 // Bounds of all input numbers. Moments and forces are products of powers of lengths and moduli; beyond these bounds they could overflow a
 // double, whatever the units.
 inline constexpr double kLargestNumber = 1e50;
-inline constexpr const char* kNumberBounds = "must be finite, 1e50 at most";
+inline constexpr const char* kNumberBounds = "must be finite and at most 1e50";
 inline constexpr const char* kPositiveBounds = "must be from 1e-50 to 1e50";
 
 // Bounds for numbers of either sign, 0 included, and for positive ones.
@@ -29,7 +29,7 @@ struct Asperities {
     std::size_t size() const { return x.size(); }
 };
 
-// The columns of Asperities, for loops over all of them.
+// Description of a column of Asperities.
 struct AsperityColumn {
     const char* name;
     std::vector<double> Asperities::*values;

@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-// The missing points as unknowns of (sum of weights) z - sum over missing neighbours w z = sum over present neighbours w z.
+// Linear system for the missing points: (sum of weights) z - sum over missing neighbours w z = sum over present neighbours w z.
 class HoleProblem {
 public:
     explicit HoleProblem(const HeightMap& map) : map_(map) {
@@ -95,7 +95,7 @@ private:
                 diagonal_[k] * x[k] - wx_ * (value(x, left_[k]) + value(x, right_[k])) - wy_ * (value(x, below_[k]) + value(x, above_[k]));
     }
 
-    // Modified incomplete Cholesky factors (Gustafsson 1978): row sums are kept, so that long waves in a large hole converge fast.
+    // Modified incomplete Cholesky factors (Gustafsson 1978): they preserve row sums, so that long waves in large holes converge fast.
     void factorise() {
         constexpr double kModified = 0.97;
         const std::size_t n = size();

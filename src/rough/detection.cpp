@@ -8,7 +8,9 @@
 namespace rsc {
 namespace {
 
-// Summits found by one thread in its rows: `found` or `refined`, depending on the detail.
+constexpr int kFewestRows = 64;  // of a share: rows beside it are made twice
+
+// Summits found in one share of the rows: `found` or `refined`, depending on the detail.
 struct Part {
     Asperities found;
     long saddles = 0;
@@ -67,22 +69,16 @@ Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic,
     return std::move(all.found);
 }
 
-// Runs part(t, first, last) on each of `threads` shares of the rows 0 ... rows - 1; rethrows the first exception of a part.
-void share_rows(int rows, int threads, const std::function<void(int, int, int)>& part) {
-    std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(threads));
-    Watch* const watch = Watch::here();
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / threads); };
-        try {
-            const Watch::Shared shared(watch);
-            if (bound(t) < bound(t + 1)) part(t, bound(t), bound(t + 1));
-        } catch (...) {
-            thrown[static_cast<std::size_t>(t)] = std::current_exception();
-        }
-    }
-    for (const auto& e : thrown)
-        if (e) std::rethrow_exception(e);
+// Runs part(its Part, first, last) on shares of the rows 0 ... rows - 1, a few for each thread. Returns the parts in order.
+std::vector<Part> share_rows(int rows, int threads, const std::function<void(Part&, int, int)>& part) {
+    const int shares = threads > 1 ? std::clamp(rows / kFewestRows, 1, 8 * threads) : 1;
+    std::vector<Part> parts(static_cast<std::size_t>(shares));
+    parallel_for(shares, 1, threads, [&](int t) {
+        const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / shares); };
+        stopping_point();
+        part(parts[static_cast<std::size_t>(t)], bound(t), bound(t + 1));
+    });
+    return parts;
 }
 
 // Calls visit(j, z, stride) for the rows j = first ... last - 1 while synthesising rows first - margin ... last - 1 + margin. z points to
@@ -95,7 +91,7 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
         allocate_doubles(static_cast<std::size_t>(rows_held * stride), "rows of a synthetic surface"));
     RowSource::Scratch scratch(source);
     int held = 0;               // rows in the window; the first is row next - held
-    int next = first - margin;  // the row to make next
+    int next = first - margin;  // next row to synthesise
     while (next <= last - 1 + margin) {
         stopping_point();
         const int made = std::min(rows_held - held, last + margin - next);
@@ -119,11 +115,8 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
     for (int reach = 1; refined && points_per_wave == 0 && reach <= kMeasuredReach; ++reach) stencils.push_back(Stencil::polynomial(reach));
     const int edge = map.periodic ? 0 : 1;
     const int rows = map.ny - 2 * edge;
-    threads = std::clamp(threads, 1, std::max(rows, 1));
-    std::vector<Part> parts(static_cast<std::size_t>(threads));
-    share_rows(rows, threads, [&](int t, int first, int last) {
+    std::vector<Part> parts = share_rows(rows, threads, [&](Part& part, int first, int last) {
         RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
-        Part& part = parts[static_cast<std::size_t>(t)];
         SummitClimber climber(stencils, place, map.ny, map.y0, curvature, above, breaks);
         for (int j = first + edge; j < last + edge; ++j) {
             const auto row = [&](int d) -> const double* {
@@ -150,28 +143,26 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     // An invalid n is rejected by RowSource.
     if (refined && n >= 2 && n % 2 == 0 && 2 * shortest_wave(spectrum) <= n)
         while (fine < 4 * shortest_wave(spectrum) * (1 - 1e-12)) fine += n;
-    const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
-    threads = std::min(threads, fine);
-    std::vector<Part> parts(static_cast<std::size_t>(threads));
+    RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
+    if (source.whole()) return find_asperities(source.take(), curvature, count, threads, detail, fine / shortest_wave(spectrum), above);
     if (refined) {
         const std::vector<Stencil> stencils{Stencil::band_limited(fine / shortest_wave(spectrum))};
-        share_rows(fine, threads, [&](int t, int first, int last) {
+        std::vector<Part> parts = share_rows(fine, threads, [&](Part& part, int first, int last) {
             SummitClimber climber(stencils, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature, above);
             // The window is at least twice as long as the 2 margin rows kept from one filling to the next, so that moving these is cheap.
             const int held = 4 * climber.margin() + RowSource::kBlock;
             visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
                 climber.climb(
-                    j, [&](int d) { return z + d * stride; }, parts[static_cast<std::size_t>(t)].refined);
+                    j, [&](int d) { return z + d * stride; }, part.refined);
             });
         });
         return join_refined(parts, fine, fine, !above || above->periodic(), count);
     }
-    share_rows(n, threads, [&](int t, int first, int last) {
+    std::vector<Part> parts = share_rows(n, threads, [&](Part& part, int first, int last) {
         RowPlace place{n, 0.0, step, step, 0.0, true};
-        Part& part = parts[static_cast<std::size_t>(t)];
         visit_while_making(source, 1, RowSource::kBlock + 2, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
             place.y = j * step;
             part.saddles += append_summits(place, z - stride, z, z + stride, curvature, part.found);

@@ -27,7 +27,7 @@ enum class Detail {
     subgrid,  // summit between the grid points; derivatives and biharmonic by long stencils
 };
 
-// Counts of a search for summits.
+// Counts and means of a search for summits.
 struct SummitCount {
     long summits = 0;         // asperities kept
     long saddles = 0;         // grid maxima not kept: saddles by their curvatures, or no summit in reach

@@ -5,6 +5,11 @@
 
 namespace rsc {
 
+// Skewness and kurtosis of heights, by default of Gaussian ones.
+struct HeightShape {
+    double skewness = 0, kurtosis = 3;
+};
+
 // A distribution of mean 0 and variance 1, represented as an increasing function of a standard normal variable.
 class HeightDistribution {
 public:
@@ -17,6 +22,8 @@ public:
     static HeightDistribution of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights);
 
     double operator()(double normal) const;
+    double normal(double value) const;  // the inverse of operator()
+    HeightShape shape() const;
 
 private:
     explicit HeightDistribution(std::vector<double> values);

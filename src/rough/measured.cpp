@@ -107,10 +107,15 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.isotropy = slopes.ratio;
     m.texture = measure_texture(map);
     count_heights(map, m);
-    m.spectrum = measure_spectrum(map);
+    const auto spectrum = [&](double aspect, double direction) {
+        MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
+        if (!s.wavenumber.empty() && (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere)) s.lost = 2.5 * s.wavenumber[0];
+        return s;
+    };
+    m.spectrum = spectrum(1, 0);
     // The aspect ratio is limited for endless grooves, as it is in synthesis.
     const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
-    const MeasuredSpectrum stretched = aspect > 1 ? measure_spectrum(map, aspect, slopes.direction) : MeasuredSpectrum();
+    const MeasuredSpectrum stretched = aspect > 1 ? spectrum(aspect, slopes.direction) : MeasuredSpectrum();
     m.shortest_wave = 2 * std::max(m.dx, m.dy);
     if (can_fit(m.spectrum)) {
         m.fit = fit_self_affine(m.spectrum);
@@ -153,7 +158,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;
-        lines.push_back(format("spectrum%s: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
+        lines.push_back(format("spectrum%s: hurst %.3f +- %.3f, lambda_l %s%.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
                                fit.aspect > 1 ? format(" (waves between along and across the lay, aspect %.2f)", fit.aspect).c_str() : "",
                                fit.hurst.value, fit.hurst.error, two_pi / fit.kl.value, l, fit.plateau ? " (plateau above)" : "",
                                two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (limit of the grid)", m.points_per_wave()));

@@ -54,7 +54,7 @@ struct Measured {
     double points_per_wave() const;    // grid steps in the shortest wave
 };
 
-// Lower bound of the ratio of rms slopes of isotropic maps, including those of few waves.
+// Smallest ratio of rms slopes that is regarded as isotropic; it allows for maps of few waves.
 inline constexpr double kIsotropic = 0.8;
 
 // With fewer points in the shortest wave, curvatures are determined by the grid or by noise.

@@ -3,6 +3,8 @@
 #include "error.hpp"
 #include "rough/library_lock.hpp"
 
+#include <boost/math/tools/minima.hpp>
+
 namespace rsc {
 namespace {
 
@@ -36,9 +38,8 @@ private:
 };
 
 struct Line {
-    double height = 0, slope = 0;                                    // y = height + slope x
-    double left = 0;                                                 // weighted sum of squared residuals
-    double height_variance = 0, slope_variance = 0, covariance = 0;  // in units of the variance of y
+    double height = 0, slope = 0;  // y = height + slope x
+    double left = 0;               // weighted sum of squared residuals
 };
 
 Line line_through(const Sums::Six& s) {
@@ -53,17 +54,12 @@ Line line_through(const Sums::Six& s) {
     line.slope = xy / xx;
     line.height = mean_y - line.slope * mean_x;
     line.left = std::max(0.0, yy - line.slope * xy);
-    line.slope_variance = 1 / xx;
-    line.height_variance = 1 / s.n + mean_x * mean_x / xx;
-    line.covariance = -mean_x / xx;
     return line;
 }
 
-// The power law covers the points from `low` to `high` - 1. Points before `low` form a plateau at its height or have a separate line;
-// points from `high` on have a separate line.
+// The power law covers the points from `low` to `high` - 1. The points before and after have separate lines.
 struct Cut {
     std::size_t low = 0, high = 0;
-    bool plateau = false;
 };
 
 class BandSearch {
@@ -73,16 +69,7 @@ public:
         for (std::size_t i = 0; i < x.size(); ++i) power_[i + 1] = power_[i] + std::exp(x[i] + y[i]);  // k Phi
     }
 
-    Line power_law(const Cut& c) const {
-        Sums::Six s = sums_.between(c.low, c.high);
-        if (c.plateau && c.low > 0) {
-            // The points of the plateau are fitted as if they were at kl.
-            const Sums::Six p = sums_.between(0, c.low);
-            const double x = x_[c.low];
-            s = {s.n + p.n, s.x + p.n * x, s.y + p.y, s.xx + p.n * x * x, s.xy + x * p.y, s.yy + p.yy};
-        }
-        return line_through(s);
-    }
+    Line power_law(const Cut& c) const { return line_through(sums_.between(c.low, c.high)); }
     // Weighted sum of squared residuals, and the sum of weights.
     struct Left {
         double square = 0, weight = 0;
@@ -91,8 +78,8 @@ public:
     Left left(const Cut& c) const {
         Left l;
         const auto add = [&](double square, const Sums::Six& s) { l.square += square, l.weight += s.n; };
-        add(power_law(c).left, sums_.between(c.plateau ? 0 : c.low, c.high));
-        if (!c.plateau && c.low > kBlurred) {
+        add(power_law(c).left, sums_.between(c.low, c.high));
+        if (c.low > kBlurred) {
             const Sums::Six s = sums_.between(0, c.low - kBlurred);
             add(line_through(s).left, s);
         }
@@ -111,7 +98,7 @@ public:
         if (power_[c.high] - power_[c.low] < kLeastPower * power_.back()) return HUGE_VAL;
         const auto n = static_cast<double>(x_.size());
         double parameters = 2;
-        if (c.low > 0) parameters += c.plateau ? 1 : 3;
+        if (c.low > 0) parameters += 3;
         if (c.high < x_.size()) parameters += 3;
         return n * std::log(left(c).mean() + kScatter) + 2 * parameters * std::log(n);
     }
@@ -122,6 +109,84 @@ private:
     const std::vector<double>& x_;
     Sums sums_;
     std::vector<double> power_;
+};
+
+// Whittle's likelihood of a measured spectrum: the power of a ring is the mean of many independent squared amplitudes. The expected power
+// includes the blur by the window.
+class Likelihood {
+public:
+    // The rings from wavenumber `begin` on, before ring `end`.
+    Likelihood(const MeasuredSpectrum& s, double begin, std::size_t end) : s_(s), end_(end), ring_(s.wavenumber[0]) {
+        while (first_ + 1 < end && s.wavenumber[first_] < begin) ++first_;
+        for (std::size_t i = first_; i < end; ++i) weights_ += s.independent * s.modes[i];
+    }
+
+    struct Model {
+        double kl = 0;  // in rings
+        bool plateau = false;
+        double hurst = 0, log_phi0 = 0;
+        double misfit = HUGE_VAL;  // -ln of the likelihood, up to a constant
+    };
+    // The best Hurst exponent and Phi0 of a model.
+    Model best(double kl, bool plateau) const {
+        Model m{.kl = kl, .plateau = plateau};
+        std::uintmax_t rounds = 40;
+        std::tie(m.hurst, m.misfit) =
+            boost::math::tools::brent_find_minima([&](double h) { return misfit(kl, plateau, h).first; }, -0.5, 1.5, 18, rounds);
+        m.log_phi0 = misfit(kl, plateau, m.hurst).second;
+        return m;
+    }
+    // -ln of the likelihood with the best Phi0, and its logarithm.
+    std::pair<double, double> misfit(double kl, bool plateau, double hurst) const {
+        const std::vector<double> expected = blurred(kl, plateau, hurst);
+        double ratio = 0, logs = 0;
+        for (std::size_t i = first_; i < end_; ++i) {
+            const double m = s_.independent * s_.modes[i], e = expected[i - first_];
+            ratio += m * s_.psd[i] / e, logs += m * std::log(e);
+        }
+        const double log_phi0 = std::log(ratio / weights_);
+        return {weights_ * log_phi0 + logs, log_phi0};
+    }
+    // Second derivative of the misfit by the Hurst exponent.
+    double curvature(const Model& m) const {
+        constexpr double step = 0.02;
+        return (misfit(m.kl, m.plateau, m.hurst + step).first + misfit(m.kl, m.plateau, m.hurst - step).first - 2 * m.misfit) /
+               (step * step);
+    }
+    // Mean square residual relative to the statistical scatter, at least 1. Real spectra are not exact power laws.
+    double excess(const Model& m) const {
+        const std::vector<double> expected = blurred(m.kl, m.plateau, m.hurst);
+        double sum = 0;
+        for (std::size_t i = first_; i < end_; ++i) {
+            const double off = s_.psd[i] / (expected[i - first_] * std::exp(m.log_phi0)) - 1;
+            sum += s_.independent * s_.modes[i] * std::min(off * off, 25.0);
+        }
+        return std::max(1.0, sum / static_cast<double>(end_ - first_) * s_.coupled);
+    }
+    double lowest() const { return s_.wavenumber[first_] / ring_; }
+    double highest() const { return s_.wavenumber[end_ - 1] / ring_; }
+
+private:
+    std::vector<double> blurred(double kl, bool plateau, double hurst) const {
+        constexpr double floor = 1e-3;  // of Phi0: leakage over many rings, and deviations from the model
+        const double power = -2 * (1 + hurst), break_at = kl * (1 - 1e-9);
+        const auto phi = [&](double q) { return q >= break_at ? std::pow(q / kl, power) : plateau ? 1.0 : 0.0; };
+        std::vector<double> at(s_.places), expected;
+        for (std::size_t p = 0; p < at.size(); ++p) at[p] = phi(std::max(static_cast<double>(p), 0.5) / MeasuredSpectrum::kPlaces);
+        for (std::size_t i = first_; i < end_; ++i) {
+            double sum = 0;
+            if (i < s_.seen.size())
+                for (const auto& [place, share] : s_.seen[i]) sum += share * at[place];
+            else
+                sum = phi(s_.wavenumber[i] / ring_);
+            expected.push_back(sum + floor * std::min(1.0, phi(std::max(kl, s_.wavenumber[i] / ring_))));
+        }
+        return expected;
+    }
+
+    const MeasuredSpectrum& s_;
+    std::size_t first_ = 0, end_;
+    double ring_, weights_ = 0;
 };
 
 }  // namespace
@@ -192,7 +257,7 @@ double MeasuredSpectrum::lay() const {
 
 double SelfAffineFit::operator()(double k) const {
     if (k > ks.value * (1 + 1e-12)) return 0;
-    if (k < kl.value) return plateau ? Phi0.value : 0;
+    if (k < kl.value && kl_seen) return plateau ? Phi0.value : 0;
     return Phi0.value * std::pow(k / kl.value, -2 * (1 + hurst.value));
 }
 
@@ -256,6 +321,33 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
             if (aspect == 1) plane.add(r, kx, ky, of_mode, copies);
         }
     }
+    // The sensitivity of the rings of long waves to each wavenumber, from the squared transform of the window at half steps: the covariance
+    // within a window of length L is a series of waves of length 2 L.
+    constexpr int reach = 5;  // half steps; the transform of a Hann window is below 1e-4 beyond
+    std::array<double, reach + 1> window{};
+    for (int u = 0; u <= reach; ++u) {
+        const auto sinc = [](double x) { return x == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x); };
+        const double amplitude = 0.5 * sinc(0.5 * u) + 0.25 * (sinc(0.5 * u - 1) + sinc(0.5 * u + 1));
+        window[static_cast<std::size_t>(u)] = map.periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
+    }
+    constexpr std::size_t long_rings = 32;
+    std::vector<std::map<std::size_t, double>> seen(std::min(rings, long_rings) + 1);
+    const int half = map.periodic ? 0 : reach,
+              far = static_cast<int>(std::ceil((long_rings + 0.5) * stretch * ring / std::min(step_x, step_y)));
+    for (int j = -std::min(far, ny / 2); j <= std::min(far, ny / 2); ++j)
+        for (int i = 0; i <= std::min(far, nx / 2); ++i) {
+            const auto stretched = [&](double kx, double ky) {
+                return std::hypot(stretch * (kx * along + ky * across), (ky * along - kx * across) / stretch) / ring;
+            };
+            const auto r = static_cast<std::size_t>(stretched(step_x * i, step_y * j) + 0.5);
+            if (r == 0 || r >= seen.size()) continue;
+            for (int v = -half; v <= half; ++v)
+                for (int u = -half; u <= half; ++u) {
+                    const double share = window[static_cast<std::size_t>(std::abs(u))] * window[static_cast<std::size_t>(std::abs(v))];
+                    const double q = stretched(step_x * (i + 0.5 * u), step_y * (j + 0.5 * v));
+                    seen[r][static_cast<std::size_t>(q * MeasuredSpectrum::kPlaces + 0.5)] += (i == 0 ? 1 : 2) * share;
+                }
+        }
     // By Parseval's theorem the squared modes add up to nx ny times the sum of the squared windowed heights.
     const double scale = 1 / (static_cast<double>(nx) * ny * squares * step_x * step_y);
     MeasuredSpectrum s;
@@ -269,7 +361,13 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
         s.wavenumber.push_back(static_cast<double>(r) * ring);
         s.psd.push_back(scale * power[r] / count[r]);
         s.modes.push_back(count[r]);
+        if (r >= seen.size()) continue;
+        double sum = 0;
+        for (const auto& [place, share] : seen[r]) sum += share;
+        s.seen.emplace_back();
+        for (const auto& [place, share] : seen[r]) s.seen.back().emplace_back(place, share / sum), s.places = std::max(s.places, place + 1);
     }
+    s.lost = map.periodic ? 0 : 1.5 * ring;
     if (aspect == 1) plane.finish(s, ring, scale);
     return s;
 }
@@ -298,11 +396,10 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     if (n < kFewest)
         throw Error(Failure::bad_input, "the map is too small for a spectrum: it has " + std::to_string(n) + " rings of modes");
     const BandSearch search(x, y, weight);
-    Cut best{0, n, false};
+    Cut best{0, n};
     double least = HUGE_VAL;  // default: one power law over all rings
     const auto try_cut = [&](const Cut& c) {
         if (c.high < c.low + kShortest || c.high > n) return;
-        if (c.plateau && c.low == 0) return;  // same as no plateau
         if (const double cost = search.cost(c); cost < least) least = cost, best = c;
     };
     // Coarse search with about 60 places per decade, then a fine search around the best cut.
@@ -310,71 +407,97 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     for (double place = 0; static_cast<std::size_t>(place) <= n; place = std::max(place + 1, place * 1.04))
         places.push_back(static_cast<std::size_t>(place));
     places.push_back(n);
-    for (const bool plateau : {false, true})
-        for (const std::size_t low : places)
-            for (const std::size_t high : places) try_cut({low, high, plateau});
+    for (const std::size_t low : places)
+        for (const std::size_t high : places) try_cut({low, high});
     for (int round = 0; round < 3; ++round) {
         const Cut around = best;
         const std::size_t wide = 3 + n / 40;
-        for (std::size_t low = around.low > wide ? around.low - wide : 0; low <= around.low + wide; ++low)
-            try_cut({low, around.high, around.plateau});
-        for (std::size_t high = around.high > wide ? around.high - wide : 0; high <= around.high + wide; ++high)
-            try_cut({best.low, high, around.plateau});
+        for (std::size_t low = around.low > wide ? around.low - wide : 0; low <= around.low + wide; ++low) try_cut({low, around.high});
+        for (std::size_t high = around.high > wide ? around.high - wide : 0; high <= around.high + wide; ++high) try_cut({best.low, high});
     }
-
-    // The line is fitted without the blurred rings at the breaks.
-    const double half_ring = 0.5 * spectrum.wavenumber[0];
-    Cut inner = best;
-    if (best.high < n && inner.high > inner.low + kShortest) --inner.high;
-    if (best.low > 0 && !best.plateau && inner.high > inner.low + kShortest) ++inner.low;
-    const Line line = search.power_law(inner);
     SelfAffineFit fit;
-    fit.plateau = best.plateau;
     fit.ks_seen = best.high < n;
-    const double points = static_cast<double>(best.high - (best.plateau ? 0 : best.low));
-    const double variance = spectrum.coupled * std::max(line.left / std::max(points - 2, 1.0), BandSearch::kScatter);
-    fit.hurst = {-0.5 * line.slope - 1, 0.5 * std::sqrt(variance * line.slope_variance)};
 
-    // Half the range over which a break can move before the residual grows by one variance.
-    const auto reach = [&](auto moved, std::size_t at) {
-        const double limit = search.left(best).square + variance;
-        const auto allowed = [&](std::size_t to) {
-            const Cut c = moved(to);
-            return c.low + kShortest <= c.high && c.high <= n && search.left(c).square <= limit;
-        };
-        std::size_t low = at, high = at;
-        while (low > 0 && allowed(low - 1)) --low;
-        while (high < n && allowed(high + 1)) ++high;
-        const double width = k[std::min(high, n - 1)] - k[std::min(low, n - 1)];
-        return std::max(0.5 * width, half_ring / std::sqrt(3.0));
-    };
-    if (best.low == 0) {
-        fit.kl = {k[0], half_ring};
-    } else if (fit.plateau) {
-        fit.kl = {k[best.low], reach([&](std::size_t low) { return Cut{low, best.high, true}; }, best.low)};
-    } else {
-        fit.kl = {k[best.low], reach([&](std::size_t low) { return Cut{low, best.high, false}; }, best.low)};
+    // The rings next to ks, which the window blurs, are left out.
+    const std::size_t blurred = fit.ks_seen ? (spectrum.coupled > 1 ? BandSearch::kBlurred : 1) : 0;
+    const std::size_t end = best.high - std::min(blurred, best.high > kFewest ? best.high - kFewest : 0);
+    const Likelihood likelihood(spectrum, spectrum.lost, end);
+    // kl in steps of a quarter of a ring, later of 4 %. Values below the lowest ring mean that there is no break.
+    std::vector<Likelihood::Model> models;
+    const double lowest = likelihood.lowest(), highest = 0.5 * likelihood.highest();
+    for (double kl = 0.25; kl <= std::max(highest, lowest); kl = std::max(kl + 0.25, std::floor(4 * 1.04 * kl) / 4))
+        for (const bool plateau : {false, true}) models.push_back(likelihood.best(kl, plateau));
+    Likelihood::Model found;
+    std::array<double, 2> least_misfit{HUGE_VAL, HUGE_VAL};
+    for (const Likelihood::Model& m : models) {
+        if (m.misfit < found.misfit) found = m;
+        least_misfit[m.plateau] = std::min(least_misfit[m.plateau], m.misfit);
     }
+    // Models with a larger misfit are outside the 90 % interval.
+    const double allowed = 0.5 * 1.645 * 1.645 * likelihood.excess(found), curvature = std::max(likelihood.curvature(found), 1e-3);
+    fit.plateau = found.plateau;
+    fit.plateau_seen = std::abs(least_misfit[0] - least_misfit[1]) > allowed;
+    double low = found.kl, high = found.kl;
+    double log_error = 0;
+    fit.hurst.value = found.hurst;
+    for (const Likelihood::Model& m : models) {
+        const double left = allowed - (m.misfit - found.misfit);
+        if (left < 0) continue;
+        low = std::min(low, m.kl), high = std::max(high, m.kl);
+        fit.hurst.error = std::max(fit.hurst.error, std::abs(m.hurst - found.hurst) + std::sqrt(2 * left / curvature));
+        log_error = std::max(log_error, std::abs(m.log_phi0 - found.log_phi0));
+    }
+    fit.kl_seen = low > std::max(lowest, 1.0);
+    const double ring = spectrum.wavenumber[0];
+    // Without a plateau the rings next to kl have fewer effective modes. The exponent is fitted to the rings above them.
+    const double above_break = (found.kl + 1) * ring;
+    if (fit.kl_seen && !found.plateau && k[end - 1] > above_break + kShortest * ring) {
+        const Likelihood upper(spectrum, above_break, end);
+        const Likelihood::Model again = upper.best(found.kl, false);
+        found.hurst = fit.hurst.value = again.hurst, found.log_phi0 = again.log_phi0;
+        fit.hurst.error = std::sqrt(2 * 0.5 * 1.645 * 1.645 * upper.excess(again) / std::max(upper.curvature(again), 1e-3));
+    }
+    if (fit.kl_seen)
+        fit.kl = {found.kl * ring, (std::max(high - found.kl, found.kl - low) + 0.25) * ring};
+    else
+        fit.kl = {high * ring, 0};
+    // Phi0 belongs to kl.
+    const double log_phi0 = found.log_phi0 - 2 * (1 + found.hurst) * std::log(fit.kl.value / (found.kl * ring));
+    log_error += std::abs(likelihood.misfit(found.kl, found.plateau, found.hurst + fit.hurst.error).second - found.log_phi0);
+    fit.Phi0 = {std::exp(log_phi0), std::exp(log_phi0) * std::expm1(log_error)};
+
+    // Half the range over which ks can move before the residual grows by one variance.
+    const double half_ring = 0.5 * ring;
     if (!fit.ks_seen) {
         fit.ks = {k[n - 1], half_ring};
     } else {
-        // ks is where the spectrum falls to half of the fitted line.
+        const double variance =
+            spectrum.coupled *
+            std::max(search.power_law(best).left / std::max(static_cast<double>(best.high - best.low) - 2, 1.0), BandSearch::kScatter);
+        const double limit_left = search.left(best).square + variance;
+        const auto may_end = [&](std::size_t to) {
+            const Cut c{best.low, to};
+            return c.low + kShortest <= c.high && c.high <= n && search.left(c).square <= limit_left;
+        };
+        std::size_t from = best.high, to = best.high;
+        while (from > 0 && may_end(from - 1)) --from;
+        while (to < n && may_end(to + 1)) ++to;
+        // ks is where the spectrum falls to half of the power law.
         std::size_t last = best.high - 1;
-        const double half = std::log(2.0);
-        const auto above = [&](std::size_t i) { return y[i] - (line.height + line.slope * x[i]) + half; };  // > 0 if above half of the line
+        const auto above = [&](std::size_t i) {  // > 0 if above half of it
+            return y[i] - 0.5 / (spectrum.independent * spectrum.modes[i]) - found.log_phi0 +
+                   2 * (1 + found.hurst) * std::log(k[i] / (found.kl * ring)) + std::log(2.0);
+        };
         const std::size_t limit = std::min(n - 1, best.high + 3);
         while (last < limit && above(last + 1) > 0) ++last;
         while (last > best.low && above(last) <= 0) --last;
         double ks = k[best.high - 1];
         if (last < limit && above(last) > 0 && above(last + 1) <= 0) {
-            const double share_last = std::exp(above(last)), share_next = std::exp(above(last + 1));  // relative to half of the line
+            const double share_last = std::exp(above(last)), share_next = std::exp(above(last + 1));  // relative to half of the power law
             ks = k[last] + (k[last + 1] - k[last]) * std::clamp((share_last - 1) / (share_last - share_next), 0.0, 1.0);
         }
-        fit.ks = {ks, reach([&](std::size_t high) { return Cut{best.low, high, best.plateau}; }, best.high)};
+        fit.ks = {ks, std::max(0.5 * (k[std::min(to, n - 1)] - k[std::min(from, n - 1)]), half_ring)};
     }
-    const double xl = std::log(fit.kl.value), log_phi = line.height + line.slope * xl;
-    const double log_variance = variance * (line.height_variance + 2 * xl * line.covariance + xl * xl * line.slope_variance);
-    fit.Phi0 = {std::exp(log_phi), std::exp(log_phi) * std::sqrt(std::max(0.0, log_variance))};
     return fit;
 }
 

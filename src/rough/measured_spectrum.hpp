@@ -5,18 +5,21 @@
 
 namespace rsc {
 
-// A fitted value and its standard error.
+// A fitted value and the half width of its 90 % interval.
 struct Fitted {
     double value = 0, error = 0;
 };
 
-// Fitted self-affine spectrum: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau (physics, section 2).
+// Fitted self-affine spectrum: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau (physics, section 2). Without kl_seen
+// the power law continues below kl.
 struct SelfAffineFit {
     Fitted Phi0;    // [length^4]
     Fitted kl, ks;  // [1/length]
     Fitted hurst;   // Hurst exponent; above 1 for slopes steeper than -4, below 0 for slopes flatter than -2
     bool plateau = false;
-    bool ks_seen = false;  // true if the power law ends before the grid's shortest wave
+    bool ks_seen = false;       // true if the power law ends before the grid's shortest wave
+    bool kl_seen = false;       // false if the map is too small to show kl; kl is then an upper bound
+    bool plateau_seen = false;  // false if the map is too small to decide whether there is a plateau
     // Lay of the surface. Phi depends only on the stretched wavenumber hypot(sqrt(aspect) k_along, k_across/sqrt(aspect)).
     double aspect = 1, direction = 0;  // ratio of the correlation lengths along and across the lay; angle of the lay from the x axis [rad]
     double operator()(double k) const;
@@ -31,6 +34,11 @@ struct MeasuredSpectrum {
     std::vector<double> modes;       // number of Fourier modes in the ring, including mirror images
     double independent = 0.5;        // share of independent amplitudes among them, reduced by mirror images and by the window
     double coupled = 1;              // number of neighbouring rings coupled by the window
+    double lost = 0;                 // wavenumbers below this have lost power to the form that was removed
+    // For the first 32 rings: pairs (place, share) of the wavenumber place/kPlaces, in rings, and its share in the expected power.
+    static constexpr int kPlaces = 8;
+    std::vector<std::vector<std::pair<std::size_t, double>>> seen;
+    std::size_t places = 0;  // number of places
     // Spectrum by direction, on fewer rings (wider ones at large wavenumbers) and at kAngles angles 0, 2.5, ... degrees from the x axis
     // towards the y axis; the other half plane is the mirror image. Near the origin values are averaged over the angle that two modes span,
     // the resolution of the window.
@@ -46,13 +54,13 @@ struct MeasuredSpectrum {
 // Error(no_memory).
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect = 1, double direction = 0);
 
-// Least-squares fit in logarithms, each ring weighted by its number of modes: a line of slope -2(1+hurst), -0.5 <= hurst <= 1.5, between kl
-// and ks that contains at least a hundredth of the mean square height; below kl a constant at its height (plateau) or a separate line;
-// beyond ks another line (noise, leakage of the window). kl and ks, and whether they exist within the spectrum, minimise the Bayesian
-// information criterion; rings next to a break are ignored because the window blurs them. ks is then moved to where the spectrum falls to
-// half of the line. The errors of Phi0 and hurst follow from the scatter of the residuals, those of kl and ks from the shift that increases
-// the residual by one variance, at least half a ring. Throws Error(bad_input) for fewer than 8 rings with psd > 0, where can_fit() is
-// false.
+// Fits in two steps. First ks: least squares in logarithms, each ring weighted by its number of modes, of a line of slope -2(1+hurst),
+// -0.5 <= hurst <= 1.5, that contains at least a hundredth of the mean square height, with separate lines below and beyond it; the Bayesian
+// information criterion decides the breaks. ks is where the spectrum falls to half of the power law. Then hurst, Phi0, kl and the plateau: the
+// maximum of Whittle's likelihood of the rings below ks, where the expected power of a ring includes the blur by the window. Rings that have lost
+// power to a removed form are left out. Errors are 90 % intervals of the likelihood, wider where the spectrum deviates from a power law; if the
+// interval of kl includes spectra without a break, kl_seen is false. Throws Error(bad_input) for fewer than 8 rings with psd > 0, where
+// can_fit() is false.
 SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum);
 bool can_fit(const MeasuredSpectrum& spectrum);
 

@@ -1,63 +1,138 @@
 #include "rough/parallel.hpp"
 
-#include <omp.h>
 #include <pthread.h>
+
+extern "C" int omp_in_parallel() __attribute__((weak));  // there if the program uses OpenMP
 
 namespace rsc {
 namespace {
 
-constexpr std::size_t kMost = 1024;
+thread_local int loop_threads = 0;     // of LoopThreads
+thread_local bool in_a_piece = false;  // of a loop shared with others
+std::atomic<bool> forked{false};       // the pool's threads are the parent's
 
-std::atomic<bool> used{false}, forked{false};
-thread_local int alive = 1;  // size of the thread pool that libgomp keeps for this thread: that of its last region
-
-void* wait_for(void* mutex) {
-    auto* const all_there = static_cast<pthread_mutex_t*>(mutex);
-    pthread_mutex_lock(all_there);
-    pthread_mutex_unlock(all_there);
-    return nullptr;
-}
-
-// Number of threads, at most `more`, that can be started at the same time. Not std::thread: it frees memory in the new thread, for which
-// the system reserves 64 MB of address space permanently.
-int can_start(int more) {
-    std::array<pthread_t, kMost> started;
-    pthread_mutex_t all_there = PTHREAD_MUTEX_INITIALIZER;
-    pthread_mutex_lock(&all_there);
-    int count = 0;
-    while (count < more && pthread_create(&started[static_cast<std::size_t>(count)], nullptr, wait_for, &all_there) == 0) ++count;
-    pthread_mutex_unlock(&all_there);
-    for (int k = 0; k < count; ++k) pthread_join(started[static_cast<std::size_t>(k)], nullptr);
+int processors() {
+    static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return count;
 }
+
+int default_threads() {
+    static const int count = [] {
+        const char* const text = std::getenv("OMP_NUM_THREADS");
+        const long wanted = text ? std::strtol(text, nullptr, 10) : 0;  // of a list the first
+        return wanted > 0 ? static_cast<int>(std::min(wanted, 1000000L)) : processors();
+    }();
+    return count;
+}
+
+struct Job {
+    std::size_t count;
+    const std::function<void(std::size_t, std::size_t)>& body;
+    std::size_t wanted;  // helpers that may still join
+    std::size_t joined = 0, inside = 0;
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr thrown{};
+};
+
+// The pool's threads end with the process, asleep in this.
+struct Pool {
+    std::mutex mutex;
+    std::condition_variable wake, left;
+    std::vector<Job*> jobs;
+    std::size_t threads = 0;
+
+    static Pool& get() {
+        static Pool* const pool = [] {
+            pthread_atfork(nullptr, nullptr, [] { forked = true; });
+            return new Pool;
+        }();
+        return *pool;
+    }
+
+    void work(Job& job, std::size_t worker) noexcept {
+        for (std::size_t k; (k = job.next.fetch_add(1)) < job.count;) {
+            try {
+                job.body(k, worker);
+            } catch (...) {
+                job.next = job.count;
+                const std::lock_guard lock(mutex);
+                if (!job.thrown || worker == 0) job.thrown = std::current_exception();
+            }
+        }
+    }
+
+    void help() {
+        in_a_piece = true;
+        std::unique_lock lock(mutex);
+        for (;;) {
+            const auto found =
+                std::find_if(jobs.begin(), jobs.end(), [](const Job* job) { return job->wanted > 0 && job->next < job->count; });
+            if (found == jobs.end()) {
+                wake.wait(lock);
+                continue;
+            }
+            Job& job = **found;
+            --job.wanted, ++job.inside;
+            const std::size_t worker = ++job.joined;
+            lock.unlock();
+            work(job, worker);
+            lock.lock();
+            if (--job.inside == 0) left.notify_all();
+        }
+    }
+
+    // Not by std::thread, whose refusal is an exception and which frees memory in the new thread.
+    void start(std::size_t wanted) {
+        while (threads < wanted) {
+            pthread_t thread;
+            const auto helper = [](void*) -> void* {
+                get().help();
+                return nullptr;
+            };
+            if (pthread_create(&thread, nullptr, helper, nullptr) != 0) return;
+            pthread_detach(thread);
+            ++threads;
+        }
+    }
+};
 
 }  // namespace
 
 std::size_t most_threads(int wanted) {
-    const int n = wanted > 0 ? wanted : omp_get_max_threads();
-    // Far more threads than processors only wait for each other: with a thousand threads on two processors, seconds of work take minutes.
-    const int most = std::min(static_cast<int>(kMost), 16 + 2 * omp_get_num_procs());
-    return static_cast<std::size_t>(std::clamp(n, 1, most));
+    const int n = wanted > 0 ? wanted : loop_threads > 0 ? loop_threads : default_threads();
+    // Threads far beyond the processors only wait for each other: a thousand on two of them take minutes for seconds of work.
+    return static_cast<std::size_t>(std::clamp(n, 1, 16 + 2 * processors()));
 }
 
-int omp_team(std::size_t work, int wanted) {
-    if (work < 2 || forked || omp_get_level() >= omp_get_max_active_levels()) return 1;
-    const int team = static_cast<int>(std::min(work, most_threads(wanted)));
-    if (team == 1) return 1;
-    if (!used.exchange(true)) pthread_atfork(nullptr, nullptr, [] { forked = true; });
-    if (team > alive) {
-        const int more = can_start(team - alive);
-        // If the limit was reached, one thread fewer leaves memory for the others.
-        alive = std::max(1, more == team - alive ? team : alive + more - 1);
-        return alive;
+LoopThreads::LoopThreads(int threads) : before_(std::exchange(loop_threads, threads)) {}
+LoopThreads::~LoopThreads() { loop_threads = before_; }
+
+void parallel_pieces(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& body) {
+    const std::size_t team = std::min(count, most_threads(threads));
+    if (team < 2 || in_a_piece || forked || (omp_in_parallel && omp_in_parallel())) {
+        for (std::size_t k = 0; k < count; ++k) body(k, 0);
+        return;
     }
-    return alive = team;  // libgomp ends the others
+    Pool& pool = Pool::get();
+    Job job{count, body, team - 1};
+    std::unique_lock lock(pool.mutex);
+    pool.start(team - 1);
+    pool.jobs.push_back(&job);
+    lock.unlock();
+    for (std::size_t k = 1; k < team; ++k) pool.wake.notify_one();
+    in_a_piece = true;
+    pool.work(job, 0);
+    in_a_piece = false;
+    lock.lock();
+    std::erase(pool.jobs, &job);
+    pool.left.wait(lock, [&] { return job.inside == 0; });
+    lock.unlock();
+    if (job.thrown) std::rethrow_exception(job.thrown);
 }
 
 namespace {
 
 thread_local Watch* watch = nullptr;
-thread_local Watch* of_another = nullptr;  // watch of another thread
 thread_local std::chrono::steady_clock::time_point asked;
 
 }  // namespace
@@ -65,36 +140,12 @@ thread_local std::chrono::steady_clock::time_point asked;
 Watch::Watch(std::function<void()> ask) : ask_(std::move(ask)), before_(std::exchange(watch, this)) {}
 Watch::~Watch() { watch = before_; }
 
-Watch* Watch::here() { return watch; }
-Watch::Shared::Shared(Watch* shared) : before_(std::exchange(of_another, watch ? nullptr : shared)) {}
-Watch::Shared::~Shared() { of_another = before_; }
-
 void stopping_point() {
-    if (of_another && of_another->stopped_) throw std::runtime_error("stopped");
     if (!watch) return;
     const auto now = std::chrono::steady_clock::now();
     if (now - asked < std::chrono::milliseconds(50)) return;
     asked = now;
-    try {
-        watch->ask_();
-    } catch (...) {
-        watch->stopped_ = true;
-        throw;
-    }
-}
-
-bool LoopStop::now() noexcept {
-    if (stopped_) return true;
-    try {
-        stopping_point();
-    } catch (...) {
-        if (!stopped_.exchange(true)) thrown_ = std::current_exception();
-    }
-    return stopped_;
-}
-
-void LoopStop::tell() const {
-    if (thrown_) std::rethrow_exception(thrown_);
+    watch->ask_();
 }
 
 }  // namespace rsc

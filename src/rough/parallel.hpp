@@ -1,30 +1,54 @@
-// Number of OpenMP threads of a parallel region: no more than the system starts.
+// Loops that several threads share, and places where long work may be stopped.
 //
-// Number of OpenMP threads, and stopping of long loops.
+// The threads belong to a pool of the process: they are started when they are first wanted and sleep between loops, so that other programs on
+// the machine lose nothing and a loop beside a busy program waits for nobody but its own last pieces. OpenMP's threads spin at barriers,
+// end the program where the system refuses to start one, and hang after a fork.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc {
 
-// Number of OpenMP threads of a parallel region: no more than the system starts.
-//
-// libgomp ends the program if a thread cannot be started, and crashes with tens of thousands of threads. Every parallel region of rsc
-// therefore has num_threads(omp_team(...)), which first tests how many threads can be started. Results do not depend on the number of
-// threads.
-
-// `work`: number of work items, kEveryThread if there are many; 0 or 1: one thread. `wanted`: requested threads; 0: omp_get_max_threads().
-// Returns 1 inside a parallel region, and in a process forked from one that had used threads: libgomp's threads do not exist there, and it
-// would wait for them forever.
-inline constexpr std::size_t kEveryThread = static_cast<std::size_t>(-1);  // more work than threads
-int omp_team(std::size_t work, int wanted = 0);
-
-// Number of threads that a campaign or study may start: `wanted`, or all that OpenMP offers if 0.
+// Threads for loops and campaigns: `wanted`, or with 0 those of LoopThreads, of OMP_NUM_THREADS, or the processors of this process.
+// At most 16 + 2 times the processors.
 std::size_t most_threads(int wanted);
 
-// Long loops check regularly whether they must stop.
+// While it lives, loops of this thread that say 0 use so many threads.
+class LoopThreads {
+public:
+    explicit LoopThreads(int threads);
+    LoopThreads(const LoopThreads&) = delete;
+    LoopThreads& operator=(const LoopThreads&) = delete;
+    ~LoopThreads();
 
-// During its lifetime, stopping_point() on this thread calls `ask` at most every 50 ms; `ask` throws to stop the work.
+private:
+    int before_;
+};
+
+// Runs body(piece, worker) for the pieces 0 ... count - 1 on this thread and on helpers of the pool, at most most_threads(threads) in all and
+// fewer where the system starts no more. `worker` is below the number of threads, and no two pieces run at once with the same one: it numbers
+// buffers. Which thread takes which piece is left to chance, so results must depend on the pieces alone.
+// A piece may throw: pieces not yet begun are then left out, and one of the exceptions is thrown here, this thread's own if there is one.
+// Everything runs on this thread inside a piece of another loop, inside a caller's OpenMP region, and after a fork.
+void parallel_pieces(std::size_t count, int threads, const std::function<void(std::size_t piece, std::size_t worker)>& body);
+
+// Runs body(k) or body(k, worker) for k = 0 ... n - 1, `grain` of them in a piece.
+template <class Index, class Body>
+void parallel_for(Index n, int grain, int threads, Body&& body) {
+    const auto each = static_cast<Index>(grain);
+    parallel_pieces(static_cast<std::size_t>((n + each - 1) / each), threads, [&](std::size_t piece, std::size_t worker) {
+        for (Index k = static_cast<Index>(piece) * each, end = std::min<Index>(n, k + each); k < end; ++k) {
+            if constexpr (std::is_invocable_v<Body, Index, std::size_t>)
+                body(k, worker);
+            else
+                body(k);
+        }
+    });
+}
+
+// Long loops check now and then whether they are to be stopped.
+
+// While it lives, stopping_point() on this thread calls `ask`, at most every 50 ms. To stop the work `ask` throws.
 class Watch {
 public:
     explicit Watch(std::function<void()> ask);
@@ -32,43 +56,14 @@ public:
     Watch& operator=(const Watch&) = delete;
     ~Watch();
 
-    static Watch* here();  // the watch of this thread, or null
-    // During its lifetime, stopping_point() on this thread throws once the watch has stopped its own thread.
-    class Shared {
-    public:
-        explicit Shared(Watch* watch);
-        Shared(const Shared&) = delete;
-        Shared& operator=(const Shared&) = delete;
-        ~Shared();
-
-    private:
-        Watch* before_;
-    };
-
 private:
     std::function<void()> ask_;
     Watch* before_;
-    std::atomic<bool> stopped_{false};
     friend void stopping_point();
 };
 
-// Point at which an exception may end the work: outside parallel regions, with all data in a consistent state.
+// A place where work may be left by an exception: where nothing is half done. In a piece of a parallel loop it asks on the thread that has the
+// watch; the other threads then begin no further piece.
 void stopping_point();
-
-// Stopping point in a parallel OpenMP loop, which no exception may leave:
-//
-//     LoopStop stop;
-//     #pragma omp parallel for
-//     for (...) { if (stop.now()) continue; ... }
-//     stop.tell();
-class LoopStop {
-public:
-    bool now() noexcept;  // true if the remaining iterations are to be skipped
-    void tell() const;    // rethrows the exception of the stopping point, if any
-
-private:
-    std::atomic<bool> stopped_{false};
-    std::exception_ptr thrown_;
-};
 
 }  // namespace rsc

@@ -10,157 +10,306 @@
 namespace rsc {
 namespace {
 
-using Complex = std::complex<double>;
+using Complex = std::complex<float>;
 
-// Grid points in the shortest wave during the iteration: enough for the shorter waves that the changed heights introduce.
-constexpr double kPointsPerWave = 2.5;
-constexpr int kMostRounds = 60;
-// Tolerances, half of the documented ones.
-constexpr double kNearSkewness = 0.01, kNearKurtosis = 0.025;
+// Half the tolerances that are documented for one surface, so that two or three rounds are enough.
+constexpr double kNearSkewness = 0.012, kNearKurtosis = 0.03;
+double distance(HeightShape got, HeightShape wish) {
+    return std::max(std::abs(got.skewness - wish.skewness) / kNearSkewness, std::abs(got.kurtosis - wish.kurtosis) / kNearKurtosis);
+}
 
-class Reshaping {
+// Within Johnson's system, with a margin from distributions of two values.
+HeightShape usable(HeightShape shape) {
+    shape.skewness = std::clamp(shape.skewness, -6.0, 6.0);
+    shape.kurtosis = std::clamp(shape.kurtosis, 1.2 * shape.skewness * shape.skewness + 1.3, 90.0);
+    return shape;
+}
+
+// The modes of the half plane in a band, in the caller's columns.
+struct Modes {
+    Band band;
+    std::complex<double>* columns;
+    std::ptrdiff_t stride;
+    int n;
+
+    // Visits them in runs of one column: visit(kx, ky, count, coefficients).
+    template <class Visit>
+    void runs(Visit visit) const {
+        for (int kx = 0; kx <= band.highest_kx; ++kx) {
+            const auto [first, last] = band.column(kx);
+            std::complex<double>* const column = columns + kx * stride;
+            if (const int from = std::max(first, kx > 0 ? 0 : 1); from <= last) visit(kx, from, last - from + 1, column + from);
+            if (const int to = std::min(last, -1); kx > 0 && first <= to) visit(kx, first, to - first + 1, column + first + n);
+        }
+    }
+};
+
+// A surface of some of the modes on m x m points, in single precision: only the phases of its modes are wanted of it.
+class Field {
 public:
-    Reshaping(const Spectrum& spectrum, Complex* columns, std::ptrdiff_t stride, int n)
-        : spectrum_(spectrum),
-          band_(band(spectrum)),
-          columns_(columns),
-          stride_(stride),
-          n_(n),
-          m_(fast_size(std::max(32.0, kPointsPerWave * std::max(band_.highest_kx, band_.highest_ky)))),
-          row_(m_ / 2 + 1),
-          points_(static_cast<std::size_t>(m_) * static_cast<std::size_t>(m_)) {
-        const std::size_t doubles = 2 * static_cast<std::size_t>(row_) * static_cast<std::size_t>(m_);
-        data_.reset(allocate_doubles(doubles, "a surface whose heights are not Gaussian"));
+    Field(const Modes& modes, int m)
+        : modes_(modes),
+          m_(m),
+          columns_(modes.band.highest_kx + 1),
+          stride_((m + 7) / 8 * 8 + 8),
+          row_stride_((m + 2 + 15) / 16 * 16 + 16) {
+        store_ = allocate(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(stride_));
+        rows_ = allocate(static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(row_stride_) / 2);
         const auto lock = fftw_planning();
-        auto* const complex = reinterpret_cast<fftw_complex*>(data_.get());
-        to_heights_.reset(fftw_plan_dft_c2r_2d(m_, m_, complex, data_.get(), FFTW_ESTIMATE));
-        to_modes_.reset(fftw_plan_dft_r2c_2d(m_, m_, data_.get(), complex, FFTW_ESTIMATE));
-        if (!to_heights_ || !to_modes_) throw Error(Failure::internal, "surface: FFTW made no plan for changed heights");
+        auto* const c = reinterpret_cast<fftwf_complex*>(store_.get());
+        auto* const r = reinterpret_cast<float*>(rows_.get());
+        auto* const rc = reinterpret_cast<fftwf_complex*>(rows_.get());
+        up_.reset(fftwf_plan_dft_1d(m, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
+        down_.reset(fftwf_plan_dft_1d(m, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
+        to_heights_.reset(fftwf_plan_dft_c2r_1d(m, rc, r, FFTW_ESTIMATE));
+        to_modes_.reset(fftwf_plan_dft_r2c_1d(m, r, rc, FFTW_ESTIMATE));
+        if (!up_ || !down_ || !to_heights_ || !to_modes_)
+            throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
     }
 
-    HeightShape run() {
-        double square = 0;
-        for_modes([&](Complex& c, Complex&) { amplitude_.push_back(std::abs(c)), square += 2 * std::norm(c); });
-        const double scale = square > 0 ? 1 / std::sqrt(square) : 1;
-        for (double& a : amplitude_) a *= scale;
-        clear();
-        for_modes([&](Complex& c, Complex& there) { there = scale * c; });
-        mirror();
-        heights();
-        HeightShape got = shape(), wish = spectrum_.shape, ask = wish, best;
-        double best_distance = 1e300;
-        for (int round = 0; round < kMostRounds; ++round) {
-            rank(spectrum_.heights ? *spectrum_.heights : HeightDistribution::of_moments(ask.skewness, ask.kurtosis));
-            fftw_execute(to_modes_.get());
-            phases();
-            clear();
-            std::size_t k = 0;
-            for_modes([&](Complex&, Complex& there) { there = phase_[k] * amplitude_[k], ++k; });
-            mirror();
-            heights();
-            got = shape();
-            if (spectrum_.heights) {  // no target moments: iterate until the heights no longer change
-                best = got;
-                if (std::abs(got.skewness - ask.skewness) + std::abs(got.kurtosis - ask.kurtosis) < 1e-4) break;
-                ask = got;
-                continue;
+    // Repeats: heights get the values of their ranks in a distribution, modes their amplitudes. The distribution is chosen by the moments
+    // reached so far; `measured` (optional) is the one to be chosen at wish. The best phases go to the caller's columns.
+    HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
+        take();
+        transform(up_);
+        HeightShape now{}, best{}, lost{};
+        double nearest = HUGE_VAL;
+        now = sample();
+        for (int round = 0; round <= rounds; ++round) {
+            // How much of a change of the distribution the restored amplitudes leave: less of the first one.
+            const double skewed = gaussian ? (round == 0 ? 0.42 : 0.55) : 0.8, peaked = gaussian ? (round == 0 ? 0.3 : 0.5) : 0.8;
+            const HeightShape ask = usable({now.skewness + (wish.skewness - now.skewness + lost.skewness) / skewed,
+                                            now.kurtosis + (wish.kurtosis - now.kurtosis + lost.kurtosis) / peaked});
+            change(ask, wish, measured);
+            transform(down_);
+            restore();
+            transform(up_);
+            const HeightShape got = shape();
+            const double off = distance(got, wish);
+            if (off < nearest) {
+                nearest = off, best = got;
+                kept_.assign(unit_.begin(), unit_.end());
             }
-            const double ds = wish.skewness - got.skewness, dk = wish.kurtosis - got.kurtosis;
-            const double distance = std::max(std::abs(ds) / kNearSkewness, std::abs(dk) / kNearKurtosis);
-            if (distance < best_distance) best_distance = distance, best = got, kept_ = phase_;
-            if (distance <= 1) break;
-            // Kept within Johnson's system, away from distributions of two values.
-            ask.skewness = std::clamp(ask.skewness + 0.5 * ds, -6.0, 6.0);
-            ask.kurtosis = std::clamp(ask.kurtosis + 0.5 * dk, 1.2 * ask.skewness * ask.skewness + 1.3, 90.0);
+            if (off <= 1) break;
+            // The first round's loss is not known to be that of the next ones.
+            const double share = round == 0 ? 1.0 : 0.6, s = gaussian ? 0.55 : 0.8, k = gaussian ? 0.5 : 0.8;
+            lost.skewness += share * (now.skewness + s * (ask.skewness - now.skewness) - got.skewness - lost.skewness);
+            lost.kurtosis += share * (now.kurtosis + k * (ask.kurtosis - now.kurtosis) - got.kurtosis - lost.kurtosis);
+            now = got;
         }
-        if (spectrum_.heights) kept_ = phase_;
-        std::size_t k = 0;
-        for_modes([&](Complex& c, Complex&) { c = kept_[k] * (amplitude_[k] / scale), ++k; });
-        for (int ky = 1; ky <= band_.highest_ky; ++ky) columns_[n_ - ky] = std::conj(columns_[ky]);  // kx = 0
+        give();
         return best;
     }
 
 private:
-    Complex* modes() { return reinterpret_cast<Complex*>(data_.get()); }
-    void clear() { std::fill(modes(), modes() + static_cast<std::ptrdiff_t>(row_) * m_, Complex()); }
-    void heights() { fftw_execute(to_heights_.get()); }
+    struct Free {
+        void operator()(Complex* p) const noexcept { HeightMap::Free()(reinterpret_cast<double*>(p)); }
+    };
+    using Memory = std::unique_ptr<Complex[], Free>;
+    static Memory allocate(std::size_t n) {
+        return Memory(reinterpret_cast<Complex*>(allocate_doubles(n, "a surface whose heights are not Gaussian")));
+    }
+    static constexpr int kBlock = 16;  // rows at a time
+    static constexpr int kBins = 1024;
 
-    // Visits the modes of the half plane: the caller's coefficient and the corresponding element of data_.
-    template <class Visit>
-    void for_modes(Visit visit) {
-        for (int kx = 0; kx <= band_.highest_kx; ++kx) {
-            const auto [first, last] = band_.column(kx);
-            for (int ky = kx > 0 ? first : 1; ky <= last; ++ky)
-                visit(columns_[kx * stride_ + (ky < 0 ? ky + n_ : ky)],
-                      modes()[static_cast<std::ptrdiff_t>(ky < 0 ? ky + m_ : ky) * row_ + kx]);
+    Complex* place(int kx, int ky) const { return store_.get() + kx * stride_ + (ky < 0 ? ky + m_ : ky); }
+    void transform(const FftwfPlan& plan) {
+        for (int kx = 0; kx < columns_; ++kx) {
+            auto* const c = reinterpret_cast<fftwf_complex*>(store_.get() + kx * stride_);
+            fftwf_execute_dft(plan.get(), c, c);
         }
     }
     // The column kx = 0 contains its own mirror image.
     void mirror() {
-        for (int ky = 1; ky <= band_.highest_ky; ++ky)
-            modes()[static_cast<std::ptrdiff_t>(m_ - ky) * row_] = std::conj(modes()[static_cast<std::ptrdiff_t>(ky) * row_]);
+        for (int ky = 1; 2 * ky < m_; ++ky) *place(0, -ky) = std::conj(*place(0, ky));
     }
-    void phases() {
-        phase_.clear();
-        for_modes([&](Complex&, Complex& there) {
-            const double size = std::abs(there);
-            phase_.push_back(size > 0 ? there / size : Complex(1));
+
+    void take() {
+        double square = 0;
+        modes_.runs([&](int, int, int count, const std::complex<double>* c) {
+            for (int i = 0; i < count; ++i) square += std::norm(c[i]);
+        });
+        const double scale = square > 0 ? 1 / std::sqrt(2 * square) : 1;
+        std::fill_n(store_.get(), columns_ * stride_, Complex());
+        amplitude_.clear();
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>* c) {
+            Complex* const to = place(kx, ky);
+            for (int i = 0; i < count; ++i) {
+                const double re = scale * c[i].real(), im = scale * c[i].imag();
+                to[i] = {static_cast<float>(re), static_cast<float>(im)};
+                amplitude_.push_back(static_cast<float>(std::sqrt(re * re + im * im)));
+            }
+        });
+        unit_.resize(amplitude_.size());
+        mirror();
+    }
+
+    // The amplitudes of the modes put back.
+    void restore() {
+        std::size_t k = 0;
+        kept_.resize(unit_.size());
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
+            const Complex* const from = place(kx, ky);
+            Complex* const to = unit_.data() + k;
+            for (int i = 0; i < count; ++i) {
+                const float re = from[i].real(), im = from[i].imag(), square = re * re + im * im;
+                const float inverse = 1 / std::sqrt(square);
+                to[i] = square > 1e-30f ? Complex(re * inverse, im * inverse) : Complex(1, 0);
+            }
+            k += static_cast<std::size_t>(count);
+        });
+        std::fill_n(store_.get(), columns_ * stride_, Complex());
+        k = 0;
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
+            Complex* const to = place(kx, ky);
+            for (int i = 0; i < count; ++i) to[i] = {unit_[k + i].real() * amplitude_[k + i], unit_[k + i].imag() * amplitude_[k + i]};
+            k += static_cast<std::size_t>(count);
+        });
+        mirror();
+    }
+
+    void give() {
+        std::size_t k = 0;
+        modes_.runs([&](int, int, int count, std::complex<double>* c) {
+            for (int i = 0; i < count; ++i, ++k) {
+                const double re = kept_[k].real(), im = kept_[k].imag();
+                const double size = std::sqrt(std::norm(c[i]) / (re * re + im * im));
+                c[i] = {size * re, size * im};
+            }
         });
     }
 
+    // The heights of every `step`-th row, from transformed columns; with `back`, what visit() has made of them replaces them.
     template <class Visit>
-    void for_heights(Visit visit) {
-        for (int j = 0; j < m_; ++j) {
-            double* const z = data_.get() + 2 * static_cast<std::ptrdiff_t>(row_) * j;
-            for (int i = 0; i < m_; ++i) visit(z[i]);
+    void rows(int step, bool back, Visit visit) {
+        auto* const data = reinterpret_cast<float*>(rows_.get());
+        const int wide = step == 1 ? kBlock : 1;
+        for (int j = 0; j < m_; j += step * wide) {
+            const int count = std::min(wide, m_ - j);
+            for (int kx = 0; kx < columns_; ++kx) {
+                const Complex* const from = store_.get() + kx * stride_ + j;
+                for (int r = 0; r < count; ++r) {
+                    data[r * row_stride_ + 2 * kx] = from[r].real();
+                    data[r * row_stride_ + 2 * kx + 1] = from[r].imag();
+                }
+            }
+            for (int r = 0; r < count; ++r) {
+                float* const row = data + r * row_stride_;
+                auto* const complex = reinterpret_cast<fftwf_complex*>(row);
+                std::fill(row + 2 * columns_, row + m_ + 2, 0.0f);
+                fftwf_execute_dft_c2r(to_heights_.get(), complex, row);
+                visit(row);
+                if (back) fftwf_execute_dft_r2c(to_modes_.get(), row, complex);
+            }
+            for (int kx = 0; back && kx < columns_; ++kx) {
+                Complex* const to = store_.get() + kx * stride_ + j;
+                for (int r = 0; r < count; ++r) to[r] = {data[r * row_stride_ + 2 * kx], data[r * row_stride_ + 2 * kx + 1]};
+            }
         }
     }
 
-    HeightShape shape() {
-        double m2 = 0, m3 = 0, m4 = 0;  // the mean is 0, because there is no mode (0, 0)
-        for_heights([&](double z) { m2 += z * z, m3 += z * z * z, m4 += z * z * z * z; });
-        const double n = static_cast<double>(points_);
-        m2 /= n, m3 /= n, m4 /= n;
-        return {m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+    struct Sums {
+        static constexpr int kLanes = 8;
+        double m2[kLanes] = {}, m3[kLanes] = {}, m4[kLanes] = {};
+        void add(const float* row, int n) {
+            for (int i = 0; i + kLanes <= n; i += kLanes)
+                for (int l = 0; l < kLanes; ++l) {
+                    const double z = row[i + l], z2 = z * z;
+                    m2[l] += z2, m3[l] += z * z2, m4[l] += z2 * z2;
+                }
+            for (int i = n - n % kLanes; i < n; ++i) {
+                const double z = row[i], z2 = z * z;
+                m2[0] += z2, m3[0] += z * z2, m4[0] += z2 * z2;
+            }
+            count += n;
+        }
+        HeightShape shape() const {  // the mean is 0: there is no mode (0, 0)
+            double s2 = 0, s3 = 0, s4 = 0;
+            for (int l = 0; l < kLanes; ++l) s2 += m2[l], s3 += m3[l], s4 += m4[l];
+            const double variance = s2 / count;
+            return {s3 / count / (variance * std::sqrt(variance)), s4 / count / (variance * variance)};
+        }
+        double count = 0;
+    };
+
+    // Moments of all heights, and the share of them below each edge of the bins.
+    HeightShape shape(int step = 1) {
+        Sums sums;
+        std::fill(std::begin(bin_), std::end(bin_), 0);
+        rows(step, false, [&](const float* z) {
+            sums.add(z, m_);
+            for (int i = 0; i < m_; ++i) ++bin_[bin(z[i])];
+        });
+        return sums.shape();
+    }
+    // Of enough rows to choose the first distribution.
+    HeightShape sample() { return shape(std::max(1, m_ / 128)); }
+
+    // Heights in rms heights: bins over +-kRange of them, in which the outermost hold what lies beyond.
+    static constexpr float kRange = 12;
+    static std::size_t bin(float z) {
+        return static_cast<std::size_t>(std::clamp((z + kRange) * (kBins / (2 * kRange)), 0.0f, static_cast<float>(kBins - 1)));
     }
 
-    // Replaces every height by the height of its rank in the distribution. Ranks are interpolated linearly in a histogram.
-    void rank(const HeightDistribution& wanted) {
-        constexpr int bins = 8192;
-        double low = 1e300, high = -1e300;
-        for_heights([&](double z) { low = std::min(low, z), high = std::max(high, z); });
-        const double width = (high - low) / bins;
-        if (!(width > 0)) return;
-        const auto bin = [&](double z) { return std::clamp(static_cast<int>((z - low) / width), 0, bins - 1); };
-        std::vector<long> count(bins);
-        for_heights([&](double z) { ++count[static_cast<std::size_t>(bin(z))]; });
-        std::vector<double> value(bins + 1);
-        const double n = static_cast<double>(points_);
-        double below = 0;
-        for (std::size_t b = 0; b <= bins; ++b) {
-            const double p = std::clamp(below / n, 0.5 / n, 1 - 0.5 / n);
-            value[b] = wanted(-std::numbers::sqrt2 * boost::math::erfc_inv(2 * p));
-            if (b < bins) below += static_cast<double>(count[b]);
+    void change(HeightShape ask, HeightShape wish, const HeightDistribution* measured) {
+        const HeightDistribution asked = HeightDistribution::of_moments(ask.skewness, ask.kurtosis);
+        const HeightShape at = usable(wish);
+        const HeightDistribution wished = measured ? HeightDistribution::of_moments(at.skewness, at.kurtosis) : asked;
+        double total = 0, below = 0;
+        for (const long count : bin_) total += static_cast<double>(count);
+        float value[kBins + 1];
+        for (std::size_t b = 0; b <= kBins; ++b) {
+            const double p = std::clamp(below / total, 0.5 / total, 1 - 0.5 / total);
+            const double score = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p), z = asked(score);
+            value[b] = static_cast<float>(measured ? (*measured)(wished.normal(z)) : z);
+            if (b < kBins) below += static_cast<double>(bin_[b]);
         }
-        for_heights([&](double& z) {
-            const int b = bin(z);
-            const auto k = static_cast<std::size_t>(b);
-            z = value[k] + (value[k + 1] - value[k]) * ((z - low) / width - b);
+        rows(1, true, [&](float* z) {
+            for (int i = 0; i < m_; ++i) {
+                const std::size_t b = bin(z[i]);
+                z[i] = value[b] + (value[b + 1] - value[b]) * ((z[i] + kRange) * (kBins / (2 * kRange)) - static_cast<float>(b));
+            }
         });
     }
 
-    const Spectrum& spectrum_;
-    Band band_;
-    Complex* columns_;
-    std::ptrdiff_t stride_;
-    int n_, m_;
-    int row_;  // number of complex values in a row
-    std::size_t points_;
-    std::unique_ptr<double[], HeightMap::Free> data_;
-    FftwPlan to_heights_, to_modes_;
-    std::vector<double> amplitude_;  // of the modes in the order of for_modes(), for an rms height of 1
-    std::vector<Complex> phase_, kept_;
+    const Modes& modes_;
+    int m_, columns_;
+    std::ptrdiff_t stride_, row_stride_;  // of columns in complex numbers, of rows in real ones
+    Memory store_, rows_;
+    FftwfPlan up_, down_, to_heights_, to_modes_;
+    std::vector<float> amplitude_;  // of the modes, for an rms height of 1
+    std::vector<Complex> unit_, kept_;
+    long bin_[kBins] = {};
 };
+
+// Enough points for the sums of the fourth power where modes are few; more would only repeat the phases of many.
+int points(const Band& band) {
+    const double highest = std::max({band.highest_kx, band.highest_ky, 16});
+    return fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 256.0)));
+}
+
+// The band of the long waves that hold `share` of the mean square height, and what they hold.
+std::pair<Band, double> long_waves(const Modes& modes, double share) {
+    constexpr int bins = 1024;
+    std::vector<double> energy(bins + 1);
+    const double scale = 1 / modes.band.highest_q2;
+    double total = 0, found = 0;
+    modes.runs([&](int kx, int ky, int count, const std::complex<double>* c) {
+        for (int i = 0; i < count; ++i) {
+            const double e = std::norm(c[i]), q = std::sqrt(scale * modes.band.stretched(kx, ky + i));
+            energy[std::min<std::size_t>(bins, static_cast<std::size_t>(bins * q))] += e;
+            total += e;
+        }
+    });
+    std::size_t b = 0;
+    while (b < bins && found < share * total) found += energy[b++];
+    Band band = modes.band;
+    const double q = static_cast<double>(b) / bins;
+    band.highest_q2 *= q * q;
+    band.highest_kx = std::min(band.highest_kx, static_cast<int>(std::sqrt(band.stretched.yy * band.highest_q2)));
+    band.highest_ky = std::min(band.highest_ky, static_cast<int>(std::sqrt(band.stretched.xx * band.highest_q2)));
+    return {band, found / total};
+}
 
 }  // namespace
 
@@ -174,8 +323,24 @@ int fast_size(double least) {
     }
 }
 
-HeightShape reshape_heights(const Spectrum& spectrum, Complex* columns, std::ptrdiff_t stride, int n) {
-    return Reshaping(spectrum, columns, stride, n).run();
+HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* columns, std::ptrdiff_t stride, int n) {
+    const Modes all{band(spectrum), columns, stride, n};
+    const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
+    const int m = points(all.band);
+    // Long waves first, on a coarse grid. The short ones are Gaussian still, and uncorrelated with them: the moments of all are those of the
+    // long waves times powers of their share of the rms height.
+    constexpr double most_of_it = 0.88, nearly_all = 0.95, flat = 2.8;
+    constexpr int many_rounds = 40, few_rounds = 8;
+    const auto [band, share] = long_waves(all, wish.kurtosis < flat ? nearly_all : most_of_it);
+    const Modes longest{band, columns, stride, n};
+    const bool in_turn = 2 * points(band) <= m;
+    if (in_turn)
+        Field(longest, points(band))
+            .run(usable({wish.skewness / (share * std::sqrt(share)), 3 + (wish.kurtosis - 3) / (share * share)}), nullptr, true,
+                 many_rounds);
+    const HeightShape got = Field(all, m).run(wish, spectrum.heights.get(), !in_turn, in_turn ? few_rounds : many_rounds);
+    for (int ky = 1; ky <= all.band.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0
+    return got;
 }
 
 }  // namespace rsc

@@ -13,6 +13,14 @@ fftw_complex* fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
 using Buffer = std::unique_ptr<double[], HeightMap::Free>;
 
+HeightMap empty_map(double L, int n) {
+    HeightMap map;
+    map.allocate(n, n, (n + 7) / 8 * 8 + 8);  // rows aligned to 64 bytes, and not a power of two apart
+    map.dx = map.dy = L / n;
+    map.periodic = true;
+    return map;
+}
+
 }  // namespace
 
 RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -45,29 +53,31 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
                           double difference_step) {
     Spectrum mirrored = spectrum;
     mirrored.direction = 90 - spectrum.direction;
-    const RowSource other(mirrored, n_, normalise, seed, realization, threads, difference_step);
+    RowSource other(mirrored, n_, normalise, seed, realization, threads, difference_step);
     sampled_ = other.sampled_;
     differences_ = other.differences_;
     sampled_.tensor = other.sampled_.tensor.transposed();
-    transposed_.allocate(n_, n_, n_ + 8);
+    whole_ = empty_map(spectrum.L, n_);
     std::vector<Scratch> scratch;
     std::vector<Buffer> block;
+    // So many rows at once that what they write to a row of the other surface is whole lines of the cache.
+    constexpr int wide = 4 * kBlock;
     const std::ptrdiff_t stride = (n_ + 7) / 8 * 8 + 8;
     for (int t = 0; t < threads; ++t) {
         scratch.emplace_back(other);
-        block.emplace_back(allocate_doubles(static_cast<std::size_t>(kBlock * stride), "rows of a synthetic surface"));
+        block.emplace_back(allocate_doubles(static_cast<std::size_t>(wide * stride), "rows of a synthetic surface"));
     }
-    const int blocks = (n_ + kBlock - 1) / kBlock;
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        double* const rows = block[static_cast<std::size_t>(t)].get();
-        for (int b = t; b < blocks; b += threads) {
-            const int first = b * kBlock, count = std::min(kBlock, n_ - first);
-            other.rows(first, count, rows, stride, scratch[static_cast<std::size_t>(t)]);
-            for (int i = 0; i < n_; ++i)
-                for (int r = 0; r < count; ++r) transposed_.row(i)[first + r] = rows[r * stride + i];
+    const int blocks = (n_ + wide - 1) / wide;
+    parallel_for(blocks, 1, threads, [&](int b, std::size_t worker) {
+        stopping_point();
+        double* const rows = block[worker].get();
+        const int first = b * wide, count = std::min(wide, n_ - first);
+        other.rows(first, count, rows, stride, scratch[worker]);
+        for (int i = 0; i < n_; ++i) {
+            double* const to = whole_.row(i) + first;
+            for (int r = 0; r < count; ++r) to[r] = rows[r * stride + i];
         }
-    }
+    });
 }
 
 void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -86,35 +96,27 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     }
     if (!column_plan || !row_plan_) throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
 
-    // Nothing in the loop throws. Sums are stored by column and added in order, so that they do not depend on the threads.
+    // The sums go by column and are added in order, whichever thread drew them.
     std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
     auto& plan = *column_plan;
     const Band limits = band(spectrum);
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
-    LoopStop stop;
-    // Thread t draws the columns t, t + threads, ..., because low columns hold more modes than high ones.
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
-        for (int kx = t; kx < columns_ && !stop.now(); kx += threads) {
-            auto* const stored = store + kx * column_stride_;
-            sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
-            if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
-        }
-    }
-    stop.tell();
+    parallel_for(columns_, 1, threads, [&](int kx, std::size_t worker) {
+        stopping_point();
+        auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
+        auto* const stored = store + kx * column_stride_;
+        sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
+        if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
+    });
     HeightShape shape;
     if (!spectrum.gaussian()) {
         shape = reshape_heights(spectrum, store, column_stride_, n_);
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-        for (int t = 0; t < threads; ++t) {
-            auto* const column = reinterpret_cast<std::complex<double>*>(drawn[static_cast<std::size_t>(t)].get());
-            for (int kx = t; kx < columns_ && !stop.now(); kx += threads) {
-                std::copy_n(store + kx * column_stride_, n_, column);
-                fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
-            }
-        }
-        stop.tell();
+        parallel_for(columns_, 1, threads, [&](int kx, std::size_t worker) {
+            stopping_point();
+            auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
+            std::copy_n(store + kx * column_stride_, n_, column);
+            fftw_execute_dft(&plan, fftw(column), fftw(store + kx * column_stride_));
+        });
     }
     ModeSums total;
     for (const ModeSums& s : sums) total.add(s);
@@ -137,10 +139,6 @@ RowSource::Scratch::Scratch(const RowSource& source)
     : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_), "rows of a synthetic surface")) {}
 
 void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const {
-    if (transposed_.data) {
-        for (int r = 0; r < count; ++r) std::copy_n(transposed_.row(((j + r) % n_ + n_) % n_), n_, out + r * stride);
-        return;
-    }
     const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
     double* const coefficients = scratch.coefficients_.get();
     const double factor = factor_;
@@ -170,23 +168,18 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
 HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, Moments* sampled,
                      int threads) {
     threads = std::max(threads, 1);
-    const RowSource source(spectrum, n, normalise, seed, realization, threads);
-    HeightMap map;
-    map.allocate(n, n, (n + 7) / 8 * 8 + 8);  // rows aligned to 64 bytes, and not a power of two apart
-    map.dx = map.dy = spectrum.L / n;
-    map.periodic = true;
+    RowSource source(spectrum, n, normalise, seed, realization, threads);
+    if (sampled) *sampled = source.sampled();
+    if (source.whole()) return source.take();
+    HeightMap map = empty_map(spectrum.L, n);
     std::vector<RowSource::Scratch> scratch;
     for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
-    LoopStop stop;
-#pragma omp parallel for schedule(static, 1) num_threads(omp_team(kEveryThread, threads))
-    for (int t = 0; t < threads; ++t) {
-        const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / threads); };
-        constexpr int few = 64;  // number of rows between two stopping points
-        for (int j = bound(t); j < bound(t + 1) && !stop.now(); j += few)
-            source.rows(j, std::min(few, bound(t + 1) - j), map.row(j), map.stride, scratch[static_cast<std::size_t>(t)]);
-    }
-    stop.tell();
-    if (sampled) *sampled = source.sampled();
+    constexpr int few = 64;  // rows of a piece
+    parallel_for((n + few - 1) / few, 1, threads, [&](int piece, std::size_t worker) {
+        stopping_point();
+        const int j = piece * few;
+        source.rows(j, std::min(few, n - j), map.row(j), map.stride, scratch[worker]);
+    });
     return map;
 }
 

@@ -29,8 +29,12 @@ public:
         std::unique_ptr<double[], HeightMap::Free> coefficients_;
     };
 
-    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows must be aligned to 64 bytes. The values of a row depend,
-    // bit for bit, only on j.
+    // A surface that is the transposed one of another is made at once: there are no rows() of it, take() hands out all of its heights.
+    bool whole() const { return whole_.data != nullptr; }
+    HeightMap take() { return std::move(whole_); }
+
+    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows aligned to 64 bytes. The bits of a row do
+    // not depend on the other arguments.
     void rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const;
 
     static constexpr int kBlock = 16;  // most efficient `count`
@@ -50,7 +54,7 @@ private:
     std::unique_ptr<double[], HeightMap::Free> columns_data_;
     double factor_ = 1;  // converts relative amplitudes to lengths
     Moments sampled_, differences_;
-    HeightMap transposed_;  // the whole surface if it is synthesised as its transpose; otherwise empty
+    HeightMap whole_;
     FftwPlan row_plan_;
 };
 

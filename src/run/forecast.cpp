@@ -137,6 +137,9 @@ double expected_seconds(const Job& job, double workers) {
         const bool at_once = !force || (elements && job.indenter.period.finite());
         one += at_once ? once : 6 * once;  // about six separations for each force
     }
+    constexpr double circles = 4e-7;  // for the weights of the radial means
+    const auto& output = job.settings.output;
+    one += circles * output.map_cells * output.radial_bins;
     const double realizations = job.settings.run.realizations;
     return one * std::ceil(realizations / std::max(1.0, std::min(workers, realizations)));
 }

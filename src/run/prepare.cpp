@@ -206,6 +206,7 @@ SurfaceDomain synthetic_domain(const Spectrum& spectrum) {
     const Moments theory = theoretical_moments(spectrum);
     SurfaceDomain domain{{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
     domain.rms_slope = theory.rms_slope();
+    domain.repeats = true;
     return domain;
 }
 
@@ -277,6 +278,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.measured = surface.origin.measured;
     model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
     if (!surface.origin.theory) model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
+    model.domain.repeats = map.periodic;
     model.domain.sigma = surface.origin.sigma;
     model.domain.points_per_wave = model.measured ? model.measured->points_per_wave() : surface.origin.points_per_wave;
     if (surface.origin.theory) model.domain.mean_spacing = surface.origin.theory->mean_spacing();

@@ -57,6 +57,7 @@ struct SurfaceDomain : Domain {
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
     double rms_slope = 0;  // 0: not known (a list)
+    bool repeats = false;  // beyond its rectangle: made surfaces, and heights that are said to
 };
 
 // The surface for contacts: asperities, or with solver%model = 'elements' the points of the surface.

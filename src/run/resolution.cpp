@@ -24,6 +24,7 @@ constexpr double kGrownMade = 2, kGrownRead = 4, kShrunk = 0.75;
 }  // namespace
 
 OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave) {
+    if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution
     if (job.spectrum) {
         Case other = job.settings;
         coarser_ = points_per_wave >= kHalvedFrom;

@@ -1,6 +1,5 @@
 #include "run/run.hpp"
 
-#include <omp.h>
 #include <unistd.h>
 
 #include "case/registry.hpp"
@@ -64,18 +63,6 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     print_result(out, file, replaces);
 }
 
-// Restores the number of OpenMP threads of the caller on destruction.
-class OmpThreads {
-public:
-    explicit OmpThreads(int threads) { omp_set_num_threads(threads); }
-    OmpThreads(const OmpThreads&) = delete;
-    OmpThreads& operator=(const OmpThreads&) = delete;
-    ~OmpThreads() { omp_set_num_threads(before_); }
-
-private:
-    int before_ = omp_get_max_threads();
-};
-
 constexpr const char* kMark = "! Written by rsc with the result of a measured map, and replaced with it: edit a copy.\n";
 const FileKind kTwins{"case of twins", [](const std::string& path) { return begins_with(path, kMark); }};
 constexpr int kRealizations = 100;
@@ -136,7 +123,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const Contacts keep = contacts_kept(settings);
     Job job = prepare(settings);
     const int threads = static_cast<int>(most_threads(settings.run.threads));
-    const OmpThreads omp(threads);
+    const LoopThreads loops(threads);
     bool terminal = false;
     std::ostream* const line_out = progress_stream(options, terminal);
     std::ostream* table = options.quiet ? nullptr : options.table;

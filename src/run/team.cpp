@@ -1,7 +1,5 @@
 #include "run/team.hpp"
 
-#include <omp.h>
-
 #include "error.hpp"
 #include "rough/parallel.hpp"
 #include "run/checkpoint.hpp"
@@ -33,7 +31,7 @@ WorkerThreads::~WorkerThreads() {
 }
 
 void WorkerThreads::loop() {
-    omp_set_num_threads(1);  // of this thread only
+    const LoopThreads loops(1);
     std::unique_lock lock(mutex_);
     for (;;) {
         wake_worker_.wait(lock, [this] { return abandoned_ || !tasks_.empty(); });

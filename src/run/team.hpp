@@ -36,7 +36,7 @@ public:
     std::function<void()> meanwhile;  // called several times a second by the thread that called run(); may throw
 };
 
-// Threads that execute tasks from a queue, each with one OpenMP thread.
+// Threads that execute tasks from a queue. Loops within a task run on its thread only.
 class WorkerThreads {
 public:
     struct Done {

@@ -3,7 +3,6 @@
 #include "bench.hpp"
 
 #include <fftw3.h>
-#include <omp.h>
 
 #include <cstdio>
 #include <cstring>
@@ -256,6 +255,8 @@ const Part kParts[] = {
     {"largest", bench_largest},
     {"many", bench_many},
     {"close", bench_close},
+    {"made", bench::made},
+    {"layers", bench::layers},
     {"elements", bench::elements},
     {"elements_growth", bench::elements_growth},
     {"elements_finest", bench::elements_finest, true},
@@ -264,7 +265,7 @@ const Part kParts[] = {
 };
 
 int main(int argc, char** argv) {
-    omp_set_num_threads(1);
+    const LoopThreads loops(1);
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     for (int k = 1; k < argc; ++k) {
         if (std::any_of(std::begin(kParts), std::end(kParts), [&](const Part& part) { return std::strcmp(argv[k], part.name) == 0; }))

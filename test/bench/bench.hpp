@@ -55,6 +55,9 @@ inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
 void elements();
 void elements_finest();
 void elements_growth();
+// bench_made.cpp
+void made();
+void layers();
 // bench_observe.cpp
 void observe();
 void flats();

@@ -536,7 +536,7 @@ def in_77(calls, arrays):
             tried.add(called)
         ending = "" if called == "rscver" else ", stat"
         body.append(before + lines + [f"call {called}({', '.join(arguments)}{ending})", f"call told({k})", *puts])
-    externals = sorted({*(n for n, _ in names.values()), "rscmsg", "rscdel"})
+    externals = sorted({*(n for n, _ in names.values()), "rscmsg", "rscdel", "rscint"})
     head = [HEAD.replace("integer :: i(20), stat, n", f"integer :: i(20), stat, n, m, j(5000), h({total}), points({total})").replace("  real(dp), allocatable", "  real(dp) :: a(5000, 4)\n  character(30000) :: text\n  real(dp), allocatable")]
     head += [f"  external :: {name}" for name in externals]
     told = """  subroutine told(k)
@@ -556,7 +556,7 @@ def in_77(calls, arrays):
   end subroutine
 """
     body.append([f"do m = 1, {total}", "  call rscdel(h(m), stat)", "  if (stat /= 0 .or. h(m) /= 0) print '(a)', '0 rscdel does not delete'", "end do", "call rscdel(9999, stat)", "call no_handle('rscdel', 1)"])
-    return program("calls77", head, arrays, used, ["stat = 0", "h = 0"], body, told + TAIL)
+    return program("calls77", head, arrays, used, ["stat = 0", "h = 0", "i(:2) = [1, 2]", "call rscint(i, stat)"], body, told + TAIL)
 
 
 # ---- comparing -----------------------------------------------------------------------------------------------------------------

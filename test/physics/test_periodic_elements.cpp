@@ -1,5 +1,4 @@
 // Elements between two flats that repeat: against an independent solver, closed forms, conservation, and themselves by another way.
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,8 @@
 #include "error.hpp"
 #include "physics/periodic_elements.hpp"
 #include "rough/synthesis.hpp"
+
+#include "rough/parallel.hpp"
 
 using namespace rsc;
 
@@ -171,14 +172,12 @@ void threads_change_no_bit() {
     const HeightMap map = rough(640, 40);
     std::vector<Level> levels;
     std::vector<double> stiffness;
-    const int before = omp_get_max_threads();
     for (const int threads : {1, 3}) {
-        omp_set_num_threads(threads);
+        const rsc::LoopThreads loops(threads);
         const auto contact = make_element_contact(map, flat(map), options(1e-6));
         levels.push_back(contact->at_force(2e-3));
         stiffness.push_back(contact->stiffness());
     }
-    omp_set_num_threads(before);
     CHECK(levels[0].status == LevelStatus::converged);
     CHECK(levels[0].pixels.pressure == levels[1].pixels.pressure && levels[0].separation == levels[1].separation);
     CHECK(stiffness[0] == stiffness[1]);

@@ -1,5 +1,4 @@
 // The solver of elements against projected Gauss-Seidel on the full matrix, run until it stands: an independent way to the same minimum.
-#include <omp.h>
 
 #include <algorithm>
 #include <limits>
@@ -10,6 +9,8 @@
 #include "check.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/solver/elements.hpp"
+
+#include "rough/parallel.hpp"
 
 using namespace rsc;
 
@@ -83,10 +84,10 @@ void starts_and_threads() {
     double worst = 0, mean = 0;
     for (std::size_t k = 0; k < p.size(); ++k) worst = std::max(worst, std::abs(p[k] - q[k])), mean += p[k] / static_cast<double>(p.size());
     CHECK(worst <= kAgree * mean);
-    const int before = omp_get_max_threads();
-    omp_set_num_threads(before == 1 ? 3 : 1);
-    CHECK(solved(problem, kInfinity, outcome, stiffness) == p);
-    omp_set_num_threads(before);
+    {
+        const rsc::LoopThreads loops(rsc::most_threads(0) == 1 ? 3 : 1);
+        CHECK(solved(problem, kInfinity, outcome, stiffness) == p);
+    }
     // Too few iterations are told.
     std::vector<double> few(p.size(), 0.0);
     CHECK(!solver.solve(problem.pixels, problem.g0, 1e-10, 3, few).converged);

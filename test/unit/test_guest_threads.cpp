@@ -1,5 +1,4 @@
 // The library in processes that are short of threads, and in children of processes that had threads.
-#include <omp.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -110,7 +109,7 @@ void test_more_threads_than_work() {
 
 void test_fork() {
     rsc_case* c = small_case("&run threads=4 /");
-    const double before = height(c);  // OpenMP's threads are there now
+    const double before = height(c);  // the pool's threads are there now
     CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
     CHECK(height(c) == before);
     // While another thread is in the library.

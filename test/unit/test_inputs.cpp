@@ -164,7 +164,7 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite: every");
     REFUSED(read_heights(write("t", "1 2 3\n-inf 5 3\n"), 1.0), "'-inf' in column 1 is not finite");
     REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
-    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 1e60 3 4 5\n1 2 3 4 5\n"), 1.0), "a height must be finite, 1e50 at most, not");
+    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 1e60 3 4 5\n1 2 3 4 5\n"), 1.0), "a height must be finite and at most 1e50, not");
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), 1e-60), "t: the spacing must be from 1e-50 to 1e50, not 2e-61");
     REFUSED(read_heights(write("t", "1,,3\n"), 1.0), "t:1: nothing between the separators at column 2");
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0), "t: a height map of 5 x 2 points; at least 3 x 3 are needed");

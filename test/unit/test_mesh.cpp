@@ -1,5 +1,4 @@
 // The mesh product against sums in long double, on every kind of point set.
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,8 @@
 #include "check.hpp"
 #include "contact/interaction/mesh.hpp"
 #include "error.hpp"
+
+#include "rough/parallel.hpp"
 
 using namespace rsc;
 
@@ -123,7 +124,7 @@ void same_bits_for_any_threads() {
         const Vector f = random_forces(p.size(), 22, true);
         Vector first;
         for (int threads : {1, 2, 3}) {
-            omp_set_num_threads(threads);
+            const rsc::LoopThreads loops(threads);
             const MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
             const Vector phi = product(potential, f), again = product(potential, f);
             if (first.empty()) first = phi;
@@ -131,7 +132,7 @@ void same_bits_for_any_threads() {
             CHECK(again == first);
         }
         // Products at once on one object.
-        omp_set_num_threads(2);
+        const rsc::LoopThreads loops(2);
         const MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
         std::vector<Vector> phi(3, Vector(p.size()));
         std::vector<std::thread> threads;

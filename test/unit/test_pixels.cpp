@@ -1,5 +1,4 @@
 // Pressures on pixels: Love's kernel against integration and its own far expansion, products by the tree against direct sums.
-#include <omp.h>
 
 #include <numbers>
 #include <random>
@@ -8,6 +7,8 @@
 #include "check.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
+
+#include "rough/parallel.hpp"
 
 using namespace rsc;
 
@@ -132,10 +133,8 @@ void products() {
             std::vector<double> one(n);
             tree->set_pixels(pixels);
             tree->apply(positive.data(), w.data(), PixelProducts::Accuracy::full);
-            const int before = omp_get_max_threads();
-            omp_set_num_threads(before == 1 ? 3 : 1);
+            const rsc::LoopThreads loops(rsc::most_threads(0) == 1 ? 3 : 1);
             tree->apply(positive.data(), one.data(), PixelProducts::Accuracy::full);
-            omp_set_num_threads(before);
             CHECK(w == one);
         }
     }

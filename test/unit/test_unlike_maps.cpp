@@ -141,7 +141,7 @@ std::vector<Value> everything(const Measured& m, bool transpose = false) {
     if (m.fit) {
         one(m.fit->hurst.value, 0), one(m.fit->hurst.error, 0), one(m.fit->Phi0.value, 4), one(m.fit->Phi0.error, 4);
         one(m.fit->kl.value, -1), one(m.fit->kl.error, -1), one(m.fit->ks.value, -1), one(m.fit->ks.error, -1);
-        one(m.fit->plateau, 0), one(m.fit->ks_seen, 0);
+        one(m.fit->plateau, 0), one(m.fit->ks_seen, 0), one(m.fit->kl_seen, 0), one(m.fit->plateau_seen, 0);
     }
     return v;
 }

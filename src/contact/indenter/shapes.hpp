@@ -1,4 +1,4 @@
-// All shapes an indenter may have: a row each.
+// Table of all indenter shapes.
 #pragma once
 
 #include "contact/indenter/shape.hpp"
@@ -8,9 +8,9 @@ namespace rsc {
 using ShapeMaker = std::shared_ptr<const IndenterShape>(const char* name, const ShapeKeys& keys);
 ShapeMaker make_sphere, make_paraboloid, make_cone, make_punch, make_map_shape;
 
-// Makers throw Error(bad_input) for keys out of range.
+// The functions that make shapes throw Error(bad_input) for keys out of range.
 struct ShapeRow {
-    const char* name;  // as &indenter shape spells it
+    const char* name;  // name in &indenter shape
     ShapeMaker* make;
 };
 inline constexpr std::array kShapes = {
@@ -18,7 +18,7 @@ inline constexpr std::array kShapes = {
     ShapeRow{"punch", make_punch},   ShapeRow{"map", make_map_shape},
 };
 
-// Row `shape` of the table, made from keys; and the row with that name.
+// Makes the shape of row `shape` of the table; returns the number of the row with a name.
 Shape make_shape(int shape, const ShapeKeys& keys);
 int shape_number(const char* name);
 

@@ -13,16 +13,17 @@ namespace {
 constexpr int kDegree = SquareTable::kDegree, kOctavePieces = SquareTable::kPiecesPerOctave;
 constexpr std::size_t kPieces = SquareTable::kPieces;
 
-// For y >= 1, the exponent and the first three bits of the mantissa number the piece; the other bits are the position within it.
-constexpr int kShift = 52 - 3;
-constexpr std::uint64_t kFirst = std::uint64_t{1023} << 3, kRest = (std::uint64_t{1} << kShift) - 1, kOne = std::uint64_t{1023} << 52;
+// A double y >= 1 holds the number of its piece in its exponent and the first six bits of its mantissa; what is left is where in the piece.
+constexpr int kBits = 6, kShift = 52 - kBits;
+static_assert(kOctavePieces == 1 << kBits);
+constexpr std::uint64_t kFirst = std::uint64_t{1023} << kBits, kRest = (std::uint64_t{1} << kShift) - 1, kOne = std::uint64_t{1023} << 52;
 constexpr double kMiddle = 1 + 0.5 / kOctavePieces;
 
-constexpr std::size_t kBlock = 64;  // sources processed together
+constexpr std::size_t kBlock = SquareTable::kBlock;  // sources at once
 
 struct Task {
-    double x, y, inverse_square;
-    const double *xs, *ys, *coefficient;
+    double inverse_square;
+    const double *squares, *coefficient;
     double* value;
 };
 
@@ -30,8 +31,7 @@ RSC_ALWAYS_INLINE void table_body(const Task& task) {
     std::uint64_t piece[kBlock];
     double t[kBlock], sum[kBlock];
     for (std::size_t j = 0; j < kBlock; ++j) {
-        const double dx = task.x - task.xs[j], dy = task.y - task.ys[j];
-        const auto bits = std::bit_cast<std::uint64_t>(1 + (dx * dx + dy * dy) * task.inverse_square);
+        const auto bits = std::bit_cast<std::uint64_t>(1 + task.squares[j] * task.inverse_square);
         const std::uint64_t number = (bits >> kShift) - kFirst;
         piece[j] = number < kPieces ? number : kPieces - 1;
         t[j] = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
@@ -81,6 +81,10 @@ double SquareTable::at_square(double t2) const {
     return sum;
 }
 
+void SquareTable::values(const double* squares, double* value) const {
+    table_values({inverse_square_, squares, coefficient_.data(), value});
+}
+
 double SquareTable::moment(double t) const {
     const auto bits = std::bit_cast<std::uint64_t>(1 + t * t * inverse_square_);
     const std::size_t piece = std::min<std::uint64_t>((bits >> kShift) - kFirst, kPieces - 1);
@@ -96,7 +100,7 @@ void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt,
                       const double* f, double* to) const {
     // If sources and targets are the same points, each value is used for both directions of a pair.
     const bool same = xt == xs && yt == ys && n_targets == n_sources;
-    double x[kBlock], y[kBlock], force[kBlock], value[kBlock], back[kBlock];
+    double x[kBlock], y[kBlock], force[kBlock], square[kBlock], value[kBlock], back[kBlock];
     for (std::size_t j = 0; j < n_sources; j += kBlock) {
         const std::size_t count = std::min(kBlock, n_sources - j);
         for (std::size_t k = 0; k < kBlock; ++k) {
@@ -104,7 +108,8 @@ void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt,
             x[k] = xs[from], y[k] = ys[from], force[k] = k < count ? f[from] : 0, back[k] = 0;
         }
         for (std::size_t i = 0; i < (same ? j + count : n_targets); ++i) {
-            table_values({xt[i], yt[i], inverse_square_, x, y, coefficient_.data(), value});
+            for (std::size_t k = 0; k < kBlock; ++k) square[k] = (xt[i] - x[k]) * (xt[i] - x[k]) + (yt[i] - y[k]) * (yt[i] - y[k]);
+            values(square, value);
             double sum = 0;
             for (std::size_t k = 0; k < kBlock; ++k) sum += force[k] * value[k];
             to[i] += sum;
@@ -195,9 +200,7 @@ public:
 
 class PeriodicKernel final : public Kernel {
 public:
-    PeriodicKernel(Substrate substrate, Period period) : Kernel(substrate, substrate.near()), lattice_(period) {
-        if (smooth()) throw Error(Failure::bad_input, "layers between two flats require solver%model = 'elements'");
-    }
+    PeriodicKernel(const Substrate& substrate, Period period) : Kernel(substrate, substrate.near()), lattice_(period, smooth(), near()) {}
     double at(double dx, double dy) const override { return near() * (lattice_.at(dx, dy) - lattice_.least()); }
     double self() const override { return near() * (lattice_.self() - lattice_.least()); }
     double shift() const override { return -near() * lattice_.least(); }

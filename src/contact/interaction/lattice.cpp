@@ -1,5 +1,6 @@
 #include "contact/interaction/lattice.hpp"
 
+#include "contact/interaction/kernel.hpp"
 #include "error.hpp"
 #include "rough/dispatch.hpp"
 
@@ -121,7 +122,38 @@ RSC_DISPATCH(lattice_values, lattice_body, (const Task& task), (task))
 
 }  // namespace
 
-Lattice::Lattice(Period period) : period_(period) {
+// Sums over m >= 0 and n >= 0 of the modes that have a share, row by row: sum over n of all y first.
+std::vector<double> Lattice::shares(const std::vector<double>& x, const std::vector<double>& y) const {
+    // exp(-k scale) is the share's decay (SmoothPart).
+    constexpr double gone = 44, most = 6000;
+    const double end = gone / smooth_->scale(), ux = 2 * pi / period_.x, uy = 2 * pi / period_.y;
+    if (!(end / std::min(ux, uy) < most))
+        throw Error(
+            Failure::bad_input,
+            "layers so much thinner than the period need solver%model = 'elements' between two flats (the top one must be at least " +
+                std::to_string(gone / (4 * pi * most)) + " of the longer side thick)");
+    const int rows = static_cast<int>(end / uy);
+    const std::size_t nx = x.size(), ny = y.size();
+    std::vector<double> wave(static_cast<std::size_t>(rows + 1) * ny), inner(ny), sum(nx * ny);
+    for (int n = 0; n <= rows; ++n)
+        for (std::size_t j = 0; j < ny; ++j) wave[static_cast<std::size_t>(n) * ny + j] = (n > 0 ? 2 : 1) * std::cos(uy * n * y[j]);
+    for (int m = 0; m * ux <= end; ++m) {
+        std::fill(inner.begin(), inner.end(), 0.0);
+        for (int n = m > 0 ? 0 : 1; n <= rows; ++n) {
+            const double k = std::hypot(ux * m, uy * n);
+            if (k > end) break;
+            const double part = smooth_->share(k) / k, *const row = wave.data() + static_cast<std::size_t>(n) * ny;
+            for (std::size_t j = 0; j < ny; ++j) inner[j] += part * row[j];
+        }
+        for (std::size_t i = 0; i < nx; ++i) {
+            const double c = (m > 0 ? 2 : 1) * 2 * pi / period_.area() * std::cos(ux * m * x[i]);
+            for (std::size_t j = 0; j < ny; ++j) sum[i * ny + j] += c * inner[j];
+        }
+    }
+    return sum;
+}
+
+Lattice::Lattice(Period period, const SmoothPart* smooth, double near) : period_(period), smooth_(smooth), near_(near) {
     const double longer = std::max(period.x, period.y), shorter = std::min(period.x, period.y);
     if (!(shorter > 0) || !period.finite()) throw Error(Failure::bad_input, "the sides of a periodic surface must be positive and finite");
     if (longer > kMostAspect * shorter) {
@@ -136,6 +168,24 @@ Lattice::Lattice(Period period) : period_(period) {
             const auto place = [](int k, double side) { return side / 2 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2)); };
             table[static_cast<std::size_t>(i * kNodes + j)] = ewald.rest(place(i, a), place(j, b));
         }
+    // Of a sum at the offset (x, y), what the four images around it are.
+    const auto around = [&](double x, double y) {
+        const double ex = period.x - x, ey = period.y - y;
+        return this->smooth(x, y) + this->smooth(ex, y) + this->smooth(x, ey) + this->smooth(ex, ey);
+    };
+    double own = 0;
+    if (smooth) {
+        std::vector<double> x, y;
+        for (int k = 0; k < kNodes; ++k) {
+            const double part = 0.5 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2));
+            x.push_back(part * period.x), y.push_back(part * period.y);
+        }
+        x.push_back(0), y.push_back(0);
+        const std::vector<double> sum = shares(x, y);
+        own = sum.back();
+        for (std::size_t i = 0; i < kNodes; ++i)
+            for (std::size_t j = 0; j < kNodes; ++j) table[i * kNodes + j] += unit * (sum[i * (kNodes + 1) + j] - around(x[i], y[j]));
+    }
     for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k * kNodes], 1);
     for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k], kNodes);
     const auto tail = [&](int degree) {  // magnitude of the truncated terms
@@ -152,11 +202,25 @@ Lattice::Lattice(Period period) : period_(period) {
     for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k], kNodes, degree_);
     for (int i = 0; i <= degree_; ++i)
         for (int j = 0; j <= degree_ - i; ++j) c_.push_back(table[static_cast<std::size_t>(i * kNodes + j)] / unit);
-    self_ = ewald.rest(0, 0) / unit + 1 / period.x + 1 / period.y + 1 / std::hypot(period.x, period.y);
+    self_ = ewald.rest(0, 0) / unit + 1 / period.x + 1 / period.y + 1 / std::hypot(period.x, period.y) + own;
     least_ = at(period.x / 2, period.y / 2);
+    if (!smooth) return;
+    // A soft layer on a stiff base bulges around what presses it.
+    double largest = least_;
+    constexpr int rays = 16;
+    for (double d = 0.01 * smooth->scale(); d < 0.75 * (period.x + period.y); d *= 1.01)
+        for (int ray = 0; ray <= rays; ++ray) {
+            const double angle = 0.5 * pi * ray / rays, x = d * std::cos(angle), y = d * std::sin(angle), value = at(x, y);
+            if (x <= period.x / 2 && y <= period.y / 2) least_ = std::min(least_, value), largest = std::max(largest, std::abs(least_));
+        }
+    least_ -= 1e-2 * largest;  // between the places asked
 }
 
-double Lattice::smooth(double u, double v) const {
+double Lattice::smooth(double x, double y) const { return smooth_ ? smooth_->at_square(x * x + y * y) / near_ : 0.0; }
+
+double Lattice::nearest_smooth(double dx, double dy) const { return smooth(period_.nearest_x(dx), period_.nearest_y(dy)); }
+
+double Lattice::polynomial(double u, double v) const {
     const double* c = c_.data() + c_.size();
     double sum = 0;
     for (int a = degree_; a >= 0; --a) {
@@ -171,18 +235,31 @@ double Lattice::smooth(double u, double v) const {
 double Lattice::rest(double dx, double dy) const {
     const double x = std::abs(period_.nearest_x(dx)), y = std::abs(period_.nearest_y(dy));
     const double ex = period_.x - x, ey = period_.y - y, s = 1 - 2 * x / period_.x, t = 1 - 2 * y / period_.y;
-    return smooth(2 * s * s - 1, 2 * t * t - 1) + 1 / std::sqrt(ex * ex + y * y) + 1 / std::sqrt(x * x + ey * ey) +
-           1 / std::sqrt(ex * ex + ey * ey);
+    return polynomial(2 * s * s - 1, 2 * t * t - 1) + 1 / std::sqrt(ex * ex + y * y) + 1 / std::sqrt(x * x + ey * ey) +
+           1 / std::sqrt(ex * ex + ey * ey) + (smooth_ ? smooth(ex, y) + smooth(x, ey) + smooth(ex, ey) : 0.0);
 }
 
 double Lattice::at(double dx, double dy) const {
     const double x = period_.nearest_x(dx), y = period_.nearest_y(dy);
-    return 1 / std::sqrt(x * x + y * y) + rest(x, y);
+    return 1 / std::sqrt(x * x + y * y) + smooth(x, y) + rest(x, y);
 }
 
 void Lattice::potential(std::size_t n_targets, const double* xt, const double* yt, std::size_t n_sources, const double* xs,
                         const double* ys, const double* fs, double* phi) const {
     double x[kBlock], y[kBlock], f[kBlock], value[kBlock];
+    const auto add_smooth = [&](double xi, double yi, const double* xj, const double* yj, double* to) {
+        double square[4 * kBlock], s[4 * kBlock];
+        for (std::size_t k = 0; k < kBlock; ++k) {
+            const double dx = std::abs((xi - xj[k]) - period_.x * whole((xi - xj[k]) / period_.x)),
+                         dy = std::abs((yi - yj[k]) - period_.y * whole((yi - yj[k]) / period_.y));
+            const double ex = period_.x - dx, ey = period_.y - dy;
+            square[k] = dx * dx + dy * dy, square[kBlock + k] = ex * ex + dy * dy;
+            square[2 * kBlock + k] = dx * dx + ey * ey, square[3 * kBlock + k] = ex * ex + ey * ey;
+        }
+        for (std::size_t image = 0; image < 4; ++image) smooth_->table().values(square + image * kBlock, s + image * kBlock);
+        for (std::size_t k = 0; k < kBlock; ++k) to[k] += (s[k] + s[kBlock + k] + s[2 * kBlock + k] + s[3 * kBlock + k]) / near_;
+    };
+    static_assert(kBlock == SquareTable::kBlock);
     std::fill_n(phi, n_targets, 0.0);
     for (std::size_t j = 0; j < n_sources; j += kBlock) {
         const std::size_t count = std::min(kBlock, n_sources - j);
@@ -192,6 +269,7 @@ void Lattice::potential(std::size_t n_targets, const double* xt, const double* y
         }
         for (std::size_t i = 0; i < n_targets; ++i) {
             lattice_values({period_.x, period_.y, xt[i], yt[i], x, y, c_.data(), degree_, value});
+            if (smooth_) add_smooth(xt[i], yt[i], x, y, value);
             double sum = 0;
             for (std::size_t k = 0; k < kBlock; ++k) sum += f[k] * value[k];
             phi[i] += sum;

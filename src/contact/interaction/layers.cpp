@@ -1,6 +1,6 @@
 #include "contact/interaction/layers.hpp"
 
-#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/special_functions/bessel.hpp>
 
 #include "error.hpp"
 #include "format.hpp"
@@ -65,79 +65,98 @@ void require_usable(const LayeredBody& body) {
 // For larger k times the thickness of the top layer, T is 1 to rounding.
 constexpr double kShallow = 22;
 
-// Coefficients of T - 1 = sum a_n exp(-k z) L_n(2 k z), n < count: a_n = 2 z int (T - 1) exp(-k z) L_n(2 k z) dk, integrated over sqrt(k),
-// in which the phase of L_n grows uniformly.
-std::vector<double> laguerre(const LayeredBody& body, double z, int count) {
-    constexpr int nodes = 20;
-    using Gauss = boost::math::quadrature::gauss<double, nodes>;
-    const double top = std::sqrt(kShallow / body.layer[0].thickness), phase = 2 * std::sqrt(2.0 * count * z) * top;
-    const int panels = 8 + static_cast<int>(phase / 15);
-    const double half = 0.5 * top / panels;
-    std::vector<double> a(static_cast<std::size_t>(count));
-    for (int panel = 0; panel < panels; ++panel)
-        for (int i = 0; i < nodes; ++i) {
-            const auto m = static_cast<std::size_t>(i / 2);
-            const double at = i % 2 ? -Gauss::abscissa()[m] : Gauss::abscissa()[m];
-            const double q = half * (2 * panel + 1 + at), k = q * q;
-            const double weight = Gauss::weights()[m] * half * 2 * q * 2 * z * (layered_answer(body, k) - 1);
-            // Long double, because exp(-k z) of the longest series underflows in double, but its products do not.
-            const long double y = 2 * static_cast<long double>(k) * z;
-            long double before = std::exp(-y / 2), now = (1 - y) * before;
-            a[0] += weight * static_cast<double>(before);
-            for (int n = 1; n < count; ++n) {
-                a[static_cast<std::size_t>(n)] += weight * static_cast<double>(now);
-                const long double next = ((2 * n + 1 - y) * now - n * before) / (n + 1);
-                before = now, now = next;
-            }
+// F = T - 1 on a logarithmic scale of wavenumbers, and its Hankel transform int F J0(k d) dk on one of distances: there the transform is a
+// convolution, and the trapezoidal rule converges exponentially, as F is analytic in a sector about the real axis. J0 is let end smoothly
+// about kEnd; what is left out is below 1e-12, for F has no structure finer than its own wavenumber. The share F(0) exp(-k z), of closed form
+// F(0)/sqrt(d^2 + z^2), is taken out first: the rest vanishes at k = 0, and its transform falls like 1/d^3.
+class Hankel {
+public:
+    explicit Hankel(const LayeredBody& body) {
+        const auto layers = static_cast<std::size_t>(body.count);
+        double depth = 0, stiffest = 0, softest = body.E;
+        for (std::size_t l = 0; l < layers; ++l) {
+            depth += body.layer[l].thickness;
+            stiffest = std::max(stiffest, body.layer[l].E);
+            softest = std::min(softest, body.layer[l].E);
         }
-    return a;
-}
+        // A stiff layer on a soft body bends over lengths far greater than its thickness.
+        z_ = 2 * depth * std::max(1.0, std::cbrt(stiffest / softest));
+        const Layer& top = body.layer[0];
+        at_zero_ = plane_modulus(top.E, top.nu) / plane_modulus(body.E, body.nu) - 1;
+        constexpr double longest = 1e-9, nearest = 1e-3, farthest = 1e5;
+        highest_ = kShallow / top.thickness;
+        const auto waves = static_cast<std::size_t>(std::log(highest_ * z_ / longest) / kStep) + 1;
+        answer_.resize(waves);
+        for (std::size_t i = 0; i < waves; ++i) answer_[i] = layered_answer(body, wave(i)) - 1;
+        first_ = nearest * top.thickness;
+        const auto places = static_cast<std::size_t>(std::log(farthest * z_ / first_) / (kStep * kEvery)) + kNodes;
+        // J0 of k d, from the smallest product to the largest one that counts.
+        constexpr double end = 80, soft = 0.25, gone = 5.5;
+        const double smallest = std::log(wave(waves - 1) * first_);
+        std::vector<double> wavelet(waves + places * kEvery);
+        for (std::size_t i = 0; i < wavelet.size(); ++i) {
+            const double x = std::exp(smallest + kStep * static_cast<double>(i)), late = std::log(x / end) / soft;
+            wavelet[i] = late < gone ? 0.5 * std::erfc(late) * boost::math::cyl_bessel_j(0, x) : 0;
+        }
+        std::vector<double> weight(waves);  // from the longest wave on
+        double sum = 0;
+        for (std::size_t i = 0; i < waves; ++i) {
+            const double k = wave(waves - 1 - i);
+            weight[i] = kStep * k * (answer_[waves - 1 - i] - at_zero_ * std::exp(-k * z_));
+            sum += weight[i];
+        }
+        at_middle_ = sum;
+        rest_.resize(places);
+        for (std::size_t j = 0; j < places; ++j) {
+            double total = 0;
+            for (std::size_t i = 0; i < waves; ++i) total += weight[i] * wavelet[i + j * kEvery];
+            rest_[j] = total;
+        }
+    }
 
-struct Series {
-    double z;
-    std::vector<double> a;
-
-    // Sum of a_n P_n(u)/R.
+    double length() const { return z_; }
+    // F at a wavenumber.
+    double answer(double k) const {
+        if (k >= highest_) return 0;
+        const double place = std::log(highest_ / k) / kStep - 0.5;
+        if (place > static_cast<double>(answer_.size() - kNodes)) return at_zero_;
+        return between(answer_, place);
+    }
+    // Its transform at a distance.
     double at(double d) const {
-        const double R = std::hypot(d, z), u = (d - z) * (d + z) / (R * R);
-        double before = 1, now = u, sum = a[0];
-        for (std::size_t n = 1; n < a.size(); ++n) {
-            sum += a[n] * now;
-            const double m = static_cast<double>(n), next = ((2 * m + 1) * u * now - m * before) / (m + 1);
-            before = now, now = next;
-        }
-        return sum / R;
+        const double whole = at_zero_ / std::hypot(d, z_);
+        if (d <= first_) return whole + at_middle_ + (rest_[0] - at_middle_) * (d / first_) * (d / first_);
+        const double place = std::log(d / first_) / (kStep * kEvery);
+        return place > static_cast<double>(rest_.size() - kNodes) ? whole : whole + between(rest_, place);
     }
-};
 
-// Finds a depth z for which the series converges in few terms. The important modes are near k z = 1: a stiff layer on a soft base bends
-// over lengths much larger than its thickness.
-Series expand(const LayeredBody& body) {
-    constexpr double tolerance = 2e-11, step = 1.6;
-    constexpr int shortest = 48, longest = 3072, tail = 8;
-    const auto layers = static_cast<std::size_t>(body.count);
-    double depth = 0, stiffest = 0, softest = body.E;
-    for (std::size_t l = 0; l < layers; ++l) {
-        depth += body.layer[l].thickness;
-        stiffest = std::max(stiffest, body.layer[l].E);
-        softest = std::min(softest, body.layer[l].E);
-    }
-    double low = 3 * body.layer[0].thickness, high = 10 * depth * std::max(1.0, std::cbrt(stiffest / softest));
-    for (int count = shortest; count <= longest; count *= 2) {
-        double least = HUGE_VAL, best = low;
-        for (double z = low; z <= high; z *= step) {
-            std::vector<double> a = laguerre(body, z, count);
-            double largest = 1, last = 0;
-            for (double v : a) largest = std::max(largest, std::abs(v));
-            for (int k = 1; k <= tail; ++k) last = std::max(last, std::abs(a[a.size() - static_cast<std::size_t>(k)]));
-            if (last <= tolerance * largest) return {z, std::move(a)};
-            if (last / largest < least) least = last / largest, best = z;
+private:
+    static constexpr double kStep = 0.02;
+    static constexpr std::size_t kEvery = 4;   // steps between distances
+    static constexpr std::size_t kNodes = 10;  // of interpolation
+
+    double wave(std::size_t i) const { return highest_ * std::exp(-kStep * (static_cast<double>(i) + 0.5)); }
+
+    // Lagrange's polynomial through the values around a place.
+    static double between(const std::vector<double>& values, double place) {
+        const auto first =
+            static_cast<std::size_t>(std::clamp(std::floor(place) - (kNodes / 2 - 1), 0.0, static_cast<double>(values.size() - kNodes)));
+        const double t = place - static_cast<double>(first);
+        double sum = 0, weights = 0;  // the barycentric form
+        double binomial = 1;
+        for (std::size_t i = 0; i < kNodes; ++i) {
+            const double off = t - static_cast<double>(i);
+            if (off == 0) return values[first + i];
+            const double w = binomial / off;
+            sum += w * values[first + i], weights += w;
+            binomial *= -static_cast<double>(kNodes - 1 - i) / static_cast<double>(i + 1);
         }
-        low = best / step, high = best * step * 1.01;
+        return sum / weights;
     }
-    throw Error(Failure::bad_input,
-                format("the layers and the base differ too much in stiffness or thickness for a series of %d terms", longest));
-}
+
+    double z_, at_zero_, highest_, first_, at_middle_;
+    std::vector<double> answer_, rest_;
+};
 
 }  // namespace
 
@@ -174,13 +193,14 @@ double layered_answer(const LayeredBody& body, double k) {
 std::shared_ptr<const SmoothPart> make_layers(const LayeredBody& body, double E_star) {
     require_usable(body);
     const double E_1 = plane_modulus(body.layer[0].E, body.layer[0].nu), near = 1 / (std::numbers::pi * E_1);
-    const Series series = expand(body);
-    // T is smooth in k, so the table uses the square of sqrt(k). Its first pieces are much narrower than 1/z.
+    const Hankel hankel(body);
+    // T is smooth in k, and SquareTable takes a square: that of sqrt(k). Its first pieces are far narrower than 1/z.
     constexpr double pieces = 100;
-    const auto answer = std::make_shared<const SquareTable>(
-        std::sqrt(1 / (pieces * series.z)), [&](double root) { return layered_answer(body, std::max(root * root, 1e-9 / series.z)) - 1; });
+    const double z = hankel.length();
+    const auto answer = std::make_shared<const SquareTable>(std::sqrt(1 / (pieces * z)),
+                                                            [&](double root) { return hankel.answer(std::max(root * root, 1e-9 / z)); });
     const double part = E_star / E_1;
-    return std::make_shared<const SmoothPart>([&](double d) { return near * series.at(d); },
+    return std::make_shared<const SmoothPart>([&](double d) { return near * hankel.at(d); },
                                               [answer, part](double k) { return part * answer->at_square(k); },
                                               2 * body.layer[0].thickness);
 }

@@ -13,10 +13,8 @@ namespace rsc {
 double layered_answer(const LayeredBody& body, double k);
 
 // s(d) and its share for a body that carries layers, pressed against another one: E_star is that of the surface, of the top layer and the
-// second body. With R^2 = d^2 + z^2 and T - 1 = sum of a_n exp(-k z) L_n(2 k z) (Laguerre),
-//     s(d) = 1/(pi E_1* R) sum of a_n P_n((d^2 - z^2)/R^2)        (Legendre),
-// for the Hankel transform of exp(-k z) L_n(2 k z) is P_n/R, as their generating functions show.
-// Throws Error(bad_input) for values out of range, or layers too different for the series to converge.
+// second body. s(d) = 1/(pi E_1*) int (T - 1) J0(k d) dk, to some 1e-10 of G(d); milliseconds for any layers.
+// Throws Error(bad_input) for values out of range.
 std::shared_ptr<const SmoothPart> make_layers(const LayeredBody& body, double E_star);
 
 // The same, null without layers. Bodies in use share their tables; several threads may ask at once.

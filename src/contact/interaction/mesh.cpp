@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kDirect = 256;        // fewer points are summed directly
 constexpr std::size_t kDirectLattice = 32;  // where a pair is a sum over images
 constexpr std::size_t kThreads = 5000;      // and so few are not worth the threads
+constexpr int kStrips = 16;                 // or rows of the mesh that a thread takes at a time
 
 // Seconds on one core, measured; they only decide how the work is shared between mesh and near field.
 constexpr double kSecondsPerNearPair = 2.3e-9;
@@ -129,6 +130,8 @@ struct MeshPotential::Parts {
     mutable std::mutex mutex;
     mutable std::vector<std::unique_ptr<Scratch>> free_scratch;
 
+    int threads() const { return n > kThreads ? 0 : 1; }
+
     explicit Parts(std::shared_ptr<const Kernel> kernel_) : kernel(std::move(kernel_)), lattice(kernel->lattice()), direct(*kernel) {}
 
     // The largest spacing for which the neglected modes of a smooth part are not larger than those of 1/d.
@@ -234,8 +237,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
     const double offset = 0.5 * design->width;
     const double dx = lattice ? lattice->period().x / static_cast<double>(far->columns()) : choice.spacing;
     const double dy = lattice ? lattice->period().y / static_cast<double>(far->lines()) : choice.spacing;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(omp_team(n > kThreads ? kEveryThread : 1))
-    for (std::size_t s = 0; s < all; ++s) {
+    parallel_for(all, kStrips, threads(), [&](std::size_t s) {
         const double right = s >= whole ? lattice->period().x : 0, up = s % whole >= strips ? lattice->period().y : 0;
         const auto begin = point.begin() + static_cast<std::ptrdiff_t>(strip_begin[s]);
         std::sort(begin, begin + static_cast<std::ptrdiff_t>(strip_size[s]),
@@ -247,7 +249,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
         }
         // Padding points: farther from all others than the cutoff, since the box is at most 1 wide.
         for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k) x[k] = x0 * scale + 4, y[k] = y0 * scale;
-    }
+    });
     spread_band = static_cast<std::size_t>((design->width + 1) * choice.spacing / height) + 1;
 }
 
@@ -307,19 +309,15 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
 void MeshPotential::Parts::spread(const double* f, double* mesh) const {
     const std::size_t bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
     const auto table = pair_kernels().spread;
-#pragma omp parallel num_threads(omp_team(n > kThreads ? kEveryThread : 1))
-    {
-#pragma omp for schedule(static)
-        for (std::size_t n = 0; n < far->rows(); ++n) std::fill_n(mesh + n * stride, stride, 0.0);
-        for (std::size_t odd = 0; odd < 2; ++odd) {
-#pragma omp for schedule(dynamic, 1)
-            for (std::size_t band = odd; band < bands; band += 2)
-                for (std::size_t s = band * spread_band; s < std::min(strips, (band + 1) * spread_band); ++s) {
-                    const std::size_t b = strip_begin[s];
-                    table(window, strip_size[s], u.data() + b, v.data() + b, f + b, mesh, stride);
-                }
-        }
-    }
+    parallel_for(far->rows(), kStrips, threads(), [&](std::size_t row) { std::fill_n(mesh + row * stride, stride, 0.0); });
+    for (std::size_t odd = 0; odd < 2; ++odd)
+        parallel_for((bands + 1 - odd) / 2, 1, threads(), [&](std::size_t half) {
+            const std::size_t band = 2 * half + odd;
+            for (std::size_t s = band * spread_band; s < std::min(strips, (band + 1) * spread_band); ++s) {
+                const std::size_t b = strip_begin[s];
+                table(window, strip_size[s], u.data() + b, v.data() + b, f + b, mesh, stride);
+            }
+        });
 }
 
 // Pairs of a strip with itself and with the next two.
@@ -344,12 +342,11 @@ void MeshPotential::Parts::near_strip(std::size_t s, const double* f, double* ph
 void MeshPotential::Parts::near_field(const double* f, double* phi) const {
     constexpr std::size_t kGroup = 4;
     const std::size_t groups = (strips + kGroup - 1) / kGroup;
-#pragma omp parallel num_threads(omp_team(n > kThreads ? kEveryThread : 1))
-    for (std::size_t odd = 0; odd < 2; ++odd) {
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t group = odd; group < groups; group += 2)
+    for (std::size_t odd = 0; odd < 2; ++odd)
+        parallel_for((groups + 1 - odd) / 2, 1, threads(), [&](std::size_t half) {
+            const std::size_t group = 2 * half + odd;
             for (std::size_t s = group * kGroup; s < std::min(strips, (group + 1) * kGroup); ++s) near_strip(s, f, phi);
-    }
+        });
 }
 
 std::size_t MeshPotential::size() const { return parts_->n; }
@@ -360,23 +357,21 @@ void MeshPotential::apply(const double* f, double* phi) const {
     auto scratch = p.take_scratch();
     const std::size_t strips = p.strips, all = p.strip_size.size();
     double *const sorted = scratch->f.data(), *const near = scratch->near.data(), *const far = scratch->far.data();
-#pragma omp parallel for schedule(static) num_threads(omp_team(p.n > kThreads ? kEveryThread : 1))
-    for (std::size_t s = 0; s < all; ++s) {
+    parallel_for(all, kStrips, p.threads(), [&](std::size_t s) {
         const std::size_t b = p.strip_begin[s];
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // pads stay without force
         std::fill(near + b, near + p.strip_begin[s + 1], 0.0);
-    }
+    });
     p.near_field(sorted, near);
     p.spread(sorted, scratch->mesh.get());
     p.far->convolve(scratch->mesh.get());
     const double unit = p.kernel->near(), near_unit = unit * p.scale, far_unit = p.lattice ? unit : unit / p.choice.spacing;
-#pragma omp parallel for schedule(static) num_threads(omp_team(p.n > kThreads ? kEveryThread : 1))
-    for (std::size_t s = 0; s < strips; ++s) {
+    parallel_for(strips, kStrips, p.threads(), [&](std::size_t s) {
         const std::size_t b = p.strip_begin[s];
         pair_kernels().interpolate(p.window, p.strip_size[s], p.u.data() + b, p.v.data() + b, far + b, scratch->mesh.get(),
                                    p.far->stride());
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * near_unit + far[k] * far_unit;
-    }
+    });
     for (std::size_t s = strips; s < all; ++s)  // what the copies got
         for (std::size_t k = p.strip_begin[s]; k < p.strip_begin[s] + p.strip_size[s]; ++k) phi[p.point[k]] += near[k] * near_unit;
     p.give_back(std::move(scratch));

@@ -1,7 +1,5 @@
 #include "contact/interaction/mesh_far.hpp"
 
-#include <omp.h>
-
 #include <boost/math/quadrature/gauss.hpp>
 
 #include "error.hpp"
@@ -174,10 +172,12 @@ std::size_t transform_length(double n) {
 // The doubled mesh holds every difference of two points with its sign, and room for the kernel to bend where it wraps around.
 double period_needed(const MeshDesign& design, double length) { return 2 * length + 4 * design.cutoff + 2; }
 
+constexpr int kRows = 8;  // of a mesh, that a thread takes at a time
+
 // A mesh this small is not worth the threads.
 int threads_for(std::size_t points) { return points < 65536 ? 1 : static_cast<int>(most_threads(0)); }
 
-// A buffer a thread, made before the threads start: what is thrown inside of a parallel region is lost.
+// A buffer for each thread.
 std::vector<FftwArray> buffers(int threads, std::size_t n) {
     std::vector<FftwArray> all;
     for (int t = 0; t < threads; ++t) all.push_back(fftw_array(n));
@@ -242,7 +242,7 @@ FarField::FarField(const MeshDesign& design, const Lattice& lattice, double spac
     const double dx = lattice.period().x / static_cast<double>(period_x_), dy = lattice.period().y / static_cast<double>(period_y_);
     make_multiplier(design, [&](std::size_t m, std::size_t n) {
         const double x = static_cast<double>(m) * dx, y = static_cast<double>(n) * dy;
-        return far_part(kernel, x * x + y * y) + lattice.rest(x, y) - lattice.least();
+        return far_part(kernel, x * x + y * y) + lattice.nearest_smooth(x, y) + lattice.rest(x, y) - lattice.least();
     });
 }
 
@@ -299,38 +299,30 @@ void FarField::make_multiplier(const MeshDesign& design, const std::function<dou
     const FftwArray half = fftw_array((half_y + 1) * (half_x + 1));
     const int threads = threads_for(points());
     const std::vector<FftwArray> row_of = buffers(threads, stride()), block_of = buffers(threads, 2 * kColumns * period_y_);
-#pragma omp parallel num_threads(omp_team(kEveryThread, threads))
-    {
-        double* row = row_of[static_cast<std::size_t>(omp_get_thread_num())].get();
-#pragma omp for schedule(static)
-        for (std::size_t n = 0; n <= half_y; ++n) {
-            for (std::size_t m = 0; m <= half_x; ++m) {
-                const double part = value(m, n);
-                row[m] = part;
-                if (m > 0) row[period_x_ - m] = part;
-            }
-            fftw_execute_dft_r2c(row_forward_.get(), row, as_complex(row));
-            for (std::size_t m = 0; m <= half_x; ++m) half[n * (half_x + 1) + m] = row[2 * m] * cx[m];
+    parallel_for(half_y + 1, kRows, threads, [&](std::size_t n, std::size_t worker) {
+        double* const row = row_of[worker].get();
+        for (std::size_t m = 0; m <= half_x; ++m) {
+            const double part = value(m, n);
+            row[m] = part;
+            if (m > 0) row[period_x_ - m] = part;
         }
-    }
+        fftw_execute_dft_r2c(row_forward_.get(), row, as_complex(row));
+        for (std::size_t m = 0; m <= half_x; ++m) half[n * (half_x + 1) + m] = row[2 * m] * cx[m];
+    });
 
     multiplier_ = fftw_array(multiplier_size());
     const std::size_t blocks = columns_ / kColumns;
-#pragma omp parallel num_threads(omp_team(kEveryThread, threads))
-    {
-        double* block = block_of[static_cast<std::size_t>(omp_get_thread_num())].get();
-#pragma omp for schedule(static)
-        for (std::size_t b = 0; b < blocks; ++b) {
-            std::fill_n(block, 2 * kColumns * period_y_, 0.0);
-            for (std::size_t n = 0; n < period_y_; ++n)
-                for (std::size_t c = 0; c < kColumns && b * kColumns + c <= half_x; ++c)
-                    block[2 * (n * kColumns + c)] = half[std::min(n, period_y_ - n) * (half_x + 1) + b * kColumns + c];
-            fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
-            double* to = multiplier_.get() + b * (half_y + 1) * kColumns;
-            for (std::size_t n = 0; n <= half_y; ++n)
-                for (std::size_t c = 0; c < kColumns; ++c) to[n * kColumns + c] = block[2 * (n * kColumns + c)] * cy[n];
-        }
-    }
+    parallel_for(blocks, 1, threads, [&](std::size_t b, std::size_t worker) {
+        double* const block = block_of[worker].get();
+        std::fill_n(block, 2 * kColumns * period_y_, 0.0);
+        for (std::size_t n = 0; n < period_y_; ++n)
+            for (std::size_t c = 0; c < kColumns && b * kColumns + c <= half_x; ++c)
+                block[2 * (n * kColumns + c)] = half[std::min(n, period_y_ - n) * (half_x + 1) + b * kColumns + c];
+        fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
+        double* to = multiplier_.get() + b * (half_y + 1) * kColumns;
+        for (std::size_t n = 0; n <= half_y; ++n)
+            for (std::size_t c = 0; c < kColumns; ++c) to[n * kColumns + c] = block[2 * (n * kColumns + c)] * cy[n];
+    });
 }
 
 void FarField::convolve(double* mesh) const {
@@ -339,34 +331,26 @@ void FarField::convolve(double* mesh) const {
     if (periodic_) fold(mesh);
     const int threads = threads_for(points());
     const std::vector<FftwArray> block_of = buffers(threads, 2 * kColumns * period_y_);
-#pragma omp parallel num_threads(omp_team(kEveryThread, threads))
-    {
-#pragma omp for schedule(static)
-        for (std::size_t n = 0; n < rows; ++n)
-            fftw_execute_dft_r2c(row_forward_.get(), mesh + n * stride(), as_complex(mesh + n * stride()));
-
-        // Columns, a few at a time: there and back while they are in the cache; the rows that hold no points are never stored.
-        double* block = block_of[static_cast<std::size_t>(omp_get_thread_num())].get();
-#pragma omp for schedule(static)
-        for (std::size_t b = 0; b < std::min(blocks, used); ++b) {
-            constexpr std::size_t kRow = 2 * kColumns;
-            for (std::size_t n = 0; n < rows; ++n) std::copy_n(mesh + n * stride() + b * kRow, kRow, block + n * kRow);
-            std::fill(block + rows * kRow, block + period_y_ * kRow, 0.0);
-            fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
-            const double* factors = multiplier_.get() + b * (half_y + 1) * kColumns;
-            for (std::size_t n = 0; n < period_y_; ++n) {
-                const double* factor = factors + std::min(n, period_y_ - n) * kColumns;
-                double* value = block + n * kRow;
-                for (std::size_t c = 0; c < kColumns; ++c) value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];
-            }
-            fftw_execute_dft(column_backward_.get(), as_complex(block), as_complex(block));
-            for (std::size_t n = 0; n < rows; ++n) std::copy_n(block + n * kRow, kRow, mesh + n * stride() + b * kRow);
+    parallel_for(rows, kRows, threads,
+                 [&](std::size_t n) { fftw_execute_dft_r2c(row_forward_.get(), mesh + n * stride(), as_complex(mesh + n * stride())); });
+    // Columns, a few at a time: there and back while they are in the cache; the rows that hold no points are never stored.
+    parallel_for(std::min(blocks, used), 1, threads, [&](std::size_t b, std::size_t worker) {
+        constexpr std::size_t kRow = 2 * kColumns;
+        double* const block = block_of[worker].get();
+        for (std::size_t n = 0; n < rows; ++n) std::copy_n(mesh + n * stride() + b * kRow, kRow, block + n * kRow);
+        std::fill(block + rows * kRow, block + period_y_ * kRow, 0.0);
+        fftw_execute_dft(column_forward_.get(), as_complex(block), as_complex(block));
+        const double* factors = multiplier_.get() + b * (half_y + 1) * kColumns;
+        for (std::size_t n = 0; n < period_y_; ++n) {
+            const double* factor = factors + std::min(n, period_y_ - n) * kColumns;
+            double* value = block + n * kRow;
+            for (std::size_t c = 0; c < kColumns; ++c) value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];
         }
-
-#pragma omp for schedule(static)
-        for (std::size_t n = 0; n < rows; ++n)
-            fftw_execute_dft_c2r(row_backward_.get(), as_complex(mesh + n * stride()), mesh + n * stride());
-    }
+        fftw_execute_dft(column_backward_.get(), as_complex(block), as_complex(block));
+        for (std::size_t n = 0; n < rows; ++n) std::copy_n(block + n * kRow, kRow, mesh + n * stride() + b * kRow);
+    });
+    parallel_for(rows, kRows, threads,
+                 [&](std::size_t n) { fftw_execute_dft_c2r(row_backward_.get(), as_complex(mesh + n * stride()), mesh + n * stride()); });
     if (periodic_) unfold(mesh);
 }
 

@@ -1,4 +1,4 @@
-// Sums over pairs of a kernel's G, one by one.
+// Direct sums of a kernel's G over pairs.
 #pragma once
 
 #include "contact/interaction/kernel.hpp"
@@ -6,21 +6,21 @@
 
 namespace rsc {
 
-// Sources that are targets, too, and other targets. The kernel must outlive it.
+// Sums from a set of sources onto the sources themselves or onto other targets. The kernel must outlive this object.
 class PairSums {
 public:
     explicit PairSums(const Kernel& kernel) : kernel_(&kernel) {}
 
     void assign(std::size_t n, const double* x, const double* y);
     std::size_t size() const { return x_.size(); }
-    // phi[i] = sum_j f[j] G_ij, what a source does to itself included, in full accuracy.
+    // phi[i] = sum_j f[j] G_ij, including the self term, in full accuracy.
     void apply(const double* f, double* phi) const;
-    // The same to 1e-6, where has_single().
+    // As apply(), to 1e-6; only if has_single().
     void apply_single(const double* f, double* phi) const;
-    // The same at other targets; `single`: 1e-6 will do.
+    // Sum at other targets; `single`: an error of 1e-6 is sufficient.
     void onto(bool single, std::size_t n, const double* x, const double* y, const double* f, double* phi) const;
 
-    // Without images there is a faster sum in single precision, over the sources.
+    // True if there is a faster single-precision sum over the sources (no periodic images).
     bool has_single() const { return !kernel_->lattice(); }
 
 private:

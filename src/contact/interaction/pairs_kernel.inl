@@ -1,21 +1,20 @@
-// The pair loops over a pack of W lanes, and the mesh's window: included by pairs_kernels.cpp once for each instruction set, in a namespace of
-// its own, with RSC_TARGET in front of every function and root_estimate() of that set before it.
+// Pair loops over packs of W lanes, and the spreading window of the mesh. pairs_kernels.cpp includes this file once for each instruction
+// set, in a separate namespace with its own RSC_TARGET and root_estimate().
 //
-// Layout: a few points i stand in registers (coordinates, force, sum of potential), the points j stream past in packs; 1/d of a
-// pair is computed once, added to the sum of i and to phi_j. Loads and stores of j are shared by the rows i of a block.
+// Layout: a few points i are kept in registers (coordinates, force, sum of potential), and the points j are processed in packs. 1/d of a
+// pair is computed once and used for the sum of i and for phi_j. Loads and stores of j are shared by the rows i of a block.
 //
 // Throughput of the symmetric loop, per pack of pairs (2 W directed pairs), in instructions that need a multiply pipe (two of
 // them on Zen 3 and on Intel's cores; the differences run on the add pipes of Zen 3):
 //   single: d^2 2, rsqrt 1, Newton 3, mask 1-2, sums 2  ~ 9-10 -> 5 cycles for 16 directed pairs with 8 lanes: 3.2 a cycle
 //   double: d^2 2, rsqrt 1, refinement 7, mask 1-2, sums 2, conversions 1-2 ~ 15 -> 7.5 cycles for 8 with 4 lanes: 1.1 a cycle
-// that is 10 G/s and 3.3 G/s at the 3.1 GHz of the EPYC (Zen 3) this was measured on, with AVX2: 8 to 9 G/s and 2.5 G/s reached
-// (SSE2: 3.9 and 1.2).
+// that is 10 G/s and 3.3 G/s at 3.1 GHz (EPYC, Zen 3). Measured there with AVX2: 8 to 9 G/s and 2.5 G/s (SSE2: 3.9 and 1.2).
 
-// Every step is taken for all rows of a block before the next step: the chain of one row is longer than what the out-of-order
-// window of the processor could overlap by itself.
+// Every step is done for all rows of a block before the next step, because the dependency chain of one row is too long for the processor's
+// out-of-order execution.
 #define RSC_FOR_ROWS _Pragma("GCC unroll 8") for (int k = 0; k < rows; ++k)
 
-// Vectors of the compiler (GCC, clang), W numbers each; coordinates of type X, whose differences are numbers of type R.
+// Compiler vectors (GCC, clang) of W numbers; coordinates have type X and differences type R.
 template <class R, class X, std::size_t kLanes, int kRows>
 struct Pack {
     using Real = R;
@@ -38,7 +37,7 @@ struct Pack {
     RSC_TARGET static C splat(X a) { return C{} + a; }
     RSC_TARGET static V splat_real(double a) { return V{} + static_cast<R>(a); }
     RSC_TARGET static V difference(C a, C b) { return __builtin_convertvector(a - b, V); }
-    // a b + c, contracted where the instruction set can.
+    // a b + c, contracted if the instruction set supports it.
     RSC_TARGET static V fma(V a, V b, V c) { return a * b + c; }
     RSC_TARGET static R sum(V v) {
         R part[W];
@@ -47,12 +46,13 @@ struct Pack {
             for (std::size_t k = 0; k < half; ++k) part[k] += part[k + half];
         return part[0];
     }
-    // w - smooth where `inside` is positive, else 0.
+    // w - smooth if `inside` is positive, else 0.
     RSC_TARGET static V difference_where_positive(V w, V smooth, V inside) { return inside > V{} ? w - smooth : V{}; }
-    // d2 <- 1/d from an estimate r of it, which is 0 for points that coincide and stays so.
+    // Replaces d2 by 1/d from an estimate r; for coinciding points r is 0 and remains 0.
     RSC_TARGET static void refine(V* d2, const V* r) {
         if constexpr (sizeof(R) == 8) {
-            // The binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2: 12 bits make |h| < 7.4e-4, and the first term left out is 6e-17.
+            // Binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2. Estimates of 12 bits have |h| < 7.4e-4, so the first neglected term is
+            // 6e-17.
             V p[rows];
             RSC_FOR_ROWS d2[k] = d2[k] * r[k];
             RSC_FOR_ROWS d2[k] = 1 - d2[k] * r[k];
@@ -61,7 +61,7 @@ struct Pack {
             RSC_FOR_ROWS p[k] = p[k] * d2[k] + 0.5;
             RSC_FOR_ROWS d2[k] = d2[k] * r[k];
             RSC_FOR_ROWS d2[k] = p[k] * d2[k] + r[k];
-        } else {  // one Newton step without its factor 1/2: twice 1/d (kSingleWeight)
+        } else {  // one Newton step without its factor 1/2, which gives 2/d (kSingleWeight)
             RSC_FOR_ROWS d2[k] = d2[k] * r[k];
             RSC_FOR_ROWS d2[k] = 3 - d2[k] * r[k];
             RSC_FOR_ROWS d2[k] = d2[k] * r[k];
@@ -101,7 +101,7 @@ struct NearWeight {
     }
 };
 
-// P::rows points i against nj points j; kBoth: also i onto j.
+// Interaction of P::rows points i with nj points j; kBoth: also of i on j.
 template <class P, bool kBoth, class Weight>
 RSC_TARGET [[gnu::always_inline]] inline void block(const Weight& weight, const typename P::Coordinate* xi,
                                                     const typename P::Coordinate* yi, const typename P::Real* fi, typename P::Real* phi_i,
@@ -143,7 +143,7 @@ RSC_TARGET inline void cross_loop(const Weight& weight, std::size_t ni, const ty
     for (std::size_t i = 0; i < ni; i += P::rows) block<P, true>(weight, xi + i, yi + i, fi + i, phi_i + i, nj, xj, yj, fj, phi_j);
 }
 
-// Rows of a block see the block itself one way (each of its pairs comes up twice) and everything after it both ways.
+// Within a block each pair occurs twice and is used in one direction; pairs with later points are used in both.
 template <class P, class Weight>
 RSC_TARGET inline void self_loop(const Weight& weight, std::size_t n, const typename P::Coordinate* x, const typename P::Coordinate* y,
                                  const typename P::Real* f, typename P::Real* phi) {
@@ -172,7 +172,7 @@ struct Loops {
         for (std::size_t i = 0; i < ni; i += P::rows)
             block<P, false>(PointWeight<P>{}, xi + i, yi + i, fj, phi_i + i, nj, xj, yj, fj, phi_i);
     }
-    // Strips by increasing x: the points within reach of a block lie between two marks that move along with it.
+    // In a strip sorted by x, the points within reach of a block lie between two indices that advance with the block.
     RSC_TARGET static void near_own(const NearKernel& kernel, std::size_t n, const X* x, const X* y, const R* f, R* phi) {
         constexpr std::size_t kBlock = P::W > std::size_t(P::rows) ? P::W : std::size_t(P::rows);
         const NearWeight<P> weight(kernel);
@@ -201,8 +201,8 @@ struct Loops {
     }
 };
 
-// Spreading onto a mesh and interpolation off it: plain loops of a fixed length, of which the compiler makes vector instructions.
-template <int kWidth>  // window.width rounded up to a multiple of 4: the weights beyond it are zero
+// Spreading onto a mesh and interpolation from it: loops of fixed length, which the compiler vectorises.
+template <int kWidth>  // window.width rounded up to a multiple of 4; the additional weights are zero
 struct Weights {
     double x[kWidth], y[kWidth];
     long column, row;

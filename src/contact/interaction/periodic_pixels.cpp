@@ -1,7 +1,5 @@
 #include "contact/interaction/periodic_pixels.hpp"
 
-#include <omp.h>
-
 #include "error.hpp"
 #include "rough/library_lock.hpp"
 #include "rough/parallel.hpp"
@@ -12,7 +10,8 @@ namespace {
 
 constexpr std::size_t kThreads = 400000;  // number of pixels above which threads are used
 constexpr std::size_t kLine = 64;         // bytes
-constexpr int kColumns = 8;               // columns transformed together
+constexpr int kColumns = 8;               // transformed together
+constexpr int kRows = 8;                  // that a thread takes at a time
 
 // Names of FFTW in single and double precision.
 template <class Real>
@@ -98,13 +97,13 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy, const
     const int columns = (nx / 2 + kColumns) / kColumns * kColumns, half = ny / 2 + 1;
     layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
     const double pi = std::numbers::pi;
-#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
-    for (int j = 0; j < half; ++j)
+    parallel_for(half, kRows, threads, [&](int j) {
         for (int i = 0; i < columns; ++i) {
             const double k = 2 * pi * std::hypot(static_cast<double>(i) / nx / dx, static_cast<double>(j) / ny / dy);
             layered_[static_cast<std::size_t>((i / kColumns * half + j) * kColumns + i % kColumns)] =
                 static_cast<Real>(k > 0 ? 1 + share(k) : 1.0);
         }
+    });
 }
 
 template <class Real>
@@ -118,17 +117,16 @@ std::size_t PeriodicPixels<Real>::bytes() const {
 // Transforms the columns of modes, a few at a time, multiplies them and transforms them back while they are in the cache.
 template <class Real>
 void PeriodicPixels<Real>::columns(Answer answer) {
-    const int half = nx_ / 2 + 1, blocks = (half + kColumns - 1) / kColumns;
+    const int blocks = (nx_ / 2 + kColumns) / kColumns;
     const double pi = std::numbers::pi, points = static_cast<double>(nx_) * static_cast<double>(ny_);
     std::vector<Real> ky2(static_cast<std::size_t>(ny_));  // (ky dx)^2
     for (int j = 0; j < ny_; ++j) {
         const double k = 2 * pi * (2 * j <= ny_ ? j : j - ny_) / ny_ * (dx_ / dy_);
         ky2[static_cast<std::size_t>(j)] = static_cast<Real>(k * k);
     }
-#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, static_cast <int>(plans_->blocks.size())))
-    for (int b = 0; b < blocks; ++b) {
+    parallel_for(blocks, 1, static_cast<int>(plans_->blocks.size()), [&](int b, std::size_t worker) {
         constexpr std::size_t width = 2 * kColumns;
-        Real* const block = plans_->blocks[static_cast<std::size_t>(omp_get_thread_num())].get();
+        Real* const block = plans_->blocks[worker].get();
         Real* const plane = plane_.get() + static_cast<std::size_t>(b) * width;
         const auto rows = static_cast<std::size_t>(ny_);
         for (std::size_t j = 0; j < rows; ++j) std::copy_n(plane + j * stride_, width, block + j * width);
@@ -157,7 +155,7 @@ void PeriodicPixels<Real>::columns(Answer answer) {
         }
         Fftw<Real>::complex(plans_->columns_backward, block);
         for (std::size_t j = 0; j < rows; ++j) std::copy_n(block + j * width, width, plane + j * stride_);
-    }
+    });
 }
 
 template <class Real>
@@ -165,18 +163,16 @@ void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answ
     const int threads = static_cast<int>(plans_->blocks.size());
     // The padding after the modes of a row is transformed with them, so it must be initialised.
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
-#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
-    for (int j = 0; j < ny_; ++j) {
+    parallel_for(ny_, kRows, threads, [&](int j) {
         load(j, row(j));
         Fftw<Real>::forward(plans_->rows_forward, row(j));
         std::fill(row(j) + used, row(j) + stride_, Real(0));
-    }
+    });
     columns(answer);
-#pragma omp parallel for schedule(static) num_threads(omp_team(kEveryThread, threads))
-    for (int j = 0; j < ny_; ++j) {
+    parallel_for(ny_, kRows, threads, [&](int j) {
         Fftw<Real>::backward(plans_->rows_backward, row(j));
         take(j, row(j));
-    }
+    });
 }
 
 template class PeriodicPixels<float>;

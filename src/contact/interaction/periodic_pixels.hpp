@@ -1,36 +1,36 @@
-// Deflections of a surface that repeats under pressures on all its pixels: products with K by Fourier transforms over the whole period.
+// Deflections of a periodic surface under pressures on all its pixels: products with K by Fourier transforms over the whole period.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc {
 
-// A half-space of modulus E* whose nx x ny pixels of sides dx, dy repeat in both directions. Pressures are the values of a band-limited
-// surface at the pixels' middles: each of the modes exp(i k x) that the pixels carry, |kx| <= pi/dx and |ky| <= pi/dy, answers with
-// 2/(E* |k|) (1 + share(|k|)) of itself (Johnson 1985, section 13.2; kernel.hpp), k = 0 with none: deflections are those from the mean plane, whatever the mean pressure.
-// K is symmetric, and positive definite but for k = 0. Numbers are those of Real, float or double; results do not depend on the number
-// of threads.
+// Half-space of modulus E* with nx x ny pixels of sides dx, dy, periodic in both directions. Pressures are samples of a band-limited
+// function at the pixel centres. Each mode exp(i k x), |kx| <= pi/dx and |ky| <= pi/dy, causes a deflection of 2/(E* |k|) (1 + share(|k|))
+// times itself (Johnson 1985, section 13.2; kernel.hpp), and k = 0 none: deflections are measured from the mean plane. K is symmetric, and
+// positive definite except for k = 0. Real is float or double; results do not depend on the number of threads.
 template <class Real>
 class PeriodicPixels {
 public:
-    // `share` takes wavenumbers in the unit 1/dx; none: a homogeneous half-space. Throws Error(no_memory); bad_input for a grid too large.
+    // `share` is a function of the wavenumber times dx; empty: homogeneous half-space. Throws Error(no_memory), or Error(bad_input) if the
+    // grid is too large.
     PeriodicPixels(int nx, int ny, double dx, double dy, const std::function<double(double)>& share = {});
     ~PeriodicPixels();
     PeriodicPixels(const PeriodicPixels&) = delete;
     PeriodicPixels& operator=(const PeriodicPixels&) = delete;
 
-    // Row j of the plane that transforms work on, nx numbers.
+    // Row j of the plane on which the transforms operate, nx numbers.
     Real* row(int j) { return plane_.get() + static_cast<std::size_t>(j) * stride_; }
     const Real* row(int j) const { return plane_.get() + static_cast<std::size_t>(j) * stride_; }
 
     enum class Answer { deflection, pressure };
-    // Replaces the plane by K/unit() of it, or by unit() K^-1 of it with mean 0. `load(j, row)` fills each row first, `take(j, row)` may
-    // look at it at the end; both are called for different rows at the same time.
+    // Multiplies the plane by K/unit(), or by unit() K^-1 with mean 0. `load(j, row)` fills each row before, `take(j, row)` may read it
+    // afterwards; both are called concurrently for different rows.
     using Load = std::function<void(int, Real*)>;
     using Take = std::function<void(int, const Real*)>;
     void apply(const Load& load, const Take& take, Answer answer = Answer::deflection);
 
-    // dx/E*, for E* = 1 [length/pressure]: the plane holds numbers without it, which are of the order of 1 in float, too.
+    // dx/E* for E* = 1 [length/pressure]. Values in the plane exclude this factor and are of order 1, also in float.
     double unit() const { return dx_; }
 
     std::size_t bytes() const;

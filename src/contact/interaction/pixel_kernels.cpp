@@ -54,8 +54,8 @@ RSC_ALWAYS_INLINE void slice(int columns, const double* T, const double* const* 
     for (int k = 0; k < Pairs; ++k)
         for (int v = 0; v < Vectors; ++v) sum[k][v] = vector_at(to[k] + first + v * kLane);
     for (int j = 0; j < columns; ++j, T += Vectors * kLane)
-        for (int k = 0; k < Pairs; ++k)
-            for (int v = 0; v < Vectors; ++v) sum[k][v] += from[k][j] * vector_at(T + v * kLane);
+        for (int v = 0; v < Vectors; ++v)
+            for (int k = 0; k < Pairs; ++k) sum[k][v] += from[k][j] * vector_at(T + v * kLane);
     for (int k = 0; k < Pairs; ++k)
         for (int v = 0; v < Vectors; ++v) vector_at(to[k] + first + v * kLane) = sum[k][v];
 }
@@ -64,12 +64,10 @@ template <int Pairs>
 RSC_ALWAYS_INLINE void all_slices(int rows, int columns, const double* T, const double* const* from, double* const* to) {
     for (int first = 0; first < rows; first += kSlice) {
         const int vectors = (rows - first < kSlice ? rows - first : kSlice) / kLane;
-        switch (vectors) {
-            case 1: slice<1, Pairs>(columns, T, from, to, first); break;
-            case 2: slice<2, Pairs>(columns, T, from, to, first); break;
-            case 3: slice<3, Pairs>(columns, T, from, to, first); break;
-            default: slice<4, Pairs>(columns, T, from, to, first); break;
-        }
+        if (vectors == 1)
+            slice<1, Pairs>(columns, T, from, to, first);
+        else
+            slice<2, Pairs>(columns, T, from, to, first);
         T += vectors * kLane * columns;
     }
 }
@@ -93,8 +91,8 @@ RSC_ALWAYS_INLINE void translate(int rows, int columns, const double* T, std::si
 
 RSC_PIXEL_KERNELS(baseline, , 2, 1)
 #if defined(__x86_64__) && defined(__GNUC__)
-RSC_PIXEL_KERNELS(avx2, [[gnu::target("avx2,fma")]], 4, 1)
-RSC_PIXEL_KERNELS(avx512, [[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]], 8, 4)
+RSC_PIXEL_KERNELS(avx2, [[gnu::target("avx2,fma")]], 4, 3)
+RSC_PIXEL_KERNELS(avx512, [[gnu::target("avx512f,avx512dq,avx512vl,avx2,fma")]], 8, 8)
 #endif
 
 }  // namespace

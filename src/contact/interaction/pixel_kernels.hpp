@@ -5,12 +5,12 @@
 
 namespace rsc {
 
-// pi E* times the deflection at (x, y) under unit pressure on the rectangle |x| < a, |y| < b [length].
-// The four logarithms of Johnson's formula, paired as inverse hyperbolic sines so that none loses digits.
+// pi E* times the deflection at (x, y) under unit pressure on the rectangle |x| < a, |y| < b [length]. The four logarithms of Johnson's
+// formula are combined to inverse hyperbolic sines to avoid cancellation.
 double love(double x, double y, double a, double b);
 
-// The same by the moments of the rectangle: 4ab [1/d + second + fourth order], whose relative error is below (a/d)^6/20 for a >= b;
-// for a square of side h it begins h^2 [1/d + h^2/(24 d^3)].
+// Approximation by the moments of the rectangle, 4ab [1/d + second + fourth order], with a relative error below (a/d)^6/20 for a >= b; for
+// a square of side h it is h^2 [1/d + h^2/(24 d^3) + ...].
 inline double love_far(double x, double y, double a, double b) {
     const double x2 = x * x, y2 = y * y, inverse2 = 1 / (x2 + y2), inverse = std::sqrt(inverse2);
     const double u = x2 * inverse2, v = y2 * inverse2;
@@ -22,18 +22,18 @@ inline double love_far(double x, double y, double a, double b) {
     return 4 * a * b * inverse * (1 + second / 6 + fourth);
 }
 
-// pi E* times the deflection for pixels of sides 1 and `aspect` at any offset in units of the first: love() near, love_far() from a
-// distance on at which it is exact to 1e-10.
+// pi E* times the deflection for pixels of sides 1 and `aspect` at any offset: love() near, and love_far() where its relative error is
+// below 1e-10.
 inline double pixel_kernel(double x, double y, double aspect) {
     constexpr double far = 16;
     const double side = aspect > 1 ? aspect : 1;
     return x * x + y * y > far * far * side * side ? love_far(x, y, 0.5, 0.5 * aspect) : love(x, y, 0.5, 0.5 * aspect);
 }
 
-// The two hot loops of pixel_tree.cpp, compiled for several instruction sets; the best one the machine has is chosen at run time.
+// Inner loops of pixel_tree.cpp, compiled for several instruction sets; the best supported one is chosen at run time.
 
-inline constexpr int kTileColumns = 8;  // pixels of a tile along x: one vector
-inline constexpr int kLane = 8;         // doubles of a vector
+inline constexpr int kTileColumns = 8;  // pixels of a tile along x, one vector
+inline constexpr int kLane = 8;         // doubles per vector
 
 // A source pixel inside its tile.
 struct TileSource {
@@ -51,7 +51,7 @@ using NearTile = void (*)(const NearTable& table, int rows, int ox, int oy, std:
 
 // to[k][i] += sum_j T(i, j) from[k][j], i < rows (a multiple of kLane), j < columns, for the pairs k < n. T is stored in slices of
 // kSlice rows (the last one may be shorter), each by columns.
-inline constexpr int kSlice = 4 * kLane;
+inline constexpr int kSlice = 2 * kLane;
 using Translate = void (*)(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to);
 
 struct PixelKernels {

@@ -20,7 +20,7 @@ public:
     // The pixels that may carry pressure and at whose middles deflections are wanted; no two the same.
     virtual void set_pixels(const std::vector<Pixel>& pixels) = 0;
 
-    enum class Accuracy { inner, full };  // what iterations are made of, and what answers are judged by
+    enum class Accuracy { inner, between, full };  // what iterations are made of, and what answers are judged by
     // w = K p [length], at every pixel of the set, sources and targets.
     virtual void apply(const double* p, double* w, Accuracy accuracy) = 0;
     // Deflections at other pixels under pressures on the set, in inner accuracy.
@@ -30,8 +30,9 @@ public:
     virtual double coefficient(int dx, int dy) const = 0;
 
     // Relative errors (2-norm) of the two kinds of products.
-    virtual double inner_error() const = 0;
-    virtual double full_error() const = 0;
+    virtual double error(Accuracy accuracy) const = 0;
+    double inner_error() const { return error(Accuracy::inner); }
+    double full_error() const { return error(Accuracy::full); }
     long count() const { return count_; }  // products taken so far
 
 protected:

@@ -86,8 +86,7 @@ void enclose(Generation& g, const std::vector<Box>& boxes) {
 void pair_up(Generation& g, bool last) {
     const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
     std::vector<std::vector<std::array<int, 3>>> found(chunks);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(omp_team(g.boxes.size() > 2 * kThreads ? kEveryThread : 1))
-    for (std::size_t c = 0; c < chunks; ++c)
+    parallel_for(chunks, 4, g.boxes.size() > 2 * kThreads ? 0 : 1, [&](std::size_t c) {
         for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
             const Box b = g.boxes[k];
             const int x_begin = last ? g.x0 : ((b.x >> 1) - 1) * 2, x_end = last ? g.x0 + g.nx : x_begin + 6;
@@ -99,6 +98,7 @@ void pair_up(Generation& g, bool last) {
                     if (from >= 0) found[c].push_back({(y - b.y + 3) * 7 + x - b.x + 3, from, static_cast<int>(k)});
                 }
         }
+    });
     g.pair_begin.assign(chunks * kOffsets + 1, 0);
     std::size_t total = 0;
     for (std::size_t c = 0; c < chunks; ++c) {
@@ -300,6 +300,7 @@ public:
           aspect_(dy / dx),
           rows_(rows_of(dy / dx)),
           inner_(points_for(inner_error), rows_, answer_),
+          between_(points_for(std::sqrt(inner_error * full_error)), rows_, answer_),
           full_(points_for(full_error), rows_, answer_) {
         table_.reach_x = 2 * kTileColumns;
         table_.reach_y = 2 * rows_;
@@ -321,8 +322,7 @@ public:
 
     void apply(const double* p, double* w, Accuracy accuracy) override {
         ++count_;
-        Interpolation& interpolation = accuracy == Accuracy::inner ? inner_ : full_;
-        product(layout_, interpolation, pixels_.size(), p, w);
+        product(layout_, of(accuracy), pixels_.size(), p, w);
     }
 
     void elsewhere(const double* p, const std::vector<Pixel>& where, double* w) override {
@@ -349,13 +349,16 @@ public:
         return answer_(dx, dy * aspect_);
     }
 
-    double inner_error() const override { return interpolation_error(inner_.points()); }
-    double full_error() const override { return interpolation_error(full_.points()); }
+    double error(Accuracy accuracy) const override { return interpolation_error(of(accuracy).points()); }
 
 private:
     // Number of rows, a power of two, for which a tile is nearly square.
     static int rows_of(double aspect) { return 1 << std::clamp(static_cast<int>(std::lround(3 - std::log2(aspect))), 0, 6); }
 
+    const Interpolation& of(Accuracy accuracy) const {
+        return accuracy == Accuracy::inner ? inner_ : accuracy == Accuracy::between ? between_ : full_;
+    }
+    Interpolation& of(Accuracy accuracy) { return const_cast<Interpolation&>(std::as_const(*this).of(accuracy)); }
     void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w);
 
     PixelAnswer answer_;
@@ -363,7 +366,7 @@ private:
     int rows_;
     std::vector<double> near_;
     NearTable table_{};
-    Interpolation inner_, full_;
+    Interpolation inner_, between_, full_;
     std::vector<Pixel> pixels_;
     Layout layout_;
     // Work space of one product: pressures by tile, points of all boxes.
@@ -418,17 +421,16 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         }
     }
     const PixelKernels& kernels = pixel_kernels();
-    LoopStop stop;
-    // Threads are started twice per product: for transfers between boxes of all sizes, and for the tiles.
+    // Two loops a product that threads share: between boxes of all sizes, and at last for the tiles.
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
         for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
-    for (std::size_t job = 0; job < chunks.size(); ++job) {
-        if (stop.now()) continue;
-        const auto [l, c] = chunks[job];
+    const int threads = tiles > kThreads ? 0 : 1;
+    parallel_for(chunks.size(), 1, threads, [&](std::size_t job) {
+        stopping_point();
+        const std::size_t l = chunks[job].first, c = chunks[job].second;
         const Generation& g = generations[l];
-        if (g.pair_from.empty()) continue;
+        if (g.pair_from.empty()) return;
         std::vector<const double*> from;
         std::vector<double*> to;
         for (std::size_t o = 0; o < kOffsets; ++o) {
@@ -442,8 +444,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
             if (!from.empty())
                 kernels.translate(static_cast<int>(points), q * q, interpolation.made(l)[o].data(), from.size(), from.data(), to.data());
         }
-    }
-    stop.tell();
+    });
     const auto down = [&](std::size_t l, std::size_t k) {
         const Generation& g = generations[l];
         interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
@@ -451,9 +452,8 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     };
     for (std::size_t l = levels - 1; l-- > 1;)
         for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
-#pragma omp parallel for schedule(dynamic, 32) num_threads(omp_team(tiles > kThreads ? kEveryThread : 1))
-    for (std::size_t t = 0; t < tiles; ++t) {
-        if (stop.now()) continue;
+    parallel_for(tiles, 32, threads, [&](std::size_t t) {
+        stopping_point();
         if (levels > 1) down(0, t);
         double* values = tiles_.data() + t * size;
         std::fill_n(values, size, 0.0);
@@ -466,8 +466,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                 const std::size_t begin = source_begin_[at(s)], m = source_begin_[at(s) + 1] - begin;
                 if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
             }
-    }
-    stop.tell();
+    });
     for (std::size_t k = 0; k < n; ++k) w[k] = tiles_[layout.place[k]];
 }
 

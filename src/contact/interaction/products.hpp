@@ -5,26 +5,26 @@
 
 namespace rsc {
 
-// The solver works on a set of points, of which some, the active ones, carry force. `full` is what answers are judged by;
-// `inner` is what iterations are made of, and may be less accurate.
+// Products over a working set of points, of which the active ones carry force. `full` products determine the final residual; `inner`
+// products serve the iterations and may be less accurate.
 class Products {
 public:
     virtual ~Products() = default;
 
-    // The working set; coordinates are copied.
+    // Sets the working set; coordinates are copied.
     virtual void set_points(int n, const double* x, const double* y) = 0;
-    // Positions in the working set that carry force, increasing. Valid until the next set_points.
+    // Sets the positions in the working set that carry force, in increasing order. Valid until the next set_points().
     virtual void set_active(const std::vector<int>& active) = 0;
-    // With `precise`, inner products are taken as accurately as full ones.
+    // With `precise`, inner products are as accurate as full ones.
     virtual void set_precise(bool precise) = 0;
 
     // phi = B f at the active points; f, phi in the order of the active list.
     virtual void inner(const double* f, double* phi) = 0;
-    // phi = B f at the passive points (those not active, increasing); f over the active list; accuracy of `inner`.
+    // phi = B f at the passive (not active) points in increasing order; f over the active list; inner accuracy.
     virtual void inner_passive(const double* f, double* phi) = 0;
     // phi = B f at every point of the working set, in inner accuracy.
     void inner_everywhere(const double* f, double* phi);
-    // phi = B f of the active points at n other places, to 1e-5 (2-norm) at least.
+    // phi = B f of the active points at n other points, with an error of at most 1e-5 (2-norm).
     virtual void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) = 0;
     // phi = B f at every point of the working set, in full accuracy; f over the active list.
     virtual void full(const double* f, double* phi) = 0;
@@ -36,11 +36,11 @@ public:
     virtual double inner_error() const = 0;
     const std::vector<int>& active() const { return active_; }
     const std::vector<int>& passive() const { return passive_; }
-    long count() const { return count_; }  // products taken so far, a full one counting as one
+    long count() const { return count_; }  // number of products so far, a full one counting as one
 
 protected:
     explicit Products(std::shared_ptr<const Kernel> kernel) : kernel_(std::move(kernel)) {}
-    // Fills passive_ with the positions below n that are not in active_.
+    // Sets passive_ to the positions below n that are not in active_.
     void complement(int n);
     std::vector<int> active_, passive_;
     std::shared_ptr<const Kernel> kernel_;
@@ -48,7 +48,7 @@ protected:
     long count_ = 0;
 };
 
-// Pairs a second on one core in direct inner sums, for choosing between methods.
+// Pairs per second on one core in direct inner sums, for the choice of the method.
 double direct_rate(const Kernel& kernel);
 
 // Direct sums over pairs.

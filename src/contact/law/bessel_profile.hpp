@@ -1,8 +1,8 @@
-// Frictionless contact of the axisymmetric profile z = A (1 - J0(q r)), that of waves of one length from all directions (Sneddon, Int. J.
-// Eng. Sci. 3, 1965, 47): delta = A (1 - cos(q a)), P = 2 E* A [sin(q a)/q - a cos(q a)], dP = 2 E* a ddelta. With the curvature at its top,
-// kappa = A q^2/2, everything over its value for the paraboloid of that curvature, sqrt(delta/kappa) and so on, is a function of
+// Frictionless contact of the axisymmetric profile z = A (1 - J0(q r)), the sum of waves of one length in all directions (Sneddon, Int. J.
+// Eng. Sci. 3, 1965, 47): delta = A (1 - cos(q a)), P = 2 E* A [sin(q a)/q - a cos(q a)], dP = 2 E* a ddelta. Relative to the paraboloid
+// with the same curvature kappa = A q^2/2 at the top, all quantities are functions of
 //     t = q^2 delta/(4 kappa) = sin^2(q a/2)
-// alone; q^2 < 0 makes cosh and sinh of cos and sin. t = 1 is the contact that reaches the profile's trough, q a = pi.
+// only; for q^2 < 0, cos and sin become cosh and sinh. At t = 1 the contact reaches the trough of the profile, q a = pi.
 #pragma once
 
 #include "std.hpp"
@@ -14,10 +14,11 @@ public:
     struct Shape {
         double radius;  // a/sqrt(delta/kappa)
         double load;    // P/[(4/3) E* delta^(3/2)/sqrt(kappa)]
-        double work;    // of int P ddelta, over [(8/15) E* delta^(5/2)/sqrt(kappa)]
+        double work;    // int P ddelta/[(8/15) E* delta^(5/2)/sqrt(kappa)]
     };
 
-    // The functions for t <= 1, relative errors below 3e-14. Tabulated where contacts are: they are the solver's innermost loop.
+    // Functions for t <= 1, with relative errors below 3e-14. They are tabulated in the usual range, because they are the innermost loop of
+    // the solver.
     Shape at(double t) const;
     double load(double t) const;
     double radius(double t) const;
@@ -27,8 +28,8 @@ public:
 private:
     BesselProfile();
 
-    // Polynomials on cells 1/32 wide, of t up to kMiddle, and beyond it of w = sqrt(1 - t) = cos(q a/2): in t the functions have a root's
-    // singularity at 1, thirty half cells from the last one.
+    // Polynomials on cells of width 1/32: in t up to kMiddle, and beyond in w = sqrt(1 - t) = cos(q a/2), because the functions of t have a
+    // square-root singularity at 1.
     static constexpr double kFirst = -1, kMiddle = 0.5, kCellsPerUnit = 32;
     static constexpr int kCellsOfT = 48, kCells = kCellsOfT + 23, kTerms = 9;
     using Polynomial = std::array<double, kTerms>;

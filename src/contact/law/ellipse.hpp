@@ -3,13 +3,14 @@
 
 namespace rsc {
 
-// With R_e = 1/sqrt(kappa1 kappa2): force (4/3) E* sqrt(R_e) (delta/F2)^(3/2), area pi F1^2 R_e delta/F2.
+// Factors of force (4/3) E* sqrt(R_e) (delta/F2)^(3/2) and area pi F1^2 R_e delta/F2, with R_e = 1/sqrt(kappa1 kappa2).
 struct EllipseFactors {
     double axes = 1;  // b/a, minor over major semi-axis
     double F1 = 1, F2 = 1;
 };
 
-// For the ratio kappa1/kappa2 >= 1 of the principal curvatures, relative error about 1e-13. Throws Error(bad_input) below 1 or if not finite.
+// Factors for the ratio kappa1/kappa2 of the principal curvatures, with relative errors of about 1e-13. Throws Error(bad_input) unless the
+// ratio is finite and at least 1.
 EllipseFactors ellipse_factors(double ratio);
 
 }  // namespace rsc

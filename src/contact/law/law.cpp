@@ -151,7 +151,7 @@ public:
     }
 
 private:
-    static constexpr double kFlattest = 0.7444;  // sin^2(x/2) where (sin x - x cos x)/x^2, the mean pressure over x = q a, is greatest
+    static constexpr double kFlattest = 0.7444;  // sin^2(x/2) at the maximum of the mean pressure (sin x - x cos x)/x^2, x = q a
 
     // Integral of asin^2(sqrt(t')) dt' from 0 to t, divided by t^2.
     static double integral_over_t2(double t, double R, double root) {

@@ -1,5 +1,7 @@
 #include "contact/law/sticking.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 namespace rsc {
 namespace {
 
@@ -33,6 +35,19 @@ void Sticking::prepare(std::span<const int> asperities) {
         int& place = place_[static_cast<std::size_t>(i)];
         if (place >= 0) continue;
         place = static_cast<int>(limits_.size());
+        if (z0_ > 0) {
+            double u = z0_, f, D, W;
+            law_.respond(1, &i, &u, &f, &D, &W);
+            const double a = std::sqrt(law_.area(i, u) / std::numbers::pi);
+            Limits limits{0, 0, kInfinity, D / (2 * a), a * a / u};
+            const auto stands = [&](double at) { return attracting(limits, at).du >= 0; };
+            double high = z0_;
+            while (!stands(high)) high *= 2;
+            limits.least = border(high, 1e-12 * high, stands);
+            limits.lets_go = attracting(limits, limits.least).u;
+            limits_.push_back(limits);
+            continue;
+        }
         // A small contact is that of a paraboloid, where l h is proportional to s^(-3/4).
         double s = 1e-100;
         const double start = std::pow(spreading(i, s), 4.0 / 3) * s;  // l h = 1 of the paraboloid
@@ -75,11 +90,53 @@ Sticking::State Sticking::bare(int asperity, double s) const {
     state.df = D * (1 - 3 * lh);
     state.stiffness = D;
     state.energy = W0 - 2 * h * f0 + w_ * A;
-    state.area = A;
+    state.area = state.outer = A;
+    return state;
+}
+
+Sticking::State Sticking::attracting(const Limits& of, double s) const {
+    using std::numbers::pi;
+    const double r = of.r, E = of.E, s0 = w_ / z0_, c = std::sqrt(r * s);
+    const auto missing = [&](double beta) {  // of the gap at c
+        const double half = std::sin(0.5 * beta);
+        return c * c / (pi * r) * (0.5 * std::sin(2 * beta) - beta * std::cos(2 * beta)) +
+               4 * s0 * c / (pi * E) * (beta * std::sin(beta) - 2 * half * half) - z0_;
+    };
+    double beta = 0.5 * pi;
+    if (missing(beta) > 0) {
+        std::uintmax_t steps = 100;
+        const auto [low, high] =
+            boost::math::tools::toms748_solve(missing, 0.0, beta, boost::math::tools::eps_tolerance<double>(52), steps);
+        beta = 0.5 * (low + high);
+    }
+    const bool apart = beta == 0.5 * pi;
+    const double a = apart ? 0 : c * std::cos(beta), e = c * std::sin(beta), alpha = 0.5 * pi - beta;
+    State state;
+    state.u = apart ? 0.5 * c * c / r - 4 * s0 * c / (pi * E) - z0_ : a * a / r - 2 * s0 * e / E;
+    const double root = 0.5 * (a * e + c * c * alpha);  // int_0^a sqrt(c^2 - t^2) dt
+    state.f = 2 * E * a * (state.u - a * a / (3 * r)) - 4 * s0 * (0.25 * pi * c * c - root);
+    // Along c: the gap at c stays z0 while a changes, u_a da = G_c/(2 beta/pi) dc.
+    const double u_c = -2 * s0 * c / (E * e);
+    const double G_c = c / r - u_c * 2 * beta / pi + 2 / pi * ((a * e / c - c * alpha) / r - 2 * s0 / E * (1 - a / c));
+    const double to_s = 0.5 * r / c, slope = apart ? c / r - 4 * s0 / (pi * E) : u_c + G_c * 0.5 * pi / beta;
+    state.du = to_s * slope;
+    state.df = to_s * (2 * E * a * slope - 4 * s0 * c * beta);
+    state.stiffness = 2 * E * c;
+    state.area = pi * a * a;
+    state.outer = pi * c * c;
+    // E int_0^c chi^2 dt with chi = u - t^2/r in the contact, -(2 s0/E) sqrt(c^2 - t^2) beyond, and what is gained over the gaps.
+    const double u = state.u, elastic = E * a * (u * u - 2.0 / 3 * u * a * a / r + a * a * a * a / (5 * r * r)) +
+                                        4 * s0 * s0 / E * (2.0 / 3 * c * c * c - c * c * a + a * a * a / 3);
+    const double root2 = 0.125 * (c * c * c * c * alpha - a * e * (c * c - 2 * a * a));  // int_0^a t^2 sqrt(c^2 - t^2) dt
+    const double sunk = 4 * (u * root - root2 / r - 2 * s0 / E * (2.0 / 3 * c * c * c - c * c * a + a * a * a / 3) -
+                             0.25 * pi * a * a * (u - 0.25 * a * a / r));  // int of the displacement over the cohesive ring
+    const double gaps = 0.25 * pi * (c * c * c * c - a * a * a * a) / r - u * pi * e * e + sunk;
+    state.energy = elastic - s0 * (z0_ * pi * c * c - gaps);
     return state;
 }
 
 Sticking::State Sticking::at(int asperity, double s) const {
+    if (z0_ > 0) return attracting(limits_[place(asperity)], s);
     const double last = limits_[place(asperity)].last;
     if (!(s > last)) return bare(asperity, s);
     State state = bare(asperity, last);

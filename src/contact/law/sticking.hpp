@@ -10,6 +10,15 @@
 // A free one attaches at u = 0. An elliptic contact is taken for one whose edge is in equilibrium on the average over the edge.
 // Law 'fourth_order': where l h reaches 1/3 again, short of the trough around the summit, the contact would run on by itself to the trough.
 // From there on the radius stays and the stiffness with it, as without adhesion beyond the trough; such contacts count as beyond the law.
+//
+// With a range z0 of the attraction (Maugis 1992; Dugdale's traction s0 = w/z0 over gaps below z0) an asperity has the contact radius a and
+// attracts up to the radius c; s = c^2/r then. Its law must be a paraboloid's, f0 ~ s^(3/2): with modulus E and radius r (an ellipse as the
+// circle of its area), e^2 = c^2 - a^2 and cos(beta) = a/c,
+//     u = a^2/r - 2 s0 e/E,   f = 2 E (u a - a^3/(3 r)) - 4 s0 (pi c^2/4 - int_0^a sqrt(c^2 - t^2) dt),
+//     z0 = (c^2 beta + a e - 2 a^2 beta)/(pi r) + (4 s0/(pi E)) (e beta - c + a)     the gap at c
+// and before contact, a = 0, u = c^2/(2 r) - 4 s0 c/(pi E) - z0, f = -pi s0 c^2 (Kim, McMeeking and Johnson 1998): u and f and their slopes
+// go over into each other. A free one attaches at u = -z0. D = 2 E c stands for the stiffness, which may be any positive one
+// (solver/attached.hpp).
 #pragma once
 
 #include "contact/law/law.hpp"
@@ -18,8 +27,10 @@ namespace rsc {
 
 class Sticking {
 public:
-    // w: work of adhesion [force/length], positive. The law must outlive this.
-    Sticking(Law& law, double w) : law_(law), w_(w) {}
+    // w: work of adhesion [force/length], positive; range: z0 [length], 0 is JKR. The law must outlive this.
+    Sticking(Law& law, double w, double range = 0) : law_(law), w_(w), z0_(range) {}
+
+    double touches() const { return -z0_; }  // the penetration at which a free asperity attaches
 
     // Must come before anything else is asked of these asperities.
     void prepare(std::span<const int> asperities);
@@ -31,6 +42,7 @@ public:
         double stiffness = 0;   // D: df/du at a fixed contact area
         double energy = 0;      // elastic energy less w A; at equilibrium with its neighbours fixed its derivative by u is f
         double area = 0;
+        double outer = 0;     // with what attracts around it
         bool beyond = false;  // the radius stays
     };
     State at(int asperity, double s) const;
@@ -42,14 +54,16 @@ public:
 private:
     struct Limits {
         double least = 0, lets_go = 0;
-        double last = 0;  // from here on the radius stays; Infinity: nowhere
+        double last = 0;      // from here on the radius stays; Infinity: nowhere
+        double E = 0, r = 0;  // of the paraboloid, where there is a range
     };
+    State attracting(const Limits& of, double s) const;
     std::size_t place(int asperity) const { return static_cast<std::size_t>(place_[static_cast<std::size_t>(asperity)]); }
     State bare(int asperity, double s) const;        // as if `last` were Infinity
     double spreading(int asperity, double s) const;  // l h
 
     Law& law_;
-    double w_;
+    double w_, z0_;
     std::vector<int> place_;  // of an asperity in limits_; -1: not prepared
     std::vector<Limits> limits_;
 };

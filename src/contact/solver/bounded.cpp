@@ -9,6 +9,7 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kThreads = 100000;  // pixels from which threads pay
+constexpr int kRows = 8;                  // that a thread takes at a time
 
 }  // namespace
 
@@ -16,12 +17,11 @@ template <class F>
 double BoundedSolver::sum(F&& of) {
     const int rows = static_cast<int>(rows_.size()) - 1;
     partial_.resize(at(rows));
-#pragma omp parallel for schedule(static) num_threads(omp_team(p_.size() >= kThreads && rows > 1 ? kEveryThread : 1))
-    for (int j = 0; j < rows; ++j) {
+    parallel_for(rows, kRows, p_.size() >= kThreads ? 0 : 1, [&](int j) {
         double part = 0;
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) part += of(k);
         partial_[at(j)] = part;
-    }
+    });
     return std::accumulate(partial_.begin(), partial_.end(), 0.0);
 }
 
@@ -69,7 +69,8 @@ void BoundedSolver::descend(int most_steps, double reduction) {
     for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 1 : 0;
     // A correction by a constant pressure, as a punch's, is cheap, the more so the fuller the contact.
     double whole = 0, punch = 0;
-    if (manner_.repeats) {
+    const bool constant = manner_.repeats || wanted_;
+    if (constant) {
         if (plain)
             one_ = residual;
         else
@@ -88,7 +89,7 @@ void BoundedSolver::descend(int most_steps, double reduction) {
             y_ = residual;
         else
             precondition(residual, y_);
-        if (manner_.repeats) {
+        if (constant) {
             const double c = wanted_ ? -sum([&](std::size_t k) { return y_[k]; }) / whole : punch * product(one_, residual);
             for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
         }

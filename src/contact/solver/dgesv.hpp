@@ -1,4 +1,4 @@
-// The paper's method (section 4): regularised Newton on the forces with the dense matrix, every step solved by LAPACK dgesv.
+// The paper's method (section 4): regularised Newton iteration for the forces with the dense matrix, solved by LAPACK dgesv.
 #pragma once
 
 #include "contact/interaction/kernel.hpp"
@@ -10,26 +10,25 @@ namespace rsc {
 struct PaperMethod {
     double delta0;     // first regularisation length delta [length]
     double cut;        // delta is divided by this each iteration
-    double tolerance;  // on |dF|/|F| and on the unregularised residual
+    double tolerance;  // for |dF|/|F| and for the unregularised residual
     int max_iterations;
 };
 
 struct PaperOutcome {
     bool converged = false;
-    bool singular = false;  // dgesv found no pivot
+    bool singular = false;  // dgesv reported a singular matrix
     int iterations = 0;     // dgesv solves
     double residual = 0;    // |F - f(<g0 - B F>)| / |F|, unregularised
     double delta = 0;       // of the last iteration [length]
 };
 
-// One iteration's equations at the forces F, v = g0 - B F: the residual R = F - f(m(v, delta)) with the smooth, positive
-// m(x, delta) = delta^2/(2 delta - x) for x < delta, x otherwise, in place of <x>; and K = dR/dF = I + diag(f'(m) dm/dx) B,
-// column-major, n x n.
+// Equations of one iteration at the forces F, v = g0 - B F. The residual is R = F - f(m(v, delta)), where the smooth and positive m(x,
+// delta) = delta^2/(2 delta - x) for x < delta, otherwise x, replaces <x>. K = dR/dF = I + diag(f'(m) dm/dx) B is n x n, column-major.
 void paper_equations(const Law& law, const Kernel& kernel, const WorkingSet& set, double delta, const std::vector<double>& force,
                      const std::vector<double>& v, std::vector<double>& R, double* K);
 
-// Forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F. Needs 8 n^2 bytes: throws
-// Error(no_memory) when they are refused.
+// Solves for the forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F. Throws Error(no_memory)
+// if the 8 n^2 bytes cannot be allocated.
 PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set, const PaperMethod& method, std::vector<double>& v,
                             std::vector<double>& force);
 

@@ -18,6 +18,7 @@ constexpr int kQuick = 30;  // rounds: sets that settle do so in some ten
 constexpr double kDeep = 0.55;
 // Full products are taken from where inner ones no longer tell, in units of their error.
 constexpr double kInnerReach = 10;
+constexpr double kChange = 0.05;  // of the tolerance: error of an exact product that was got from an earlier one
 
 }  // namespace
 
@@ -108,7 +109,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
             }
         }
     }
-    position_.clear(), set_.clear(), z_.clear(), p_.clear(), w_.clear();
+    position_.clear(), set_.clear(), z_.clear(), p_.clear(), w_.clear(), full_p_.clear();
     for (std::size_t k = 0; k < n; ++k) {
         if (!in[k]) continue;
         position_.push_back(static_cast<int>(k));
@@ -120,9 +121,25 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     if (!set_.empty()) products_.set_pixels(set_);
 }
 
+// An exact product is a full one, or the last full one plus a cheaper product with what has changed since: the error of that is relative to the
+// change.
 void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) {
-    Kx.resize(x.size());
-    products_.apply(x.data(), Kx.data(), exact ? Accuracy::full : Accuracy::inner);
+    const std::size_t n = x.size();
+    Kx.resize(n);
+    if (!exact) return products_.apply(x.data(), Kx.data(), Accuracy::inner);
+    if (full_p_.size() == n) {
+        double change = 0, all = 0;
+        r_.resize(n);
+        for (std::size_t k = 0; k < n; ++k) r_[k] = x[k] - full_p_[k], change += r_[k] * r_[k], all += x[k] * x[k];
+        for (const Accuracy accuracy : {Accuracy::inner, Accuracy::between}) {
+            if (!(products_.error(accuracy) * std::sqrt(change) <= kChange * tolerance_ * std::sqrt(all))) continue;
+            products_.apply(r_.data(), Kx.data(), accuracy);
+            for (std::size_t k = 0; k < n; ++k) Kx[k] += full_w_[k];
+            return;
+        }
+    }
+    products_.apply(x.data(), Kx.data(), Accuracy::full);
+    full_p_ = x, full_w_ = Kx;
 }
 
 void ElementsSolver::freed() {
@@ -143,8 +160,8 @@ void ElementsSolver::precondition(const std::vector<double>& r, std::vector<doub
         if (free_[k]) y[k] = y_[l++];
 }
 
-bool ElementsSolver::judge_exactly(bool, double, int rounds) {
-    const double guess = error();
+bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
+    const double guess = wanted_ ? kReduction * residual : error();  // Z0 is not known before the next product
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ || rounds > kQuick;
 }
 
@@ -169,7 +186,7 @@ long ElementsSolver::join() {
     // Pixels are selected by inner products; those within their error are added, and checked by full products.
     const double margin = 1 - 3 * products_.inner_error();
     for (std::size_t k = 0; k < others.size(); ++k) {
-        if (!(w[k] * margin < (*g0_)[at(where[k])])) continue;
+        if (!(w[k] * margin < (*g0_)[at(where[k])] - Z0_)) continue;
         member_[at(where[k])] = 1;
         ++joined;
     }
@@ -189,10 +206,12 @@ bool ElementsSolver::complete(bool solved, double residual) {
 }
 
 ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance,
-                                      int most_iterations, std::vector<double>& p) {
+                                      int most_iterations, std::vector<double>& p, std::optional<double> sum) {
     const long before = products_.count();
     pixels_ = &pixels, g0_ = &g0;
     tolerance_ = tolerance;
+    wanted_ = sum;
+    Z0_ = 0;
     member_.assign(pixels.size(), 0);
     looked_ = false;
     for (double& v : p) v = std::min(v, highest_);
@@ -215,6 +234,7 @@ void ElementsSolver::press_out(std::vector<Pixel>& pixels, std::vector<double>& 
 
 double ElementsSolver::stiffness(double tolerance, bool back) {
     constexpr int rounds = 60;
+    tolerance_ = tolerance;
     return BoundedSolver::stiffness(back, tolerance, rounds, 4 * kSteps, std::max(0.1 * products_.inner_error(), 1e-3));
 }
 

@@ -15,8 +15,11 @@ public:
 
     // Pixels that may touch, row by row (y, then x), their penetrations without deformation g0 > 0 [length], and pressures to start
     // from (all zero: a start is made here), which become the answer; all in the pixels' order.
+    // With a `sum` of the pressures, g0 is known but for a constant: the answer is that for g0 - rise(). Pressures to start from are then
+    // wanted, and rise() < 0 means that pixels may be missing.
     ElementsOutcome solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance, int most_iterations,
-                          std::vector<double>& p);
+                          std::vector<double>& p, std::optional<double> sum = std::nullopt);
+    double rise() const { return Z0_; }
 
     // Plastic residual of the last solution: pixels at the highest pressure with w < 0, and -w, row by row. It is subtracted from g0: the
     // same pressures then leave no penetration anywhere.
@@ -48,7 +51,8 @@ private:
     // The working set: positions in the pixels given, places.
     std::vector<int> position_;
     std::vector<Pixel> set_;
-    std::vector<double> r_, y_;  // over the free ones
+    std::vector<double> r_, y_;            // over the free ones
+    std::vector<double> full_p_, full_w_;  // of the last full product with this set
     SpotBlocks blocks_;
 };
 

@@ -15,7 +15,7 @@ void dstev_(const char* jobz, const int* n, double* d, double* e, double* z, con
 namespace rsc::lapack {
 namespace {
 
-// True if the system refuses memory that it does not have, instead of killing the process when it is used.
+// True if the system refuses allocations beyond its limits, instead of ending the process when the memory is used.
 bool memory_is_limited() {
     for (const auto what : {RLIMIT_AS, RLIMIT_DATA}) {
         rlimit limit{};

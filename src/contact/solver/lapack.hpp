@@ -1,11 +1,11 @@
-// The few LAPACK routines rsc calls.
+// Wrappers of the LAPACK routines used by rsc.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc::lapack {
 
-// Solves A x = b in place by dgesv (A: n x n, column-major, overwritten). False when A is singular to working precision.
+// Solves A x = b in place by dgesv (A: n x n, column-major, overwritten). Returns false if A is singular to working precision.
 bool solve(int n, double* A, double* b, std::vector<int>& pivots);
 
 // True if the symmetric matrix A (n x n, overwritten) is positive definite, by dpotrf. A must be finite.

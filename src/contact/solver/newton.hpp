@@ -1,13 +1,13 @@
-// Newton's method on the active set, globalised by a trust region on the energy (paper's equation F = C<G0 - B F>^(3/2), in
-// the penetrations).
+// Newton's method on the active set, globalised by a trust region on the energy, for the paper's equation F = C<G0 - B F>^(3/2) in terms of
+// penetrations.
 //
-// Unknown: v, the penetration with interaction at every point of the working set (negative: no contact), F = f(<v>).
+// Unknowns: the penetrations v with interaction at all points of the working set (negative: no contact); F = f(<v>).
 //     v + B F(v) = g0                                                                            equation
 //     (I + S B S) w = -S res on the active set {v > 0}, S = sqrt(D), D = df/dv, dv = w/S          Newton step
 //     E(F) = F'BF/2 + sum(f v - W(v)) - g0'F over F >= 0, dE/dF = res = v + B F - g0              energy
-// The energy is coercive on F >= 0 since B has no negative entry, so a minimum always exists; where spots overlap, I + S B S may be
-// indefinite. Steihaug's conjugate gradients follow the negative curvature to the border of the trust region; a point where the
-// gradient vanishes is accepted only if I + S B S is positive definite there, and left along its lowest eigenvector otherwise.
+// B has no negative elements, so the energy is coercive on F >= 0 and has a minimum. I + S B S may be indefinite if spots overlap:
+// Steihaug's conjugate gradients follow negative curvature to the border of the trust region. A stationary point is accepted only if I + S
+// B S is positive definite there; otherwise it is left along the lowest eigenvector.
 #pragma once
 
 #include "contact/interaction/products.hpp"
@@ -15,7 +15,7 @@
 
 namespace rsc {
 
-// The problem on the working set: point k is asperity[k], at (x[k], y[k]), with penetration g0[k] without interaction.
+// Working set: point k is asperity[k] at (x[k], y[k]), with the penetration g0[k] without interaction.
 struct WorkingSet {
     std::vector<int> asperity;
     std::vector<double> x, y, g0;
@@ -24,43 +24,42 @@ struct WorkingSet {
 
 struct NewtonOutcome {
     bool converged = false;
-    bool minimum = true;  // second-order condition holds, if it was checked
+    bool minimum = true;  // the second-order condition holds (if it was checked)
     int iterations = 0;
     double residual = 0;  // |F - f(<g0 - B F>)| / |F|
 };
 
-// |error|/|force|, also where squares overflow or vanish; 1 when there is no force, or none that is finite, and an error.
+// |error|/|force|, without overflow or underflow of squares; 1 if the force is zero or not finite but the error is not zero.
 double relative_residual(const std::vector<double>& error, const std::vector<double>& force);
 
 class Newton {
 public:
     explicit Newton(const Law& law) : law_(law) {}
 
-    // The products with B to use from now on; they must outlive their use here.
+    // Sets the products with B, which must remain valid.
     void use(Products& products) { products_ = &products; }
 
-    // From v (size of the set), to the solution in v, force(), phi(). Products must have been given the set's points. Whether it is a
-    // minimum is asked unless an approximation is all that is wanted, or uniqueness, which says more, is asked afterwards.
+    // Solves from the start v (size of the set); the solution is in v, force() and phi(). The products must have the points of the set.
+    // ask_minimum = false omits the test for a minimum, for approximations or if uniqueness is tested afterwards.
     NewtonOutcome solve(const WorkingSet& set, double tolerance, int max_iterations, std::vector<double>& v, bool ask_minimum = true);
 
     // True if the solution of this set, found by solve() without this check, is a minimum.
     bool at_minimum(const WorkingSet& set);
 
-    // Takes v as the solution found by other means, so that everything below speaks of it. Products as in solve().
+    // Sets v as the solution, to which the functions below then refer. Products as in solve().
     void take(const WorkingSet& set, const std::vector<double>& v);
 
-    double energy() const { return now_.energy; }                    // E(F): second order in the error of F
+    double energy() const { return now_.energy; }                    // E(F), with an error of second order in that of F
     const std::vector<double>& force() const { return now_.force; }  // F over the working set
     const std::vector<double>& slope() const { return now_.slope; }  // D over the working set
     const std::vector<double>& phi() const { return now_.phi; }      // B F over the working set
 
-    // At the solution: B F at n other places, in single precision.
+    // B F of the solution at n other points, in single precision.
     void potential_at(std::size_t n, const double* x, const double* y, double* phi);
 
-    // At the solution: the solution of (I + B D) dv = -1 on the active set gives dN/dZ0 = sum D dv, to the tolerance or the accuracy of
-    // full products.
+    // dN/dZ0 = sum D dv at the solution, where (I + B D) dv = -1 on the active set, to the tolerance or the accuracy of full products.
     double stiffness(double tolerance);
-    // The same to some 1e-3.
+    // dN/dZ0 with an error of some 1e-3.
     double rough_stiffness();
 
 private:
@@ -68,11 +67,11 @@ private:
         std::vector<double> v, force, slope, work, phi, res;
         std::vector<int> active;
         double energy = 0, scale = 0, residual = 0;
-        bool accurate = false;  // phi from a full product
+        bool accurate = false;  // phi is from a full product
     };
     struct Step {
         std::vector<double> dv;
-        double norm = 0;       // of w
+        double norm = 0;       // norm of w
         double predicted = 0;  // decrease of the quadratic model
         bool border = false, negative_curvature = false;
     };

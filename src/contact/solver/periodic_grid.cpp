@@ -7,6 +7,7 @@ namespace {
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr int kThreads = 400000;  // pixels from which threads pay
+constexpr int kRows = 8;          // that a thread takes at a time
 // The preconditioner's reach, and numbers of a row of its table: those beyond the reach are 0.
 constexpr int kReach = 4, kTaps = 12;
 // A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
@@ -56,6 +57,8 @@ PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double hi
         }
 }
 
+int PeriodicGrid::threads() const { return nx_ >= kThreads / ny_ ? 0 : 1; }
+
 PeriodicGrid::Share PeriodicGrid::share() const {
     if (!share_) return {};
     return [this](double k) { return share_(k / unit_); };
@@ -71,11 +74,11 @@ bool PeriodicGrid::can_be_coarsened() const { return nx_ % 2 == 0 && ny_ % 2 == 
 std::unique_ptr<PeriodicGrid> PeriodicGrid::coarsened(std::vector<double>& storage) const {
     const int nx = nx_ / 2, ny = ny_ / 2;
     storage.resize(at(nx) * at(ny));
-#pragma omp parallel for schedule(static) num_threads(omp_team(nx_ >= kThreads / ny_ ? kEveryThread : 1))
-    for (int j = 0; j < ny; ++j)
+    parallel_for(ny, kRows, threads(), [&](int j) {
         for (int i = 0; i < nx; ++i)
             storage[at(j) * at(nx) + at(i)] =
                 0.25 * (heights_(2 * j, 2 * i) + heights_(2 * j, 2 * i + 1) + heights_(2 * j + 1, 2 * i) + heights_(2 * j + 1, 2 * i + 1));
+    });
     return std::make_unique<PeriodicGrid>(nx, ny, aspect_, 2 * unit_, highest_, StoredHeights{storage.data(), nx, 0, 1}, share_);
 }
 
@@ -175,12 +178,11 @@ void PeriodicGrid::penetrating(int j, F&& visit) const {
 
 double PeriodicGrid::outside() {
     partial_.resize(at(ny_));
-#pragma omp parallel for schedule(static) num_threads(omp_team(nx_ >= kThreads / ny_ ? kEveryThread : 1))
-    for (int j = 0; j < ny_; ++j) {
+    parallel_for(ny_, kRows, threads(), [&](int j) {
         double part = 0;
         penetrating(j, [&](int, std::ptrdiff_t k, double w) { part += k < 0 ? w * w : 0.0; });
         partial_[at(j)] = part;
-    }
+    });
     return std::accumulate(partial_.begin(), partial_.end(), 0.0);
 }
 
@@ -188,22 +190,20 @@ double PeriodicGrid::outside() {
 void PeriodicGrid::renew() {
     const auto belongs = [&](std::ptrdiff_t k, double w) { return w < 0 || p_[static_cast<std::size_t>(k)] > 0; };
     std::vector<std::size_t> rows(at(ny_) + 1, 0);
-    const auto parallel = nx_ >= kThreads / ny_;
-#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
-    for (int j = 0; j < ny_; ++j) penetrating(j, [&](int, std::ptrdiff_t k, double w) { rows[at(j) + 1] += belongs(k, w); });
+    parallel_for(ny_, kRows, threads(),
+                 [&](int j) { penetrating(j, [&](int, std::ptrdiff_t k, double w) { rows[at(j) + 1] += belongs(k, w); }); });
     for (int j = 0; j < ny_; ++j) rows[at(j) + 1] += rows[at(j)];
     const std::size_t n = rows.back();
     std::vector<std::int32_t> column(n);
     std::vector<double> p(n), w(n), z(n);
-#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
-    for (int j = 0; j < ny_; ++j) {
+    parallel_for(ny_, kRows, threads(), [&](int j) {
         std::size_t next = rows[at(j)];
         penetrating(j, [&](int i, std::ptrdiff_t k, double gap) {
             if (!belongs(k, gap)) return;
             column[next] = i, z[next] = heights_(j, i), w[next] = gap;
             p[next++] = k < 0 ? 0.0 : p_[static_cast<std::size_t>(k)];
         });
-    }
+    });
     rows_ = std::move(rows), column_ = std::move(column);
     p_ = std::move(p), w_ = std::move(w), z_ = std::move(z);
 }
@@ -211,16 +211,13 @@ void PeriodicGrid::renew() {
 // y = the part of K^-1 that reaches no farther than kReach pixels, of r, over the free pixels.
 void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double>& y) {
     y.resize(r.size());
-    const auto parallel = nx_ >= kThreads / ny_;
-#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
-    for (int j = 0; j < ny_; ++j) {
+    parallel_for(ny_, kRows, threads(), [&](int j) {
         float* const row = inner_.row(j);
         std::fill_n(row, nx_, 0.0f);
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) row[column_[k]] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
-    }
+    });
     const auto around = [](int v, int n) { return ((v % n) + n) % n; };
-#pragma omp parallel for schedule(static) num_threads(omp_team(parallel ? kEveryThread : 1))
-    for (int j = 0; j < ny_; ++j) {
+    parallel_for(ny_, kRows, threads(), [&](int j) {
         const float* rows[2 * kReach + 1];
         for (int b = -kReach; b <= kReach; ++b) rows[b + kReach] = inner_.row(around(j + b, ny_));
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) {
@@ -243,7 +240,7 @@ void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double
             for (float v : sum) total += v;
             y[k] = static_cast<double>(total);
         }
-    }
+    });
 }
 
 bool PeriodicGrid::judge_exactly(bool exact, double residual, int) { return exact || residual < kSingle; }

@@ -67,6 +67,8 @@ private:
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
 
+    int threads() const;  // for loops over rows
+
     int nx_, ny_;
     double aspect_, unit_;
     StoredHeights heights_;

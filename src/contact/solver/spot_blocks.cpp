@@ -8,29 +8,25 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Inverts A (n x n, by rows) in place: lower triangle of the Cholesky factor L, then A^-1 = L^-T L^-1. Sums run along rows, so that they
-// vectorise.
+// The Cholesky factor of A (n x n by rows), A = L L^T with L^T in the upper triangle, then A^-1 = L^-T L^-1. In place; the inner loops run
+// along rows and sum nothing up, so that they become vectors.
 RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A, double* inverse) {
-    for (std::size_t i = 0; i < n; ++i) {
-        double* row = A + i * n;
-        for (std::size_t j = 0; j < i; ++j) {
-            const double* other = A + j * n;
-            double sum = 0;
-#pragma omp simd reduction(+ : sum)
-            for (std::size_t k = 0; k < j; ++k) sum += row[k] * other[k];
-            row[j] = (row[j] - sum) * other[j];  // other[j] holds 1/L_jj
+    for (std::size_t k = 0; k < n; ++k) {
+        double* row = A + k * n;
+        row[k] = 1 / __builtin_sqrt(row[k]);  // 1/L_kk
+        for (std::size_t j = k + 1; j < n; ++j) row[j] *= row[k];
+        for (std::size_t i = k + 1; i < n; ++i) {
+            double* to = A + i * n;
+            const double factor = row[i];
+            for (std::size_t j = i; j < n; ++j) to[j] -= factor * row[j];
         }
-        double sum = 0;
-#pragma omp simd reduction(+ : sum)
-        for (std::size_t k = 0; k < i; ++k) sum += row[k] * row[k];
-        row[i] = 1 / __builtin_sqrt(row[i] - sum);
     }
     // L^-1 by rows in `inverse` (lower triangle).
     for (std::size_t i = 0; i < n; ++i) {
         double* to = inverse + i * n;
         for (std::size_t j = 0; j < i; ++j) to[j] = 0;
         for (std::size_t k = 0; k < i; ++k) {
-            const double factor = A[i * n + k];
+            const double factor = A[k * n + i];
             const double* from = inverse + k * n;
             for (std::size_t j = 0; j <= k; ++j) to[j] -= factor * from[j];
         }
@@ -147,8 +143,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
         b = e;
     }
     std::erase_if(known_, [](const auto& entry) { return !entry.second.wanted; });
-#pragma omp parallel for schedule(dynamic, 1) num_threads(omp_team(fresh.size() > 100 ? kEveryThread : 1))
-    for (std::size_t f = 0; f < fresh.size(); ++f) {
+    parallel_for(fresh.size(), 1, fresh.size() > 100 ? 0 : 1, [&](std::size_t f) {
         const Shape& shape = *fresh[f].first;
         const std::size_t n = shape.size();
         std::vector<double> A(n * n), inverse(n * n);
@@ -158,7 +153,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
         for (double& v : A) v /= unit;
         invert(n, A.data(), inverse.data());
         fresh[f].second->values.assign(A.begin(), A.end());
-    }
+    });
     blocks_.push_back({key.size(), nullptr});
 }
 
@@ -166,14 +161,13 @@ void SpotBlocks::apply(const double* r, double* z) const {
     double unit = 0;  // scales the values for single precision
     for (std::size_t k = 0; k < members_.size(); ++k) unit = std::max(unit, std::abs(r[k]));
     if (!(unit > 0)) unit = 1;
-#pragma omp parallel for schedule(static) num_threads(omp_team(members_.size() > 30000 ? kEveryThread : 1))
-    for (std::size_t b = 0; b < blocks_.size() - 1; ++b) {
+    parallel_for(blocks_.size() - 1, 64, members_.size() > 30000 ? 0 : 1, [&](std::size_t b) {
         const std::size_t begin = blocks_[b].begin, n = blocks_[b + 1].begin - begin;
         float x[kMostPixels], y[kMostPixels];
         for (std::size_t k = 0; k < n; ++k) x[k] = static_cast<float>(r[members_[begin + k]] / unit);
         multiply(n, blocks_[b].inverse->values.data(), x, y);
         for (std::size_t k = 0; k < n; ++k) z[members_[begin + k]] = unit * static_cast<double>(y[k]);
-    }
+    });
 }
 
 }  // namespace rsc

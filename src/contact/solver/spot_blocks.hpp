@@ -1,19 +1,19 @@
-// Every contact spot solved alone: the preconditioner of the elements' conjugate gradients.
+// Preconditioner of the conjugate gradients of boundary elements: inverse of K on every contact spot.
 #pragma once
 
 #include "contact/interaction/pixel_products.hpp"
 
 namespace rsc {
 
-// Connected sets (by sides) of pixels given row by row (by y, then x): label[k] is the set of pixel k, numbered from 0 in the order
-// of their first pixels. Returns how many there are. With a period (columns, rows; 0: none) sets are joined across the edges.
+// Finds sets of pixels connected by sides, for pixels sorted by row (y, then x). label[k] is the set of pixel k, numbered from 0 in the
+// order of their first pixels. Returns the number of sets. With a period (columns, rows; 0: none) sets are joined across the edges.
 int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, int period_x = 0, int period_y = 0);
 
-// Block Jacobi: the inverse of K on each connected set of pixels; sets of more than kMostPixels are cut along a lattice of squares.
-// Blocks of one shape share their inverse, also with earlier sets.
+// Block Jacobi preconditioner: the inverse of K on each connected set of pixels; sets of more than kMostPixels are divided along a lattice
+// of squares. Blocks of equal shape share their inverse, also with earlier sets.
 class SpotBlocks {
 public:
-    // Pixels row by row, as for connected_sets.
+    // Sets the pixels, row by row as for connected_sets().
     void assign(const std::vector<Pixel>& pixels, const PixelProducts& products);
     // z = M^-1 r over the pixels, in their order.
     void apply(const double* r, double* z) const;
@@ -36,7 +36,7 @@ private:
     };
     std::map<Shape, Inverse, Less> known_;
     std::vector<Block> blocks_;
-    std::vector<int> members_;  // positions of the blocks' pixels
+    std::vector<int> members_;  // positions of the pixels of the blocks
 };
 
 }  // namespace rsc

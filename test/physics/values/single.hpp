@@ -218,7 +218,9 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
                     const double way = pi * (a + 0.5) / angles, g2 = fit.aspect;
                     const double q = k * std::sqrt(g2 * std::pow(std::cos(way), 2) + std::pow(std::sin(way), 2) / g2);
                     const double line = fit.Phi0.value * std::pow(q / fit.kl.value, -2 * (1 + fit.hurst.value));
-                    sum += q > fit.ks.value * (1 + 1e-12) ? 0 : q < fit.kl.value * (1 - 1e-12) ? (fit.plateau ? fit.Phi0.value : 0) : line;
+                    sum += q > fit.ks.value * (1 + 1e-12)                  ? 0
+                           : fit.kl_seen && q < fit.kl.value * (1 - 1e-12) ? (fit.plateau ? fit.Phi0.value : 0)
+                                                                           : line;
                 }
                 v.push_back(sum / angles);
             }

@@ -1,0 +1,350 @@
+#include "contact/adhesive_elements.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "contact/pixel_spots.hpp"
+#include "contact/solver/elements.hpp"
+#include "contact/solver/periodic_elements.hpp"
+#include "contact/validity.hpp"
+#include "error.hpp"
+#include "format.hpp"
+#include "rough/parallel.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kCoarsest = 0.5;     // z0 over the side of a pixel
+constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
+// Renewals after which pixels no longer leave the points that attract, so that renewals come to an end; and at most.
+constexpr int kQuick = 200, kMost = 2000;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+// What the accepted levels leave.
+struct Past {
+    double separation = kInfinity, force = 0, work = 0, least_force = 0;
+    std::vector<std::int32_t> attracting;  // increasing
+};
+
+}  // namespace
+
+struct AdhesiveElements::Impl {
+    const HeightMap& heights;
+    Indenter indenter;
+    SolverOptions options;
+    double s0, z0, pixel;
+    HeightMap raised;                         // between flats: what the solver sees
+    std::unique_ptr<PeriodicElements> flats;  // between flats
+    std::unique_ptr<PixelProducts> products, field;
+    std::optional<ElementsSolver> spots;
+
+    // Over the points of the map: clearance under the indenter, pressure + s0, whether it attracts.
+    std::vector<double> clearance, q;
+    std::vector<char> on;
+    double top = -kInfinity;
+    // Points within reach, row by row; how far the attraction raises each, and its gap.
+    std::vector<std::int32_t> reach;
+    std::vector<double> lift, gap;
+    double margin = 0;  // by which points may be raised
+
+    Past accepted, now;
+    double energy = 0;
+
+    Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
+        : heights(heights_),
+          indenter(indenter_),
+          options(options_),
+          s0(options.adhesion.work / options.adhesion.range),
+          z0(options.adhesion.range),
+          pixel(heights.dx * heights.dy) {
+        const auto refuse = [](const std::string& what) { throw Error(Failure::bad_input, "solids%adhesion: " + what); };
+        if (!(z0 > 0)) refuse("elements need a range: solids%adhesion_range > 0 (JKR is its limit)");
+        if (std::isfinite(options.hardness.H0)) refuse("with solids%hardness it is not available yet");
+        if (!options.relaxation.none()) refuse("with solids%relaxation_share it is not available yet");
+        if (resolution() < kCoarsest)
+            refuse(format("solids%%adhesion_range = %.6g is %.2g of a pixel's side; elements need half of it, and are better with two", z0,
+                          resolution()));
+        const Substrate body = substrate_of(indenter);
+        if (indenter.period.finite()) {
+            raised = heights.copy();
+            place();
+            flats = std::make_unique<PeriodicElements>(Relief{raised.nx, raised.ny, raised.dx, raised.dy, raised.data.get(), raised.stride},
+                                                       body, kInfinity);
+        } else {
+            if (body.smooth()) refuse("of elements on a free surface with layers it is not available yet");
+            products = make_tree_products(body, heights.dx, heights.dy, kInnerError, 0.1 * options.tolerance);
+            field = make_tree_products(body, heights.dx, heights.dy, kInnerError, 0.1 * options.tolerance);
+            spots.emplace(*products, kInfinity);
+            place();
+        }
+    }
+
+    double resolution() const { return z0 / std::max(heights.dx, heights.dy); }
+    Pixel at_point(std::int32_t k) const { return {k % heights.nx, k / heights.nx}; }
+    void place();
+    void gather(double Z);
+    bool renew(double Z, Level& level);
+    bool press(double Z, Level& level);
+    std::vector<double> deflections(const std::vector<double>& p);
+    Level solve(double Z);
+};
+
+// Under the tip where it is now, with nothing attracting.
+void AdhesiveElements::Impl::place() {
+    const std::size_t n = at(heights.nx) * at(heights.ny);
+    clearance.resize(n);
+    q.assign(n, 0.0), on.assign(n, 0);
+    for (int j = 0; j < heights.ny; ++j)
+        for (int i = 0; i < heights.nx; ++i) {
+            const double z = indenter.clearance(heights.x0 + i * heights.dx, heights.y0 + j * heights.dy, heights(i, j));
+            clearance[at(j) * at(heights.nx) + at(i)] = z;
+            if (raised.data) raised.row(j)[i] = z;
+        }
+    top = *std::max_element(clearance.begin(), clearance.end());
+}
+
+// Nothing else can come nearer than z0 while points are raised by the margin at most. Between flats every point is within reach.
+void AdhesiveElements::Impl::gather(double Z) {
+    reach.clear();
+    for (std::size_t k = 0; k < clearance.size(); ++k) {
+        if (flats || on[k] || clearance[k] > Z - z0 - margin)
+            reach.push_back(static_cast<std::int32_t>(k));
+        else
+            q[k] = 0;
+    }
+    std::vector<Pixel> pixels;
+    for (const std::int32_t k : reach) pixels.push_back(at_point(k));
+    if (field && !pixels.empty()) field->set_pixels(pixels);
+}
+
+// K p at the points within reach.
+std::vector<double> AdhesiveElements::Impl::deflections(const std::vector<double>& p) {
+    std::vector<double> u(p.size());
+    if (p.empty()) return u;
+    if (!flats) {
+        field->apply(p.data(), u.data(), PixelProducts::Accuracy::full);
+        return u;
+    }
+    std::vector<Pixel> where;
+    std::vector<double> some;
+    for (std::size_t k = 0; k < p.size(); ++k)
+        if (p[k] != 0) where.push_back(at_point(reach[k])), some.push_back(p[k]);
+    return flats->deflections(where, some);
+}
+
+// q for the points that attract as they are. False: not converged.
+bool AdhesiveElements::Impl::press(double Z, Level& level) {
+    ElementsOutcome outcome;
+    if (flats) {
+        for (std::size_t k = 0; k < reach.size(); ++k) {
+            const Pixel at_k = at_point(reach[k]);
+            raised.row(at_k.y)[at_k.x] = clearance[k] + lift[k];
+        }
+        flats->heights_changed();
+        outcome = flats->approach(Z, options.tolerance, options.max_iterations);
+        std::fill(q.begin(), q.end(), 0.0);
+        for (std::size_t k = 0; k < flats->pixels().size(); ++k)
+            q[at(flats->pixels()[k].y) * at(heights.nx) + at(flats->pixels()[k].x)] = flats->pressures()[k];
+    } else {
+        std::vector<Pixel> pixels;
+        std::vector<double> g0, p;
+        for (std::size_t k = 0; k < reach.size(); ++k) {
+            double& here = q[at(reach[k])];
+            const double g = clearance[at(reach[k])] - Z + lift[k];
+            if (g > 0) pixels.push_back(at_point(reach[k])), g0.push_back(g), p.push_back(here);
+            here = 0;
+        }
+        outcome = spots->solve(pixels, g0, options.tolerance, options.max_iterations, p);
+        for (std::size_t k = 0; k < p.size(); ++k) q[at(pixels[k].y) * at(heights.nx) + at(pixels[k].x)] = p[k];
+    }
+    level.iterations += outcome.iterations;
+    level.products += outcome.products + 2;
+    level.residual = outcome.residual;
+    return outcome.converged;
+}
+
+// The state at Z that follows from the points that attract now. False: not converged.
+bool AdhesiveElements::Impl::renew(double Z, Level& level) {
+    gather(Z);
+    long first = 0, later = 0;
+    for (int round = 0; round < kMost; ++round) {
+        stopping_point();
+        std::vector<double> p(reach.size());
+        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = on[at(reach[k])] ? s0 : 0.0;
+        lift = deflections(p);
+        const double most = lift.empty() ? 0.0 : *std::max_element(lift.begin(), lift.end());
+        if (!flats && most > margin) {
+            margin = 1.5 * most;
+            gather(Z);
+            continue;
+        }
+        if (!press(Z, level)) return false;
+        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = q[at(reach[k])];
+        gap = deflections(p);
+        long changed = 0;
+        for (std::size_t k = 0; k < reach.size(); ++k) {
+            gap[k] -= lift[k] + clearance[at(reach[k])] - Z;
+            char& attracts = on[at(reach[k])];
+            const char next = gap[k] < z0 || (round > kQuick && attracts);
+            changed += next != attracts;
+            attracts = next;
+        }
+        (round == 0 ? first : later) += changed;
+        if (changed == 0) {
+            constexpr long few = 8;
+            level.jumps = later > 2 * first + few;
+            return true;
+        }
+    }
+    return false;
+}
+
+Level AdhesiveElements::Impl::solve(double Z) {
+    now = accepted;
+    std::fill(on.begin(), on.end(), char(0));
+    for (const std::int32_t k : accepted.attracting) on[at(k)] = 1;
+    Level level;
+    level.separation = Z;
+    level.method = Method::automatic;
+    const bool converged = renew(Z, level);
+    level.candidates = static_cast<std::int32_t>(reach.size());
+    now.separation = Z;
+    now.attracting.clear();
+    std::vector<Pixel> touching;
+    std::vector<double> pressures;
+    double twice = 0, attraction = 0, tension = 0;
+    long cohesive = 0;
+    for (std::size_t k = 0; k < reach.size() && converged; ++k) {
+        const std::int32_t i = reach[k];
+        const double p = q[at(i)] - (on[at(i)] ? s0 : 0.0);
+        twice += p * (gap[k] + clearance[at(i)] - Z);
+        if (q[at(i)] > 0) touching.push_back(at_point(i)), pressures.push_back(p);
+        if (!on[at(i)]) continue;
+        now.attracting.push_back(i);
+        attraction += s0 * (z0 - gap[k]);
+        if (!(q[at(i)] > 0)) tension += s0, ++cohesive;
+    }
+    add_pixels(level, heights, indenter, kInfinity, touching, std::move(pressures), s0);
+    level.force -= pixel * tension;
+    level.cohesive_area = pixel * static_cast<double>(cohesive);
+    level.cohesive_resolution = resolution();
+    energy = pixel * (0.5 * twice - attraction);
+    if (accepted.separation < kInfinity)
+        now.work += 0.5 * (accepted.force + level.force) * (accepted.separation - Z);
+    else
+        now.work = energy;
+    now.force = level.force;
+    now.least_force = std::min(now.least_force, level.force);
+    level.least_force = now.least_force;
+    level.energy_lost = now.work - energy;
+    if (flats)
+        level.nominal_area = heights.Lx() * heights.Ly();
+    else
+        judge_edges(level, indenter, options);
+    if (!converged) level.status = LevelStatus::not_converged;
+    return level;
+}
+
+AdhesiveElements::AdhesiveElements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(require_elements(heights, indenter, options), indenter, options)) {}
+AdhesiveElements::~AdhesiveElements() = default;
+
+Level AdhesiveElements::solve(double Z0) { return impl_->solve(Z0); }
+
+std::optional<Level> AdhesiveElements::solve_under(double N) {
+    Impl& my = *impl_;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    Level level;
+    const auto look = [&](double Z) {
+        level = my.solve(Z);
+        iterations += level.iterations, products += level.products;
+        return level.status == LevelStatus::not_converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
+    };
+    const auto precise = [&](double miss) { return std::abs(miss) <= tolerance() * std::max(std::abs(N), 1e-3 * my.s0 * my.pixel); };
+    double Z = my.accepted.separation < kInfinity ? my.accepted.separation : my.top + my.z0, miss = look(Z);
+    const double way = miss < 0 ? -1 : 1;
+    double before = Z, before_miss = miss, least = level.force, least_at = Z, step = 0.25 * my.z0;
+    constexpr int most = 400;
+    bool found = precise(miss);
+    for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
+        if (way > 0 && my.now.attracting.empty()) break;  // away from everything
+        before = Z, before_miss = miss;
+        Z = std::max(Z + way * step, std::nextafter(closed(), kInfinity));
+        step *= 1.4;
+        miss = look(Z);
+        if (level.force < least) least = level.force, least_at = Z;
+        found = precise(miss);
+    }
+    if (!found && miss * before_miss < 0) {
+        std::uintmax_t steps = 100;
+        const auto exact = [&](double z) {
+            const double m = look(z);
+            return precise(m) ? 0.0 : m;
+        };
+        const bool rising = Z > before;
+        const auto [low, high] =
+            boost::math::tools::toms748_solve(exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
+                                              rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
+        found = precise(look(0.5 * (low + high)));
+    }
+    if (!found) {
+        (void)look(least_at);
+        level.fallback = Fallback::held;
+        level.status = LevelStatus::not_converged;
+    }
+    level.iterations = iterations, level.products = products;
+    return level;
+}
+
+void AdhesiveElements::accept(Level&) { impl_->accepted = impl_->now; }
+
+double AdhesiveElements::stiffness() {
+    Impl& my = *impl_;
+    if (std::none_of(my.q.begin(), my.q.end(), [](double q) { return q > 0; })) return 0;
+    return my.flats ? -my.heights.Lx() * my.heights.Ly() * my.flats->stiffness(false) : -my.pixel * my.spots->stiffness(1e-9, false);
+}
+double AdhesiveElements::energy() const { return impl_->energy; }
+double AdhesiveElements::tolerance() const { return impl_->options.tolerance; }
+double AdhesiveElements::closed() const { return impl_->flats ? impl_->flats->closed() : -kInfinity; }
+double AdhesiveElements::first_touch() const { return impl_->top; }
+const Indenter& AdhesiveElements::indenter() const { return impl_->indenter; }
+
+void AdhesiveElements::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+    Impl& my = *impl_;
+    if (!my.accepted.attracting.empty())
+        throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while the surface attracts, which is not available yet");
+    my.indenter.x0 = x0, my.indenter.y0 = y0;
+    my.place();
+}
+
+void AdhesiveElements::forget_levels() {
+    impl_->accepted = {};
+    std::fill(impl_->q.begin(), impl_->q.end(), 0.0);
+}
+
+std::vector<double> AdhesiveElements::memory() const {
+    const Past& past = impl_->accepted;
+    if (past.separation == kInfinity) return {};
+    std::vector<double> numbers = {past.separation, past.force, past.work, past.least_force};
+    numbers.insert(numbers.end(), past.attracting.begin(), past.attracting.end());
+    return numbers;
+}
+
+void AdhesiveElements::recall(const std::vector<double>& memory, const Level* level) {
+    Impl& my = *impl_;
+    Past past;
+    bool sound = memory.empty() || memory.size() >= 4;
+    for (std::size_t k = 0; k < memory.size() && sound; ++k)
+        sound = std::isfinite(memory[k]) && (k < 4 || (memory[k] >= 0 && memory[k] < static_cast<double>(my.clearance.size())));
+    if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
+    if (!memory.empty()) past = {memory[0], memory[1], memory[2], memory[3], {}};
+    for (std::size_t k = 4; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
+    forget_levels();
+    my.accepted = std::move(past);
+    if (level) (void)solve(level->separation);
+}
+
+}  // namespace rsc

@@ -1,0 +1,132 @@
+// What a direction and heights that are not Gaussian cost where surfaces are made, and what layers cost where they are pressed: processor
+// times over those of the isotropic Gaussian surface and of the body without layers, in turns in one run.
+#include <cstdio>
+
+#include "bench.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/interaction/layers.hpp"
+#include "rough/detection.hpp"
+#include "rough/synthesis.hpp"
+
+using namespace rsc;
+
+namespace bench {
+namespace {
+
+// The median over runs of the time of `work` over that of `reference` beside it.
+double beside(int runs, const std::function<void()>& reference, const std::function<void()>& work) {
+    std::vector<double> ratios;
+    for (int i = 0; i < runs; ++i) {
+        const double one = shortest(2, reference);
+        ratios.push_back(shortest(2, work) / one);
+    }
+    std::nth_element(ratios.begin(), ratios.begin() + runs / 2, ratios.end());
+    return ratios[static_cast<std::size_t>(runs / 2)];
+}
+
+Spectrum spectrum_of(double lambda_l, double lambda_s) {
+    Spectrum s;
+    s.L_lambda_l = lambda_l, s.L_lambda_s = lambda_s;
+    return s;
+}
+
+}  // namespace
+
+void made() {
+    struct Grid {
+        double lambda_l, lambda_s;
+        int n;
+    };
+    for (const Grid& grid : {Grid{24, 256, 1024}, {24, 512, 2048}, {4, 128, 1024}, {4, 64, 1024}, {4, 160, 1024}}) {
+        const Spectrum plain = spectrum_of(grid.lambda_l, grid.lambda_s);
+        const auto surface = [&](const Spectrum& s) { synthesize(s, grid.n, Normalise::sample, 1, 1); };
+        const auto summits = [&](const Spectrum& s) { make_asperities(s, grid.n, Normalise::sample, 1, 1, Curvature::geometric); };
+        std::printf(
+            "\nmade: %d^2, L/lambda_l = %g, L/lambda_s = %g: surface %.1f ms, with its summits %.1f ms; over these (surface, summits)\n",
+            grid.n, grid.lambda_l, grid.lambda_s, 1e3 * shortest(3, [&] { surface(plain); }), 1e3 * shortest(3, [&] { summits(plain); }));
+        for (const double aspect : {2.0, 4.0, 8.0}) {
+            if (2 * std::sqrt(aspect) * grid.lambda_s >= grid.n) continue;
+            std::printf("  aspect %g:", aspect);
+            for (const double direction : {0.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0}) {
+                Spectrum s = plain;
+                s.aspect = aspect, s.direction = direction;
+                std::printf("  %g: %.2f %.2f", direction,
+                            beside(
+                                5, [&] { surface(plain); }, [&] { surface(s); }),
+                            beside(
+                                3, [&] { summits(plain); }, [&] { summits(s); }));
+            }
+            std::printf("  (wanted: 1.2)\n");
+        }
+        std::printf("  skewness, kurtosis:");
+        for (const HeightShape& shape : {HeightShape{-0.5, 3.5}, {-1, 4.5}, {0, 2.2}, {0, 5}, {0.6, 3.2}, {-2, 9}}) {
+            Spectrum s = plain;
+            s.shape = shape;
+            Moments got;
+            const double ratio = beside(
+                3, [&] { surface(plain); }, [&] { synthesize(s, grid.n, Normalise::sample, 1, 1, &got); });
+            std::printf("  %g %g: %.2f (off by %.3f %.3f)", shape.skewness, shape.kurtosis, ratio, got.heights.skewness - shape.skewness,
+                        got.heights.kurtosis - shape.kurtosis);
+        }
+        std::printf("  (wanted: 3)\n");
+    }
+}
+
+void layers() {
+    std::printf("\nlayers: tables, and levels from 3 to 1 sigma over those of the same surface without layers\n");
+    const auto coated = [](double h, double E) {
+        Indenter tip = kGold;
+        tip.layers.count = 1;
+        tip.layers.layer[0] = {h, 78.0e3, 0.42};
+        tip.layers.E = E, tip.layers.nu = 0.28;
+        return tip;
+    };
+    for (const auto& [E, count] : {std::pair{130.0e3, 1}, {7.8, 1}, {7.8e6, 1}, {1e3, 8}, {1e8, 8}}) {
+        Indenter tip = coated(0.01, E);
+        for (int l = 1; l < count; ++l)
+            tip.layers.layer[static_cast<std::size_t>(l)] = {0.003 * (l + 1), l % 2 ? 1e3 : 3e5, 0.1 + 0.04 * l};
+        tip.layers.count = count;
+        std::printf("  %d layers, E of the base %g: table in %.1f ms (wanted: 50)\n", count, E,
+                    1e3 * shortest(3, [&] { make_layers(tip.layers, tip.E_star); }));
+    }
+    Spectrum s = spectrum_of(24, 512);
+    const Asperities a = make_asperities(s, 2048, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
+    s = spectrum_of(24, 128);
+    const HeightMap map = synthesize(s, 1024, Normalise::sample, 1, 1);
+    Indenter flat = kGold;
+    flat.shape = HUGE_VAL, flat.period = {1, 1};
+    for (const double h : {0.003, 0.01, 0.1, 1.0}) {
+        const Indenter tip = coated(h, 130.0e3);
+        Indenter coated_flat = flat;
+        coated_flat.layers = tip.layers;
+        const auto table = layers_of(tip.layers, tip.E_star);  // shared by all
+        SolverOptions options;
+        options.sigma = 0.01;
+        std::printf("  h/L = %g:", h);
+        for (const Method method : {Method::automatic, Method::direct, Method::mesh}) {
+            options.method = method;
+            for (const int levels : {3, 41}) {
+                const auto run = [&](const Indenter& of) {
+                    AsperityContact contact(a, of, options);
+                    for (int k = 0; k < levels; ++k) contact.at_separation(0.01 * (3 - 2.0 * k / (levels - 1)));
+                };
+                std::printf("  %s, %d levels %.2f", kMethodNames[static_cast<std::size_t>(method)], levels,
+                            beside(
+                                3, [&] { run(kGold); }, [&] { run(tip); }));
+            }
+        }
+        const auto by_elements = [&](const Indenter& of, double Z0) {
+            SolverOptions elements;
+            elements.max_iterations = 200;
+            make_element_contact(map, of, elements)->at_separation(Z0);
+        };
+        std::printf("  elements %.2f, between flats %.2f (wanted: 1.3)\n",
+                    beside(
+                        3, [&] { by_elements(kGold, 0.01); }, [&] { by_elements(tip, 0.01); }),
+                    beside(
+                        3, [&] { by_elements(flat, 0.01); }, [&] { by_elements(coated_flat, 0.01); }));
+    }
+}
+
+}  // namespace bench

@@ -1,0 +1,189 @@
+// Elements that attract within a range (contact/adhesive_elements.hpp), against Maugis's sphere and Johnson's wave.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "check.hpp"
+#include "contact/element_contact.hpp"
+#include "error.hpp"
+
+using namespace rsc;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double kFlat = std::numeric_limits<double>::infinity();
+
+// Maugis (1992) on a sphere of radius 1, E* = 1, by m = c/a: the contact radius from its equation, a quadratic one, then force and penetration.
+struct Maugis {
+    double w, lambda;
+    double s0() const { return lambda / 2 * std::cbrt(16 * pi * w / 9); }
+    double range() const { return w / s0(); }
+    struct State {
+        double a, f, u, c;
+    };
+    State at(double m) const {
+        const double q = std::sqrt(m * m - 1), t = std::atan(q);
+        const double b = lambda / 2 * (q + (m * m - 2) * t), c = 4 * lambda * lambda / 3 * (q * t - m + 1);
+        const double a = (std::sqrt(c * c + 4 * b) - c) / (2 * b);
+        return {a / std::cbrt(4 / (3 * pi * w)), (a * a * a - lambda * a * a * (q + m * m * t)) * pi * w,
+                (a * a - 4.0 / 3 * a * lambda * q) / std::cbrt(16 / (9 * pi * pi * w * w)), m * a / std::cbrt(4 / (3 * pi * w))};
+    }
+    // The stable branch ends at the smallest penetration: m from there down.
+    double last() const {
+        double least = 1e300, where = 0;
+        for (double m = 1.0005; m < 60; m *= 1.0005)
+            if (const double u = at(m).u; u < least) least = u, where = m;
+        return where;
+    }
+    State pressed(double u) const {
+        double low = 1 + 1e-9, high = last();
+        for (int i = 0; i < 100; ++i) {
+            const double m = 0.5 * (low + high);
+            (at(m).u < u ? high : low) = m;
+        }
+        return at(low);
+    }
+    double pull_off() const {
+        double least = 0;
+        for (double m = 1.0005; m < last(); m *= 1.0005) least = std::min(least, at(m).f);
+        return least;
+    }
+};
+
+HeightMap paraboloid(double side, int n) {
+    HeightMap map;
+    map.allocate(n, n, n);
+    map.dx = map.dy = side / n;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const double x = (i + 0.5) * map.dx - side / 2, y = (j + 0.5) * map.dy - side / 2;
+            map.row(j)[i] = -0.5 * (x * x + y * y);
+        }
+    return map;
+}
+
+SolverOptions sticky(double w, double range) {
+    SolverOptions options;
+    options.adhesion = {w, range};
+    return options;
+}
+
+// The relative error of the pull-off force; forces at given penetrations on the way up, and the loop's loss, are checked on the way.
+double pull_off_error(double lambda, double resolution) {
+    const Maugis truth{0.01, lambda};
+    const double h = truth.range() / resolution, widest = 1.05 * truth.pressed(0).c + 3 * truth.range() / resolution;
+    const int n = 2 * static_cast<int>(std::ceil(widest / h));
+    const HeightMap map = paraboloid(n * h, n);
+    const auto contact = make_element_contact(map, {1.0, kFlat, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h}, sticky(truth.w, truth.range()));
+    const double unit = pi * truth.w, reach = truth.range();
+    Level level;
+    for (double Z = 1.05 * reach; Z > 0; Z -= 0.25 * reach) level = contact->at_separation(Z);
+    level = contact->at_separation(0);
+    const double end = truth.at(truth.last()).u;
+    const int steps = 16;
+    double least = 0;
+    for (int k = 0; k <= steps; ++k) {
+        const double u = 1.15 * end * k / steps;
+        level = contact->at_separation(-u);
+        CHECK(level.status != LevelStatus::not_converged);
+        least = level.least_force;
+        if (u > 0.8 * end) {
+            CHECK_CLOSE(level.force, truth.pressed(u).f, 0.12 / resolution * lambda * unit + 0.05 * unit);
+            CHECK_RELATIVE(level.a.at(0), truth.pressed(u).a, 0.12);
+        }
+        if (std::getenv("SHOW"))
+            std::printf("u/end %.3f N %.4f truth %.4f a %.4f %.4f it %d jumps %d lost %.3g\n", u / end, level.force / unit,
+                        u > end ? truth.pressed(u).f / unit : 0, level.a.empty() ? 0 : level.a[0], truth.pressed(u).a, level.iterations,
+                        level.jumps, level.energy_lost);
+    }
+    level = contact->at_separation(2 * reach);
+    CHECK(level.contacts == 0 && level.force == 0 && level.energy_lost > 0);
+    CHECK_CLOSE(contact->energy(), 0.0, 0.0);
+    if (std::getenv("SHOW"))
+        std::printf("lambda %g z0/h %g pull-off %.4f truth %.4f n %d\n", lambda, resolution, least / unit, truth.pull_off() / unit, n);
+    return least / truth.pull_off() - 1;
+}
+
+void test_sphere() {
+    for (double lambda : {0.3, 1.0}) {
+        const double coarse = pull_off_error(lambda, 2), fine = pull_off_error(lambda, 4);
+        CHECK(std::abs(coarse) < 0.08);
+        CHECK(std::abs(fine) < 0.7 * std::abs(coarse) + 0.005);
+    }
+}
+
+// One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength in contact, phi = pi a/lambda, the mean
+// pressure is pi E* D/lambda sin^2 phi - sqrt(2 E* w tan(phi)/lambda). The range is short beside a.
+void test_wave() {
+    constexpr int n = 512, rows = 8;
+    constexpr double height = 0.1, w = 0.3 * 0.3 * pi * pi * height * height / 2, h = 1.0 / n;
+    HeightMap map;
+    map.allocate(n, rows, n);
+    map.dx = map.dy = h;
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < n; ++i) map.row(j)[i] = height * std::cos(2 * pi * (i + 0.5) * h);
+    const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, sticky(w, 4 * h));
+    double wide = 0, narrow = 1;
+    for (double Z : {0.07, 0.05, 0.03, 0.05, 0.07, 0.09}) {
+        const Level level = contact->at_separation(Z);
+        CHECK(level.status != LevelStatus::not_converged);
+        const double share = (level.area_pixels + 0.4 * level.cohesive_area) / (rows * h), phi = pi / 2 * share;
+        const double expected = pi * height * std::pow(std::sin(phi), 2) - std::sqrt(2 * w * std::tan(phi));
+        if (std::getenv("SHOW"))
+            std::printf("Z %.3f share %.4f cohesive %.4f p %.5f expected %.5f it %d jumps %d\n", Z, level.area_pixels / (rows * h),
+                        level.cohesive_area / (rows * h), level.pressure, expected, level.iterations, level.jumps);
+        CHECK_CLOSE(level.pressure, expected, 0.04 * pi * height);  // edges stay where they are for some of a pixel
+        wide = std::max(wide, share), narrow = std::min(narrow, share);
+    }
+    CHECK(wide > narrow + 0.2);
+}
+
+// What cannot be had.
+void test_refused() {
+    const HeightMap map = paraboloid(1, 16);
+    const Indenter tip{1.0, kFlat, 0.5, 0.5};
+    CHECK_THROWS((void)make_element_contact(map, tip, sticky(0.01, 0)), Error);         // JKR
+    CHECK_THROWS((void)make_element_contact(map, tip, sticky(0.01, 0.4 / 16)), Error);  // less than half a pixel
+    SolverOptions hard = sticky(0.01, 0.2);
+    hard.hardness.H0 = 1;
+    CHECK_THROWS((void)make_element_contact(map, tip, hard), Error);
+    const auto contact = make_element_contact(map, tip, sticky(0.01, 0.2));
+    (void)contact->at_separation(0);
+    CHECK_THROWS(contact->move_tip(0.4, 0.5), Error);
+    CHECK_THROWS(contact->recall({1.0, 2.0}, nullptr), Error);
+}
+
+// A contact goes on from its memory; under a force; and held where nothing carries it.
+void test_memory_and_force() {
+    const HeightMap map = paraboloid(1.6, 24);
+    const Indenter tip{1.0, kFlat, 0.8 - 0.8 / 24, 0.8 - 0.8 / 24};
+    const SolverOptions options = sticky(0.02, 0.15);
+    const auto one = make_element_contact(map, tip, options), other = make_element_contact(map, tip, options);
+    (void)one->at_separation(-0.1);
+    const Level kept = one->at_separation(0.05);
+    other->recall(one->memory(), &kept);
+    CHECK_RELATIVE(other->energy(), one->energy(), 1e-6);
+    for (double Z : {0.1, 0.0, 0.6}) {
+        const Level p = one->at_separation(Z), q = other->at_separation(Z);
+        CHECK_CLOSE(p.force, q.force, 1e-6);
+        CHECK_CLOSE(p.energy_lost, q.energy_lost, 1e-6);
+    }
+    const Level carried = one->at_force(0.02);
+    CHECK_CLOSE(carried.force, 0.02, 1e-6);
+    const Level same = other->at_separation(carried.separation);
+    CHECK_CLOSE(same.force, 0.02, 2e-6);
+    const Level held = one->at_force(-10);
+    CHECK(held.status == LevelStatus::not_converged && held.fallback == Fallback::held && held.force < 0);
+}
+
+}  // namespace
+
+TESTS {
+    test_wave();
+    test_refused();
+    test_memory_and_force();
+    test_sphere();
+}

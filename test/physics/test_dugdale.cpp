@@ -1,0 +1,130 @@
+// Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, a scalar equation, and JKR as its limit.
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "error.hpp"
+
+using namespace rsc;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
+
+Asperities of(std::vector<double> x, std::vector<double> y, double r) {
+    Asperities a;
+    a.z.assign(x.size(), 0.0), a.radius.assign(x.size(), r);
+    a.x = std::move(x), a.y = std::move(y);
+    return a;
+}
+
+SolverOptions sticky(double w, double range) {
+    SolverOptions options;
+    options.tolerance = 1e-12;
+    options.adhesion = {w, range};
+    return options;
+}
+
+// Maugis (1992), in his own numbers: m = c/a names the state.
+struct Maugis {
+    double r, w, lambda;
+    double range() const { return w / (lambda / 2 * std::cbrt(16 * pi * w * kE * kE / (9 * r))); }
+    struct State {
+        double a, f, u;
+    };
+    State at(double m) const {
+        const double q = std::sqrt(m * m - 1), t = std::atan(q);
+        const double b = lambda / 2 * (q + (m * m - 2) * t), c = 4 * lambda * lambda / 3 * (q * t - m + 1);
+        const double a = 2 / (std::sqrt(c * c + 4 * b) + c);
+        return {a / std::cbrt(4 * kE / (3 * pi * w * r * r)), (a * a * a - lambda * a * a * (q + m * m * t)) * pi * w * r,
+                (a * a - 4.0 / 3 * a * lambda * q) / std::cbrt(16 * kE * kE / (9 * pi * pi * w * w * r))};
+    }
+};
+
+// The loop of one asperity: at the penetrations of Maugis's states it carries his force; the energy's derivative is the force; it attaches
+// at u = -z0; the work of a cycle is the energy lost.
+void test_one() {
+    for (double lambda : {0.1, 1.0, 5.0}) {
+        const Maugis truth{0.7, 0.01, lambda};
+        const double unit = pi * truth.w * truth.r, range = truth.range();
+        const auto contact = make_asperity_contact(of({0.5}, {0.5}, truth.r), {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
+        CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
+        CHECK(contact->at_separation(range * (1 - 1e-7)).force < 0);
+        double before = -1;
+        for (double m = 1 + 0.01 / lambda; m < 30; m *= 1.02) {
+            const Maugis::State state = truth.at(m);
+            if (before >= 0 && state.u > before) break;  // past the last stable one
+            before = state.u;
+            const Level level = contact->at_separation(-state.u);
+            if (level.contacts == 0) continue;
+            CHECK_CLOSE(level.force, state.f, 1e-8 * std::max(unit, std::abs(state.f)));
+            CHECK_CLOSE(level.a.at(0), state.a, 1e-7 * state.a + 1e-9 * truth.r);
+            const double step = 1e-5 * range, energy = contact->energy();
+            (void)contact->at_separation(-state.u - step);
+            const double change = contact->energy() - energy;
+            (void)contact->at_separation(-state.u);
+            CHECK_CLOSE(change / step, level.force, 1e-3 * std::max(unit, std::abs(state.f)));
+        }
+    }
+}
+
+// Two and six in symmetry feel what each other one pulls: the same as one alone at the penetration g0 - c f.
+void test_groups() {
+    const Maugis law{0.5, 0.01, 1.0};
+    const double range = law.range();
+    for (int n : {2, 6}) {
+        std::vector<double> x, y;
+        for (int k = 0; k < n; ++k) x.push_back(0.4 * std::cos(2 * pi * k / n)), y.push_back(0.4 * std::sin(2 * pi * k / n));
+        double c = 0;
+        for (int k = 1; k < n; ++k) c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
+        const auto contact = make_asperity_contact(of(x, y, law.r), {kE, kFlat, 0, 0}, sticky(law.w, range));
+        for (double m : {1.05, 1.1, 1.2, 1.3}) {
+            const Maugis::State state = law.at(m);
+            const Level level = contact->at_separation(-state.u - c * state.f);
+            CHECK(level.contacts == n);
+            CHECK_CLOSE(level.force, n * state.f, 1e-9 * n * std::max(std::abs(state.f), pi * law.w * law.r));
+        }
+        CHECK(contact->at_separation(5 * range).force == 0);
+    }
+}
+
+// With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of them.
+void test_limit() {
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    Asperities a;
+    for (int k = 0; k < 12; ++k) {
+        a.x.push_back(uniform(generator)), a.y.push_back(uniform(generator)), a.z.push_back(0.02 * uniform(generator));
+        const double r = 0.1 + 0.3 * uniform(generator);
+        a.radius.push_back(r), a.kappa1.push_back(1.4 / r), a.kappa2.push_back(1 / (1.4 * r)), a.angle.push_back(0.3);
+    }
+    for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
+        double before = 1;
+        for (double range : {3e-4, 1e-4, 3e-5}) {
+            SolverOptions with = sticky(1e-3, range), jkr = sticky(1e-3, 0);
+            with.law = jkr.law = law;
+            const auto one = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, with), other = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, jkr);
+            (void)one->at_separation(-0.01), (void)other->at_separation(-0.01);
+            const double there = other->at_separation(0.005).force, apart = std::abs(one->at_separation(0.005).force / there - 1);
+            CHECK(apart < 0.6 * before);
+            before = apart;
+        }
+        CHECK(before < 0.01);
+    }
+    SolverOptions refused = sticky(1e-3, 1e-4);
+    refused.law = LawKind::fourth_order;
+    a.biharmonic.assign(a.x.size(), 400.0);
+    CHECK_THROWS((void)make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, refused), Error);
+}
+
+}  // namespace
+
+TESTS {
+    test_one();
+    test_groups();
+    test_limit();
+}
