@@ -104,7 +104,7 @@ def hardness(folder, report):
         for name, hits in share.items():
             q, n = np.sum(hits) / max(total, 1), max(total, 1)
             report.row(f"beyond it at Z0/sigma = {z:.3g}, {name} [%]", None, f"{100 * q:.3f}", 100 * np.sqrt(max(q * (1 - q), 1 / n) / n))
-        report.raw(f"      {total} contacts; errors are at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2")
+        report.raw(f"      {total} contacts; errors correspond to at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2")
     report.finding("Mean pressures are some 100 times the hardness: elastic contact at an rms slope of 4.6 is not realistic for gold. Nearly all contacts are beyond the hardness, for "
                "any interpretation of r.")
     yielding(folder, report)
