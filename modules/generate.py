@@ -180,7 +180,7 @@ def wrapper(f):
     if len(single) == 1 and not single[0].optional and not any(a.role == "array" for a in arguments):
         result = single[0]
     inputs = [a for a in arguments if a.role == "in"]
-    room = f.kind == "asperities" and not inputs and any(a.role == "array" for a in arguments)  # arrays that are allocated here
+    room = f.kind == "asperities" and not inputs and any(a.role == "array" for a in arguments)  # True if the procedure allocates the output arrays
     dummies, declared, local, before, call, after = ["self"], [], [], [], [], []
     for k, a in enumerate(arguments):
         if k == 0:

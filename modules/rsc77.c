@@ -3,11 +3,11 @@
  *
  *     CALL RSCIND(ICON, Z0, FORCE, IERR)
  *
- * INTEGER is 4 bytes and DOUBLE PRECISION 8, as compilers have them unless told otherwise. No compiler or linker tells when it is not
- * (-fdefault-integer-8, -i8), so that every call before one of RSCINT, which finds it out, is refused. Arrays and scalars go by address; of a
- * CHARACTER the length follows all arguments by value, as gfortran and flang pass it; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the
- * i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG says why. Outputs keep what they held after a failure, but for
- * IERR = 1 (not converged). Indices count from 1. A handle of 0 is none: for a case, the defaults.
+ * INTEGER must have 4 bytes and DOUBLE PRECISION 8, the default of compilers. Compilers and linkers do not report other sizes
+ * (-fdefault-integer-8, -i8); therefore all calls are refused before RSCINT, which checks the size. Arrays and scalars are passed by address; the
+ * length of a CHARACTER follows all arguments by value, as with gfortran and flang; trailing blanks do not count. IERR is the status of rsc.h: 0,
+ * -i for the i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG returns the message. Outputs keep their values after a
+ * failure, except for IERR = 1 (not converged). Indices count from 1. A handle of 0 means none: for a case, the defaults.
  *
  * Different handles may be used by different threads at the same time, as rsc.h says; the table of handles has its own lock.
  */
@@ -115,14 +115,14 @@ static void put_text(const char* text, char* characters, size_t length) {
     if (n < length) memset(characters + n, ' ', length - n);
 }
 
-/* Whether RSCINT has found INTEGER to have 4 bytes. */
+/* True once RSCINT has found that INTEGER has 4 bytes. */
 static atomic_int integers_fit;
 
-/* Begins every call; returns from it until then. */
+/* Begins every call; refuses it before RSCINT has succeeded. */
 #define BEGIN                                                                                                       \
     own_message[0] = '\0';                                                                                          \
     if (!atomic_load(&integers_fit)) {                                                                              \
-        refuse(0, "call RSCINT first, with an INTEGER array of 1 and 2: it tells whether INTEGER has 4 bytes");     \
+        refuse(0, "call RSCINT first, with an INTEGER array of 1 and 2: it checks that INTEGER has 4 bytes");     \
         *ierr = RSC_NO_RESULT;                                                                                      \
         return;                                                                                                     \
     }

@@ -1,6 +1,6 @@
-! A steel ball dropped on a rough surface bounces, by the velocity Verlet method. The contact is conservative, and so is the method on
-! average: kinetic, elastic and potential energy together must stay what they were, over many bounces.
-! An argument is the number of bounces, 100 without.
+! A steel ball dropped on a rough surface bounces, by the velocity Verlet method. The contact is conservative, as is the method on
+! average: the sum of kinetic, elastic and potential energy must be constant over many bounces.
+! Argument: the number of bounces, default 100.
 ! Units: mm, N, s, hence t (1000 kg) for masses and N mm for energies.
 program bouncing
   use rsc

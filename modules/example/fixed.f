@@ -1,7 +1,7 @@
 C     A sphere pressed on a rough surface and drawn over it, in FORTRAN 77:
-C     integer handles, names of six letters, every error looked at.
-C     Checks itself: the sum of the spots is the force, one asperity is
-C     Hertz, what is wrong is told and changes nothing.
+C     integer handles, names of six letters, every error checked.
+C     Checks: the sum of the spots is the force, one asperity agrees with
+C     Hertz, errors are reported and change nothing.
       PROGRAM FIXED
       INTEGER MAXSPT
       PARAMETER (MAXSPT = 5000)
@@ -12,8 +12,8 @@ C     Hertz, what is wrong is told and changes nothing.
       CHARACTER*200 TEXT
       INTEGER ITWO(2), IOLD
       DATA ITWO /1, 2/
-C     Were INTEGER of 8 bytes (-fdefault-integer-8), it would be told,
-C     and nothing goes before that is asked.
+C     Checks the size of INTEGER (8 bytes with -fdefault-integer-8) before
+C     any other call.
       IERR = 0
       CALL RSCCAS(ICASE, IERR)
       IF (IERR .NE. 4) CALL WRONG('a call before RSCINT')
@@ -34,8 +34,8 @@ C     Units: mm and N.
       CALL CHECK('RSCMAK', IERR)
       CALL RSCCNC(ICON, IASP, ICASE, IERR)
       CALL CHECK('RSCCNC', IERR)
-C     A step that is tried and taken back leaves nothing; nor does a
-C     copy that goes its own way.
+C     Neither a trial step that is rolled back nor a modified copy changes
+C     the contact.
       CALL RSCIND(ICON, 0.0D0, RES, IERR)
       CALL CHECK('RSCIND', IERR)
       CALL RSCCOM(ICON, IERR)
@@ -90,7 +90,7 @@ C     copy that goes its own way.
       CALL RSCLEV(ICON, ISTAT, NCAND, NIT, NOVER, RES, IERR)
       CALL CHECK('RSCLEV', IERR)
       IF (NCAND .LT. N .OR. RES .GT. 1D-10) CALL WRONG('RSCLEV')
-C     What is wrong is told, and nothing changes.
+C     Errors are reported, and nothing changes.
       FORCE = -7
       CALL RSCPRS(ICON, -1.0D0, FORCE, IERR)
       IF (IERR .NE. -2 .OR. FORCE .NE. -7) CALL WRONG('no error')
@@ -117,8 +117,8 @@ C     One asperity, against Hertz.
       CALL RSCDFL(ICON, 1, ONE, ONE, W, IERR)
       IF (IERR .NE. 0 .OR. ABS(W(1) - 1.0D-3) .GT. 1D-12)
      1   CALL WRONG('deflection')
-C     Slid far beyond what sticks it pulls with mu N, and the way back
-C     from a trial leaves no trace.
+C     In full slip the tangential force is mu N, and a trial step that is
+C     rolled back changes nothing.
       CALL RSCSET(ICASE, 'solids%friction', '0.25', IERR)
       CALL CHECK('RSCSET', IERR)
       CALL RSCFRI(IFRI, ICON, ICASE, IERR)

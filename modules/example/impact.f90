@@ -1,8 +1,8 @@
-! The coefficient of restitution of a steel ball against its speed: it hits a rough surface whose asperities yield, once at every speed and
-! each time a virgin surface, by the velocity Verlet method, and leaves with what is left. Kinetic and elastic energy and the plastic work
-! must stay what they were when it came, and what it leaves with must be what it came with less the plastic work. Slow balls bounce back from
-! elastic asperities; faster ones flatten them and lose most; still faster ones press on to the smooth sphere, which stays elastic here.
-! An argument is how many of the speeds are done, from the slowest on; all without.
+! The coefficient of restitution of a steel ball against its speed: one impact at each speed on a new rough surface whose asperities
+! yield, by the velocity Verlet method. The sum of kinetic energy, elastic energy and plastic work must be constant, so that the final energy
+! is the initial energy minus the plastic work. Slow balls bounce back from
+! elastic asperities; faster ones flatten them and lose most of their energy; the fastest compress the smooth sphere, which stays elastic here.
+! Argument: the number of speeds, from the slowest on, default all.
 ! Units: mm, N, s, hence t (1000 kg) for masses and N mm for energies.
 program impact
   use rsc
@@ -10,8 +10,8 @@ program impact
   implicit none
   real(dp), parameter :: pi = acos(-1.0_dp), R = 2.5_dp, mass = 7.8e-9_dp * 4 / 3.0_dp * pi * R**3
   real(dp), parameter :: speeds(*) = [1.0_dp, 3.0_dp, 10.0_dp, 30.0_dp, 100.0_dp, 300.0_dp]
-  real(dp), parameter :: step = 1.2e-7_dp       ! of the way at 1 mm/s, where the ball goes some 5e-5 mm deep [mm]
-  real(dp), parameter :: tolerance = 1.0e-5_dp  ! of the energy it came with
+  real(dp), parameter :: step = 1.2e-7_dp       ! distance per step at 1 mm/s, where the depth is some 5e-5 mm [mm]
+  real(dp), parameter :: tolerance = 1.0e-5_dp  ! of the initial energy
   type(rsc_case) :: options
   type(rsc_asperities) :: asperities
   type(rsc_contact) :: contact
@@ -32,7 +32,7 @@ program impact
     z = touch
     v = -speeds(k)
     coming = 0.5_dp * mass * v**2
-    dt = step * speeds(k)**0.8_dp / speeds(k)  ! the depth goes with the speed to the power of some 4/5
+    dt = step * speeds(k)**0.8_dp / speeds(k)  ! the depth is proportional to the speed to the power of about 4/5
     deepest = z
     largest = 0
     worst = 0

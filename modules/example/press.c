@@ -1,4 +1,4 @@
-/* A sphere is pressed on a rough surface with rising forces: what it takes from C. */
+/* A sphere pressed on a rough surface with increasing forces, from C. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

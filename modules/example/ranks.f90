@@ -1,5 +1,5 @@
-! Each rank of an MPI program has its own patch of a rough plate, a surface of its own, under one flat rigid punch that carries a given
-! load: the ranks move together to the separation at which their forces add up to it.
+! Each rank of an MPI program has its own patch of a rough plate, with a separate surface, under one flat rigid punch with a given
+! load. The ranks determine the common separation at which the sum of their forces equals the load.
 program ranks
   use mpi
   use rsc
@@ -23,7 +23,7 @@ program ranks
   touch = contact%first_touch()
   call mpi_allreduce(touch, highest, 1, mpi_double_precision, mpi_max, mpi_comm_world, error)
 
-  ! Newton's method on N(Z0) - load, kept between a separation that carries less and one that carries more.
+  ! Newton's method on N(Z0) - load, bracketed by separations with a smaller and a larger force.
   high = highest
   low = -huge(low)
   Z0 = highest - 0.001_dp

@@ -1,8 +1,8 @@
-! A steel ball set down on a rough table with a velocity and a backspin slides, rolls and comes to rest: the separation, the place and
-! the turning of the ball by the velocity Verlet method, with the normal and the tangential force of one contact. The backspin is the
-! one whose momentum about the place of contact balances that of the velocity, so that both end together; what is left is a trembling on
-! the tangential stiffness, which microslip damps. Kinetic, elastic and potential energy and what friction took must stay what they were.
-! The ball goes some 20 micrometres: the asperities under it are taken to be the same all the way.
+! A steel ball set down on a rough table with a velocity and a backspin slides, rolls and comes to rest: separation, position and rotation of
+! the ball by the velocity Verlet method, with the normal and the tangential force of one contact. The angular momentum of the backspin
+! about the point of contact balances that of the velocity, so that both end at the same time; then the ball oscillates on the tangential
+! stiffness, damped by microslip. The sum of kinetic, elastic and potential energy and friction work must be constant.
+! The ball moves some 20 micrometres, over which the asperities under it are assumed not to change.
 ! Units: mm, N, s, hence t (1000 kg) for masses and N mm for energies.
 program rolling
   use rsc
@@ -29,7 +29,7 @@ program rolling
   call contact%create_from_case(asperities, options)
   call friction%create_from_case(contact, options)
 
-  call contact%press(1.5_dp * mass * g, z)  ! deeper than its weight asks for: it trembles up and down, too
+  call contact%press(1.5_dp * mass * g, z)  ! deeper than in equilibrium, so that the ball also oscillates vertically
   x = 0
   angle = 0
   v = 0
@@ -41,7 +41,7 @@ program rolling
   print '(a)', '  time [ms]   velocity   spin R [mm/s]    N [mN]    Q [mN]   lost/beginning'
   time = 0
   do step = 1, steps
-    dt = merge(5.0e-9_dp, 2.5e-7_dp, step <= 1000)  ! all sticks at first: the friction of a slide builds up in microseconds
+    dt = merge(5.0e-9_dp, 2.5e-7_dp, step <= 1000)  ! initially all spots stick, and friction builds up in microseconds
     time = time + dt
     v = v + 0.5_dp * dt * (N / mass - g)
     u = u - 0.5_dp * dt * Q / mass
@@ -66,7 +66,7 @@ program rolling
 
 contains
 
-  ! The slide is how far the ball's lowest point has gone against the table: rolling is none.
+  ! The slide is the displacement of the lowest point of the ball relative to the table, zero in rolling.
   subroutine evaluate()
     call friction%update(z, x - R * angle, 0.0_dp, force=N, force_x=Q)
     call add_up()

@@ -1,5 +1,5 @@
-! Many spheres on one surface, shared out among OpenMP threads: a contact for each thread, all on the same asperities. Every thread
-! moves its own sphere from place to place; the outcome does not depend on who did what.
+! Many spheres on one surface, distributed among OpenMP threads: one contact per thread, all on the same asperities. Every thread
+! moves its own sphere to several positions; the results do not depend on the distribution.
 program threads
   use rsc
   use omp_lib

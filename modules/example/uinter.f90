@@ -5,7 +5,7 @@
 !     1, A, Z0                  rsc itself: the case is read from the file rsc.nml in the working folder; pressure is force
 !                               over the nominal area A, overclosure c is the separation Z0 - c. One contact serves all points,
 !                               one call at a time
-! Beyond the last point of a table the last segment goes on. Units are those of the deck and of the law. Compile with the module rsc
+! Beyond the last point of a table the last segment is continued. Units are those of the deck and of the law. Compile with the module rsc
 ! (pkg-config --cflags --libs rsc_fortran).
 module rough_interface
   use rsc
@@ -19,7 +19,7 @@ module rough_interface
 
 contains
 
-  ! Pressure p and its slope dp/dc at the overclosure c by straight lines through the pairs (c1, p1, c2, p2, ...); 0 before the first.
+  ! Pressure p and its slope dp/dc at the overclosure c by linear interpolation of the pairs (c1, p1, c2, p2, ...); 0 before the first.
   pure subroutine from_table(pairs, c, p, slope)
     real(dp), intent(in) :: pairs(:), c
     real(dp), intent(out) :: p, slope
@@ -43,7 +43,7 @@ contains
     p = pairs(2*low) + slope * (c - pairs(2*low - 1))
   end subroutine
 
-  ! The same by a contact of rsc at the separation Z0 - c, over the nominal area.
+  ! Pressure and slope from a contact of rsc at the separation Z0 - c, over the nominal area.
   subroutine from_rsc(area, Z0, c, p, slope)
     real(dp), intent(in) :: area, Z0, c
     real(dp), intent(out) :: p, slope

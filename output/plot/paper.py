@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pictures and report of the paper's figures from the result files that input/paper/run.sh makes.
+"""Pictures and report of the paper's figures from the result files of input/paper/run.sh.
 
     python3 output/plot/paper.py [FOLDER]
 
@@ -28,14 +28,14 @@ FIGURES = [paper_surfaces.asperities, paper_surfaces.curvatures, paper_contact.a
 
 def preface(report, folder):
     first = Result(os.path.join(folder, "maps.nc"))
-    report.lines += ["The paper and rsc, number by number", "==================================="]
+    report.lines += ["Comparison of rsc with the numbers of the paper", "==================================="]
     report.note("V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). " + first.file.source + ".")
-    report.note("A row: what is compared, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: the paper states none; '-' in the "
-                "third: no sampling is in it. "
-                "Nothing is tuned to agree; what the paper leaves open is tried, and what fits is named.")
+    report.note("Columns: quantity, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: not stated in the paper; '-' in the "
+            "third: no sampling error.  "
+                "No parameter is tuned; variants of what the paper does not state are tried, and those that agree are named.")
     report.full = first.realizations == 2000
     if not report.full:
-        report.note("This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers are not to be compared with the paper's.")
+        report.note("This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers must not be compared with the paper's.")
 
 
 def times(report, folder):
@@ -47,7 +47,7 @@ def times(report, folder):
         rows = [line.split() for line in lines]
     again = [row[0] for row in rows if "resumed" in row]
     report.note(f"Cases {sum(int(row[1]) for row in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{row[0]} {row[1]} s" for row in rows) + "."
-                + (f" Interrupted, the time is that of the last go: {', '.join(again)}." if again else ""))
+                + (f" Interrupted, with the time of the last run: {', '.join(again)}." if again else ""))
 
 
 def main():
@@ -63,7 +63,7 @@ def main():
         path = os.path.join(folder, "report.txt")
         report.write(path)
     except OSError as error:
-        sys.exit(f"paper.py: {error}; the result files are made by input/paper/run.sh")
+        sys.exit(f"paper.py: {error}; the result files are written by input/paper/run.sh")
     print(path)
 
 

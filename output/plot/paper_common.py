@@ -1,4 +1,4 @@
-"""What the pictures and the report of the paper share: result files by name, the rows of the report, styles."""
+"""Common parts of the pictures and the report of the paper: result files by name, rows of the report, styles."""
 
 import glob
 import os
@@ -25,7 +25,7 @@ def mean_and_error(values):
 
 
 def jackknife(count, estimate):
-    """estimate(keep) with all, and its standard error by leaving out one of `count` parts at a time. `keep` is a boolean mask."""
+    """estimate(keep) of all data, and its jackknife standard error, omitting one of `count` parts at a time. `keep` is a boolean mask."""
     full = estimate(np.ones(count, bool))
     if count < 2:
         return full, np.full_like(full, np.nan)
@@ -49,7 +49,7 @@ def agrees(paper, ours, error):
 
 
 class Report:
-    """The report, section by section. A row: what, the paper's number, ours, its standard error, and a word on it."""
+    """The report, by sections. A row: quantity, the paper's number, ours, its standard error, and a remark."""
 
     def __init__(self):
         self.lines = []
@@ -77,45 +77,45 @@ class Report:
         self.lines += textwrap.wrap(re.sub(r"\s+", " ", words.strip()), width=110, initial_indent=" " * indent, subsequent_indent=" " * indent)
 
     def finding(self, words):
-        """A note on what the full numbers say; of the shortened version's nobody has looked whether they say the same."""
+        """A conclusion from the full numbers, which is omitted in the shortened version."""
         if self.full:
             self.note(words)
 
     def raw(self, line):
         self.lines.append("  " + line)
 
-    # The paper's numbers by kind: what they are, how their rows begin, and why they agree or cannot.
-    KINDS = [("the theory that the model rests on", ("the same of Greenwood", "area fraction beyond", "hardness at"), "rsc and the paper are the same model, so these have to agree."),
-             ("area against load (beta, N*)", ("beta, mean", "N*/", "the same, A_I"), "This one matters. A = beta sqrt(2 pi) N/(sqrt(2 m2) E*) with the paper's beta = 0.2 fits no surface here, by asperities or by "
-              "elements, which give 0.7 to 1; the theories of Persson (0.64) and of Bush, Gibson and Thomas (1) say the same. N* carries beta cubed."),
-             ("the gold surface: force, contacts, radius, slope", ("N at", "contacts at", "rms slope", "r_g = "), "The paper leaves open the grid, whether the spectrum has a plateau, and how many surfaces were "
-              "counted. Its force points to a plateau, its radius and slope to none: no single surface gives them all."),
-             ("summits counted on a grid", ("asperities", "kappa1", "<kappa", "r_g sqrt", "grid error"), "Four points in the shortest wave blunt the curvatures by an amount that depends on how they are taken, which the "
-              "paper does not say. On finer grids rsc meets the theory."),
-             ("distributions of pressure and spots", ("exponent", "Rayleigh", "mean spot"), "Exponents depend on whether contacts count once or by area, and on the range of the fit, which the paper does not say."),
-             ("the paper's method", ("solves",), "How many solves a level takes hangs on the rule by which its regularisation shrinks, which the paper does not state.")]
-    # What the paper says, shortly, and the row that it is judged by.
-    VERDICTS = [("curvatures of summits, kappa1/kappa2", "the same of Greenwood's formula itself"), ("spots merge beyond an area fraction of [%]", "area fraction beyond"),
+    # The paper's numbers by kind: description, beginning of their rows, and reasons for agreement or disagreement.
+    KINDS = [("the theory of the model", ("value of Greenwood", "area fraction beyond", "hardness at"), "rsc and the paper use the same model, so these must agree."),
+             ("area against load (beta, N*)", ("beta, mean", "N*/", "N*, A_I"), "The most important difference. A = beta sqrt(2 pi) N/(sqrt(2 m2) E*) with the paper's beta = 0.2 fits no surface here, by asperities or by "
+              "elements, which give 0.7 to 1; the theories of Persson (0.64) and of Bush, Gibson and Thomas (1) agree with these. N* is proportional to 1/beta^3."),
+             ("the gold surface: force, contacts, radius, slope", ("N at", "contacts at", "rms slope", "r_g = "), "The paper does not state the grid, the plateau of the spectrum and the number of surfaces "
+              "counted. Its force indicates a plateau, its radius and slope none: no single surface gives all of them."),
+             ("summits counted on a grid", ("asperities", "kappa1", "<kappa", "r_g sqrt", "grid error"), "Four points in the shortest wavelength reduce the curvatures by an amount that depends on their definition, which the "
+              "paper does not state. On finer grids rsc agrees with the theory."),
+             ("distributions of pressure and spots", ("exponent", "Rayleigh", "mean spot"), "Exponents depend on the weight of contacts (equal or by area) and on the range of the fit, which the paper does not state."),
+             ("the paper's method", ("solves",), "The number of solves for a level depends on the rule for reducing the regularisation, which the paper does not state.")]
+    # Statements of the paper in short, and the rows to compare with.
+    VERDICTS = [("curvatures of summits, kappa1/kappa2", "value of Greenwood's formula itself"), ("spots merge beyond an area fraction of [%]", "area fraction beyond"),
                 ("rms slope of the gold surface", "rms slope of the gold"), ("force at Z0/sigma = 1.43 [N]", "N at Z0/sigma = 1.43 [N], no plateau"),
                 ("area over load, beta", "beta, mean of the six"), ("force between the regimes, N*/(m2^1.5 E*/m4)", "N*/(m2"),
                 ("pressure in contacts, exponent alpha", "exponent alpha at Z0/sigma = 2, no plateau"), ("hardness at r = 0.18 um [N/mm2]", "hardness at"),
                 ("solves a level by dgesv, 90 % have at most", "solves a level, 90 %")]
 
     def verdict(self):
-        """How many of the paper's numbers are confirmed, by kind and with the reason, and the nine that matter most."""
+        """Number of confirmed numbers of the paper, by kind and with the reason, and the nine most important ones."""
         agree = sum(agrees(*row[1:]) for row in self.rows)
         same = [row for row in self.rows if row[0].startswith(self.KINDS[0][1])]
         met = sum(agrees(*row[1:]) for row in same)
-        lines = textwrap.wrap("In short: rsc solves the equations of the paper" + (": all that follows from these alone agrees. " if met == len(same) else f", but only {met} of {len(same)} numbers that follow from these "
-                              "alone agree: that should not be. ") + "The one number that matters to a user and does not agree is the paper's area under load (beta = 0.2): rsc, elements on the same surfaces and the theories "
-                              "all have three to five times as much. The other differences stand where the paper does not say which grid, spectrum or fit it used; no choice meets all of its numbers.", width=110) if self.full and same else []
+        lines = textwrap.wrap("In short: rsc solves the equations of the paper" + (": all numbers that depend only on them agree. " if met == len(same) else f", but only {met} of {len(same)} numbers that follow from these "
+                              "alone agree: that should not be. ") + "The one number important to users that does not agree is the paper's area under load (beta = 0.2): rsc, elements on the same surfaces and the theories "
+                  "have three to five times as much. The other differences concern numbers for which the paper does not state grid, spectrum or fit; no choice gives all of them.", width=110) if self.full and same else []
         lines += [f"Verdict: of {len(self.rows)} numbers of the paper, {agree} agree (within 2.5 standard errors or 2 %), {len(self.rows) - agree} do not."
                  + ("" if self.full else " SHORTENED: no verdict on the paper.")]
         for kind, starts, why in self.KINDS:
             rows = [row for row in self.rows if row[0].startswith(starts)]
             if rows:
                 lines += textwrap.wrap(f"- {kind}: {sum(agrees(*row[1:]) for row in rows)} of {len(rows)} agree. " + (why if self.full else ""), width=110, subsequent_indent="  ")
-        lines.append("The nine that matter most:")
+        lines.append("The nine most important numbers:")
         for words, row in self.VERDICTS:
             paper, ours, error = next((r[1:] for r in self.rows if r[0].startswith(row)), (None, None, None))
             said = "not in this run" if paper is None else (f"paper {text(paper)}, rsc {text(ours)}" + (f" +- {text(error, 2)}" if np.isfinite(error) and error > 0 else "") + ": "
@@ -136,7 +136,7 @@ def save(figure, folder, name):
 
 
 def judge(ours, error, paper):
-    """'agrees within sampling' or how far off in standard errors."""
+    """'agrees within sampling', or the difference in standard errors."""
     if not np.isfinite(error) or error == 0:
         return ""
     pull = abs(ours - paper) / error

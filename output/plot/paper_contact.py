@@ -11,7 +11,7 @@ ROOT = np.sqrt(2 * np.pi)
 # --- contact area against force
 
 class AreaMember:
-    """One member of the area studies, with beta fitted in the second regime and the radius of lone contacts in the first."""
+    """One member of the area studies, with beta fitted in the second regime and the radius of single contacts in the first."""
 
     def __init__(self, result):
         self.result = result
@@ -23,7 +23,7 @@ class AreaMember:
         self.N, self.A = result["force_mean"], result["contact_area_mean"]
         count = result.realizations
         self.unit = self.m2**1.5 * self.E / self.m4  # of the transition force
-        # The second regime: forces above ten times the crossing, with the beta that the fit itself gives.
+        # The second regime: forces above ten times the crossing with the fitted beta.
         beta = 1.0
         for _ in range(20):
             self.range = self.N > 10 * 1.7013 / beta**3 * self.unit
@@ -31,7 +31,7 @@ class AreaMember:
                 self.range = self.N >= 0.5 * self.N.max()
             beta = self.fit(np.ones(count, bool))
         self.beta, self.beta_error = jackknife(count, self.fit)
-        # The first: levels of realizations that rest on one asperity, A = pi (3 r N/(4 E*))^(2/3).
+        # The first regime: levels of realizations with one contact, A = pi (3 r N/(4 E*))^(2/3).
         lone = self.contacts == 1
         self.lone = int(lone.sum())
         weight = np.where(lone, self.force, 1) ** (2 / 3)
@@ -46,12 +46,12 @@ class AreaMember:
         return rf"$\sigma$ = {self.sigma:g} mm, $L/\lambda_s$ = {self.waves:.0f}"
 
     def crossing_formula(self):
-        """Where A_I with r_g = 0.737/sqrt(m4) meets A_II with the fitted beta, over m2^(3/2) E*/m4; and its error."""
+        """Crossing of A_I with r_g = 0.737/sqrt(m4) and A_II with the fitted beta, over m2^(3/2) E*/m4; and its error."""
         value = 9 / 16 * 0.737**2 * np.pi**1.5 / self.beta**3
         return value, 3 * value * self.beta_error / self.beta
 
     def crossing_data(self):
-        """Where the area of lone contacts meets A_II with the fitted beta, over m2^(3/2) E*/m4."""
+        """Crossing of the area of single contacts and A_II with the fitted beta, over m2^(3/2) E*/m4."""
         value = (self.factor * self.slope * self.E / (self.beta * ROOT)) ** 3 / self.unit
         return value, 3 * value * np.hypot(self.beta_error / self.beta, self.factor_error / self.factor)
 
@@ -67,25 +67,25 @@ def area(folder, report):
     report.columns()
     betas = np.array([m.beta for m in base])
     report.row("beta, mean of the six members", 0.2, betas.mean(), betas.std(ddof=1) / np.sqrt(6), "A = beta sqrt(2 pi) N/(sqrt(2 m2) E*), fitted to the ratio of the means at the levels with "
-               "N > 10 N* of the fitted beta. The error is the scatter of the members; each by itself:")
-    report.raw(f"    {'sigma':>6s} {'L/ls':>5s} {'L/ll':>5s} {'R':>4s} {'beta':>8s} {'+-':>7s}  {'sqrt(2m2) E* A/N from .. to':28s} {'N*/unit: formula r_g':>22s} {'lone contacts':>16s} {'N* [N]':>9s} {'paper [N]':>10s}")
+               "N > 10 N* of the fitted beta. The error is the scatter of the members; the single members:")
+    report.raw(f"    {'sigma':>6s} {'L/ls':>5s} {'L/ll':>5s} {'R':>4s} {'beta':>8s} {'+-':>7s}  {'sqrt(2m2) E* A/N from .. to':28s} {'N*/unit: formula r_g':>22s} {'single contacts':>16s} {'N* [N]':>9s} {'paper [N]':>10s}")
     for m in everything:
         kappa = (m.A * m.slope * m.E / np.where(m.N > 0, m.N, np.nan))[m.range]
         formula, data = m.crossing_formula(), m.crossing_data()
         report.raw(f"    {m.sigma:6g} {m.waves:5.0f} {m.low:5.0f} {m.R:4.1f} {m.beta:8.4f} {m.beta_error:7.4f}  {kappa[0]:8.3f} .. {kappa[-1]:6.3f}{'':12s} "
                    f"{formula[0]:13.2f} +- {formula[1]:5.2f} " + (f"{data[0]:8.2f} +- {data[1]:4.2f} {data[0] * m.unit:9.3g}" if np.isfinite(data[0]) else f"{'-':>8s}    {'-':>4s} {'-':>9s}")
                    + f" {212.66 * m.unit:10.4g}")
-    report.finding("beta does not come out 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is not far from that of the same surfaces without asperities (last section), and the "
-                "asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 lies far below all of them.")
+    report.finding("beta is not 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is close to that of the same surfaces by elements (last section), and the "
+                "asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 is far below all of them.")
     c = [m.crossing_formula()[0] for m in base]
     d = [m.crossing_data()[0] for m in base if np.isfinite(m.crossing_data()[0])]
     report.row("N*/(m2^(3/2) E*/m4), A_I by r_g = 0.737/sqrt(m4)", 212.66, np.mean(c), np.std(c, ddof=1) / np.sqrt(len(c)),
-               "212.66 = 1.7013/beta^3 with beta = 0.2: the formula is right and carries beta cubed. With the beta of the data the transition lies "
+               "212.66 = 1.7013/beta^3 with beta = 0.2: the formula is correct and contains 1/beta^3. With the beta of the data the transition lies "
                f"{212.66 / np.mean(c):.0f} times lower.")
     if d:
-        report.row("the same, A_I by the lone contacts of the data", 212.66, np.mean(d), np.std(d, ddof=1) / np.sqrt(len(d)),
-                   "Lone contacts are the highest summits, sharper than the mean one: their radius, not r_g, sets the first regime, and the mean over realizations of A(N) never follows it far: "
-                   "with the load the chance of a contact grows, too.")
+        report.row("N*, A_I by the single contacts of the data", 212.66, np.mean(d), np.std(d, ddof=1) / np.sqrt(len(d)),
+                   "Single contacts are the highest summits, sharper than the mean one: their radius, not r_g, determines the first regime, and the mean over realizations of A(N) follows it only briefly, "
+                 "because the probability of further contacts increases with the load.")
     normalisations(base, report)
     surfaces_tried(folder, report)
 
@@ -104,13 +104,13 @@ def surfaces_tried(folder, report):
 
 
 def normalisations(base, report):
-    """beta of the same data under other normalisations: one that explains 0.2 must give it for all members."""
+    """beta of these data with other normalisations: one that explains 0.2 must give it for all members."""
     E_young = 78.0e3
     tries = [("as stated", lambda m: 1.0),
              ("m2 summed over the modes drawn", lambda m: np.sqrt(m.result["m2"].mean() / m.m2)),
              ("m2 of finite differences", lambda m: np.sqrt(m.result["m2_grid"].mean() / m.m2) if "m2_grid" in m.result else np.nan),
              ("sqrt(m2) for the gradient", lambda m: np.sqrt(0.5)),
-             ("2 m2 for the gradient (root lacking)", lambda m: m.slope),
+             ("2 m2 for the gradient (without the root)", lambda m: m.slope),
              ("no gradient at all", lambda m: 1 / m.slope),
              ("gradient with K in cycles, K/(2 pi)", lambda m: 1 / (2 * np.pi)),
              ("2 pi for sqrt(2 pi)", lambda m: 1 / ROOT),
@@ -120,7 +120,7 @@ def normalisations(base, report):
              ("sigma/lambda_l for the gradient", lambda m: m.sigma * m.low / m.slope),
              ("half the area, or 2 E*", lambda m: 0.5),
              ("a quarter of the area, pi (a/2)^2", lambda m: 0.25)]
-    report.note("Normalisations tried, beta of the six members (smallest .. largest). One that explained the paper's value would give 0.2 for all six:")
+    report.note("Normalisations tried, beta of the six members (smallest .. largest). A normalisation that explains the paper's value would give 0.2 for all six:")
     fits = []
     for name, factor in tries:
         values = np.array([m.beta * factor(m) for m in base])
@@ -130,12 +130,12 @@ def normalisations(base, report):
         if good:
             fits.append(name)
         report.raw(f"    {name:40s} {values.min():8.4f} .. {values.max():8.4f}{'   near 0.2 for all' if good else ''}")
-    report.raw(f"    {'A and N over the same nominal area':40s}  leaves beta as it is")
+    report.raw(f"    {'A and N over the same nominal area':40s}  does not change beta")
     if "no gradient at all" not in fits:
-        report.finding("Without the gradient the members with sigma = 0.01 mm, the paper's surface, do lie near 0.2, but those with ten times less or more do not: a coincidence of the unit.")
+        report.finding("Without the gradient the members with sigma = 0.01 mm, the paper's surface, are near 0.2, but those with ten times less or more are not: a coincidence of the unit.")
     if any(f.startswith("a quarter") for f in fits):
-        report.note("Only a quarter of the area comes near: as if a contact's radius had been taken for its diameter, pi a^2/4. But then lone contacts would lie four times below A_I, and nothing in the "
-                    "paper says so. It is named, not adopted: no normalisation that is more than a guess was found.")
+        report.note("Only a quarter of the area is close, as if the radius of a contact were taken as its diameter, pi a^2/4. But then single contacts would be four times below A_I, and nothing in the "
+                 "paper supports it. No other normalisation with a justification was found.")
     elif not fits:
         report.note("None was found.")
 
@@ -144,7 +144,7 @@ def picture_area(folder, base):
     figure, axes = plt.subplots(1, 2, figsize=(11.2, 4.8), constrained_layout=True, sharex=True, sharey=True)
     for axis, waves in zip(axes, sorted({m.waves for m in base})):
         for m, (marker, line, colour) in zip([m for m in base if m.waves == waves], STYLES):
-            shown = m.contacts.sum(axis=0) >= 5  # a mean over fewer contacts says nothing
+            shown = m.contacts.sum(axis=0) >= 5  # a mean over fewer contacts is not significant
             few = np.flatnonzero(shown)[::3]  # every third level: bars would hide each other
             N, A, dN, dA = m.N[few], m.A[few], m.result["force_std"][few], m.result["contact_area_std"][few]
             axis.errorbar(N, A, yerr=[np.minimum(dA, 0.9 * A), dA], xerr=[np.minimum(dN, 0.9 * N), dN], fmt=marker, ms=3, mfc="none", color=colour, elinewidth=0.5)
@@ -248,7 +248,7 @@ def maps(folder, report):
         report.row(f"N at Z0/sigma = 1.43 [N], {name}", 116.6, mean, error, judge(mean, error, 116.6).capitalize() + ".")
     report.note("Mean force at the levels of the maps [N], no plateau / plateau: " + ", ".join(
         f"{z:.2f}: {text(mean_and_error(runs[0]['force'][:, runs[0].level(z)])[0])} / {text(mean_and_error(runs[1]['force'][:, runs[1].level(z)])[0])}" for z in MAP_LEVELS) + ".")
-    report.note(f"Trials, N at 1.43: the mean of {result.realizations} plus the difference that a change makes on the same surfaces.")
+    report.note(f"Trials, N at 1.43: the mean of {result.realizations} plus the difference by each change on the same surfaces.")
     for trial in members(folder, "trials"):
         base = runs[".true." in trial.case["surface%plateau"]]
         reference = base["force"][:, base.level(10 / 7)]
@@ -257,8 +257,8 @@ def maps(folder, report):
         change, change_error = mean_and_error(trial["force"][:common, trial.level(10 / 7)] - reference[:common])
         report.raw(f"    plateau {trial.case['surface%plateau']:8s} n = {trial.number('surface%n'):5.0f} curvature {trial.case['asperities%curvature']:12s} sigma by {trial.case['surface%normalise']:12s} "
                    f"{mean + change:8.2f} +- {np.hypot(error, change_error):.2f}")
-    report.finding("With the plateau the paper's force comes out to one or two per cent, nearest with sigma in expectation and n = 4096; without it is far off. So its force points to a plateau, while its r_g and its rms slope (below) are "
-                "those of a surface without: no single surface tried gives all three.")
+    report.finding("With the plateau the paper's force is reproduced to one or two per cent, best with sigma in expectation and n = 4096; without it is far off. So its force indicates a plateau, while its r_g and its rms slope (below) are "
+                  "those of a surface without: no single surface gives all three.")
     report.row("area fraction beyond which spots would merge [%]", 19.6, 100 * np.pi / 16, 0.0, "pi/16.")
 
 
@@ -267,7 +267,7 @@ def radial(folder, report):
     r = result["radius"]
     figure, axes = plt.subplots(1, 3, figsize=(14.4, 4.6), constrained_layout=True)
     report.heading("Radial pressure (paper_radial.png)")
-    report.note("The paper states no number of these fits. Least squares of the radial means, no plateau: p = p0 sqrt(1 - r^2/a^2) and p = pg exp(-r^2/(2 s^2)); the Hertz contact of the smooth "
+    report.note("The paper states no numbers for these fits. Least squares of the radial means, no plateau: p = p0 sqrt(1 - r^2/a^2) and p = pg exp(-r^2/(2 s^2)); the Hertz contact of the smooth "
                 "sphere under the same force beside; d is the rms deviation from the data over the largest pressure.")
     report.raw(f"    {'Z0/sigma':>8s} {'N [N]':>9s} | {'Hertz a [mm]':>12s} {'p0 [MPa]':>9s} | {'fit a':>8s} {'p0':>9s} {'d':>6s} | {'Gauss s [mm]':>12s} {'pg [MPa]':>9s} {'d':>6s}")
     for (marker, line, colour), z in zip(STYLES, MAP_LEVELS + (10 / 7, 1.0)):
@@ -277,7 +277,7 @@ def radial(folder, report):
             continue
         gauss = lambda x, top, s: top * np.exp(-(x**2) / (2 * s**2))
         hertz = lambda x, top, a: top * np.sqrt(np.maximum(1 - (x / a) ** 2, 0))
-        # Rings stand for areas in proportion to r: weigh them so.
+        # The areas of the rings are proportional to r, hence the weights.
         weight = 1 / np.sqrt(r)
         width = np.sqrt(max((p * r**3).sum() / max((p * r).sum(), 1e-300) / 2, 1e-6))
         try:

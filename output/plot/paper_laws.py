@@ -1,4 +1,4 @@
-"""Beyond the paper: its contact solved without asperities, on all points of the same surfaces, and the laws of an asperity beside that."""
+"""Beyond the paper: its contact solved by elements on all points of the same surfaces, compared with the contact laws of asperities."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from paper_contact import ROOT
 from paper_pressure import PAPER_COUNTS
 
 LAWS = ("hertz", "elliptic", "fourth_order")
-COMPARED = (2.5, 2.0, 1.5, 1.0)  # Z0/sigma at which laws and elements are compared
+COMPARED = (2.5, 2.0, 1.5, 1.0)  # Z0/sigma for the comparison of laws and elements
 
 
 def law_of(result):
@@ -24,7 +24,7 @@ def points_of(result):
 
 
 def factor(result):
-    """sqrt(2 m2) E*/sqrt(2 pi): times A/N it is beta."""
+    """sqrt(2 m2) E*/sqrt(2 pi), which multiplied by A/N is beta."""
     return float(np.sqrt(2 * result["m2_theory"]) * result["e_star"]) / ROOT
 
 
@@ -38,9 +38,9 @@ def laws(folder, report):
     bare = [r for r in elements if ".false." in r.case["surface%plateau"]]
     waves = max(map(waves_of, bare))
     report.heading("Beyond the paper: elements, and the laws of an asperity")
-    report.note("model = 'elements' solves the contact of the surface itself: every point may carry pressure, nothing is an asperity. The paper's asperity is a Hertz sphere; law = 'elliptic' takes the two "
-                "curvatures of a summit for what they are, 'fourth_order' its flattening, too. What becomes of beta, A/N of the mean curves, errors by leaving out one realization at a time; the surfaces are "
-                "the same for all, so that the ratio to elements is known much better than beta itself:")
+    report.note("model = 'elements' solves the contact of the surface itself: every point may be in contact, without asperities. The paper's asperity is a Hertz sphere; law = 'elliptic' uses both "
+              "curvatures of a summit, 'fourth_order' also its flattening. beta from A/N of the mean curves, with jackknife errors over realizations; the surfaces are "
+              "the same for all, so that the ratio to elements has a much smaller error than beta itself:")
     betas(asperities, bare, report)
     report.columns()
     finest = [r for r in asperities if waves_of(r) == waves and points_of(r) == max(points_of(q) for q in asperities if waves_of(q) == waves)]
@@ -49,8 +49,8 @@ def laws(folder, report):
         report.row(f"beta at 1 sigma, L/lambda_s = {waves}, {law_of(result)}", 0.2, value, error)
     truth = next(r for r in bare if waves_of(r) == waves)
     near, far = beta(truth, slice(None), [truth.level(1.0), truth.level(2.0)])
-    report.note(f"Elements, which know nothing of asperities, give {far:.2f} at 2 sigma and {near:.2f} at 1 sigma: 0.2 is not a matter of the asperity's shape, nor of asperities at all. At the same load "
-                f"the paper's A_II has {100 * 0.2 / near:.0f} % of the area that is really in contact. " + grid_and_range(asperities, waves))
+    report.note(f"Elements, which are independent of asperities, give {far:.2f} at 2 sigma and {near:.2f} at 1 sigma: 0.2 is not due to the shape of asperities, nor to the asperity model. At the same load "
+                f"the paper's A_II has {100 * 0.2 / near:.0f} % of the true contact area. " + grid_and_range(asperities, waves))
     distances(asperities, bare, report)
     paper_numbers(folder, elements, asperities, waves, report)
 
@@ -71,7 +71,7 @@ def betas(asperities, bare, report):
 
 
 def grid_and_range(asperities, waves):
-    """What half the points to the shortest wave change, and how many contacts are beyond fourth_order's range, in words."""
+    """Text on the effect of half the points per shortest wavelength, and on the share of contacts beyond the range of fourth_order."""
     part = [r for r in asperities if waves_of(r) == waves]
     many, few = max(map(points_of, part)), min(map(points_of, part))
 
@@ -84,12 +84,12 @@ def grid_and_range(asperities, waves):
     step = result.level(1.0)
     beyond = result["beyond_law"][:, step].sum() / result["contacts"][:, step].sum()
     return (f"With {many:.0f} points to the shortest wave instead of {few:.0f}, beta at 1 sigma and L/lambda_s = {waves} changes by {change['hertz']:.4f} for hertz, whose summits are grid "
-            f"points, by {change['elliptic']:.4f} for elliptic and {change['fourth_order']:.4f} for fourth_order, which look between them. There {100 * beyond:.0f} % of the contacts are beyond the range of fourth_order.")
+            f"points, by {change['elliptic']:.4f} for elliptic and {change['fourth_order']:.4f} for fourth_order, which locate summits between them. There {100 * beyond:.0f} % of the contacts are beyond the range of fourth_order.")
 
 
 def distances(asperities, bare, report):
     """Each law minus elements on the same surfaces, of the sums over realizations."""
-    report.note("Laws minus elements in per cent, with the most points to the shortest wave, of the sums over the realizations: mean over the levels 2.5, 2, 1.5 and 1 sigma, in brackets the worst of these levels:")
+    report.note("Laws minus elements in per cent, with the most points per shortest wavelength, of the sums over the realizations: mean over the levels 2.5, 2, 1.5 and 1 sigma, in brackets the worst of these levels:")
     report.raw(f"    {'L/ls':>5s} {'law':18s} {'load N':>16s} {'area A':>16s} {'contacts':>16s}")
     for truth in bare:
         part = [r for r in asperities if waves_of(r) == waves_of(truth)]
@@ -113,14 +113,14 @@ def paper_numbers(folder, elements, asperities, waves, report):
         plateau = ".true." in truth.case["surface%plateau"]
         name, run = ("plateau" if plateau else "no plateau"), runs[plateau]
         first = slice(0, min(truth.realizations, run.realizations))
-        # On the same surfaces elements differ from the asperities of maps.nc by a ratio that is known well; it carries over to their 2 000.
+        # On the same surfaces the ratio of elements to the asperities of maps.nc has a small error; it is applied to their 2 000 surfaces.
         step, own = truth.level(10 / 7), run.level(10 / 7)
         ratio, ratio_error = jackknife(first.stop, lambda keep: np.array(truth["force"][first, step][keep].sum() / run["force"][first, own][keep].sum()))
         mean, error = mean_and_error(run["force"][:, own])
         report.row(f"N at Z0/sigma = 1.43 [N], {name}, elements", 116.6, mean * float(ratio), mean * float(ratio) * np.hypot(error / mean, float(ratio_error) / float(ratio)),
                    f"That of {run.realizations} realizations with the paper's asperities, times {float(ratio):.4f} +- {float(ratio_error):.4f}, elements over asperities on {first.stop} of these surfaces.")
         counts.append((name, truth, run, first))
-    report.note("Numbers of contacts a surface, and how many realizations would give the paper's three counts (320 000, 157 000, 39 000 at 2, 2.5 and 3 sigma). A contact of elements is a connected set of "
+    report.note("Numbers of contacts per surface, and numbers of realizations that would give the paper's three counts (320 000, 157 000, 39 000 at 2, 2.5 and 3 sigma). A contact of elements is a connected set of "
                 "points, in which several summits may have merged; hertz: the paper's asperities, four points to the shortest wave; both on the same surfaces:")
     report.raw(f"    {'':26s} " + " ".join(f"{f'{z:g} sigma':>10s}" for z in PAPER_COUNTS) + f"   {'realizations for the counts':>28s}")
     for name, truth, run, first in counts:
@@ -131,5 +131,5 @@ def paper_numbers(folder, elements, asperities, waves, report):
     _, truth, run, first = counts[0]
     elements_found, hertz_found = (np.array([r["contacts"][first, r.level(z)].mean() for z in PAPER_COUNTS]) for r in (truth, run))
     fewer = 100 * (1 - elements_found / np.maximum(hertz_found, 1e-9))
-    report.note(f"Without plateau elements have {fewer[0]:.0f}, {fewer[1]:.0f} and {fewer[2]:.0f} % fewer contacts at these levels: summits that have merged.")
-    report.finding("The paper's three counts fit each other no better with them, and its force lies further off: what keeps them apart is not that asperities do not merge.")
+    report.note(f"Without plateau elements have {fewer[0]:.0f}, {fewer[1]:.0f} and {fewer[2]:.0f} % fewer contacts at these levels, because summits have merged.")
+    report.finding("The paper's three counts are no more consistent with them, and its force differs more: the disagreement is not due to asperities that do not merge.")

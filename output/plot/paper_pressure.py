@@ -45,8 +45,8 @@ def pressures(folder, report):
             report.row(f"contacts at Z0/sigma = {z:g}, {run.realizations} real., {name}", paper if full else None, c.sum(), c.std(ddof=1) * np.sqrt(c.size))
     ratio = lambda v: ", ".join(f"{x:.3f}" for x in np.asarray(v) / v[0])
     needed = lambda v: ", ".join(f"{n / x:.0f}" if x > 0 else "-" for n, x in zip(PAPER_COUNTS.values(), v))
-    report.note(f"The counts depend on the number of realizations, which the paper states for the maps only; their ratios do not: paper 1, {157 / 320:.3f}, {39 / 320:.3f}. Trials, contacts a surface; "
-                "ratios; how many realizations would give the paper's three counts (one number thrice, if the surface is the paper's):")
+    report.note(f"The counts depend on the number of realizations, which the paper states for the maps only; their ratios do not: paper 1, {157 / 320:.3f}, {39 / 320:.3f}. Trials, contacts per surface; "
+              "ratios; numbers of realizations that would give the paper's three counts (three equal numbers if the surface is the paper's):")
     trials = [(f"plateau {t.case['surface%plateau']}, n = {t.number('surface%n'):.0f}, {t.case['asperities%curvature']}, R = {t.number('solids%R'):g}", t)
               for t in members(folder, "trials") + members(folder, "trials_R5") if t.case["surface%normalise"] == "'sample'"]
     trials = [(f"{run.realizations} realizations, {name}", run) for run, name in ((result, "no plateau"), (plateau, "plateau"))] + trials
@@ -61,16 +61,16 @@ def pressures(folder, report):
         mean = np.log(np.maximum(run["contacts"].mean(axis=0), 1e-9))[order]
         between.append(", ".join(f"{np.interp(-np.log(n / 2000), -mean, run['separation_sigma'][order]):.2f}" for n in PAPER_COUNTS.values()))
     report.note(f"2 000 surfaces would have the paper's three numbers at Z0/sigma = {between[0]} without and {between[1]} with the plateau.")
-    report.finding("Neither plateau, grid, curvature, sphere, sigma nor a shift of the level fits all three. The numbers at 2.5 and 3 fit each other on the paper's surface, whatever else: they are those of some "
-                   "2 900 realizations without and 4 100 with the plateau. The number at 2 does not belong to them: it is that of two thirds to three quarters as many (of 2 000 with n = 4096 and no plateau). "
-                   "Ensembles of different sizes would explain all three; the paper does not say so, and no other reason was found.")
+    report.finding("Neither plateau, grid, curvature, sphere, sigma nor a shift of the level fits all three. The numbers at 2.5 and 3 are consistent on the paper's surface in all variants: they are those of some "
+                 "2 900 realizations without and 4 100 with the plateau. The number at 2 is not consistent with them: it is that of two thirds to three quarters as many realizations (of 2 000 with n = 4096 and no plateau). "
+                 "Ensembles of different sizes would explain all three; the paper does not state this, and no other reason was found.")
     for k, z, _ in levels_of(result):
         scale, error, ks = (result.attribute("pressure_mean_pdf", a)[k] for a in ("rayleigh_scale", "rayleigh_scale_error", "ks_distance"))
         total = counts[k].sum()
         report.row(f"Rayleigh scale at Z0/sigma = {z:g} [N/mm2]", None, scale, error,
                    f"Kolmogorov-Smirnov distance {ks:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(total):.4f}); skewness {result.attribute('pressure_mean_pdf', 'skewness')[k]:.3f}, "
                    f"Rayleigh's 0.631; mean over scale {result.attribute('pressure_mean_pdf', 'mean')[k] / scale:.4f}, Rayleigh's 1.2533.")
-    report.note("The Rayleigh form describes the body of the density; the distance says by how much it fails, beyond sampling where it is larger than the second number.")
+    report.note("The Rayleigh form describes the main part of the density; the distance measures the deviation, which exceeds sampling if it is larger than the second number.")
 
 
 def hardness(folder, report):
@@ -83,7 +83,7 @@ def hardness(folder, report):
     report.heading("Hardness with size effect")
     report.columns()
     report.row("hardness at r = 0.18 um [N/mm2]", 1200.0, formula(H0, stated), 0.0,
-               f"H0 sqrt(1 + 0.69 um/r) with H0 = {H0:.0f} N/mm2 gives 550; the printed 1.2 GPa would need H0 = {big:.0f} N/mm2, or r = {1e3 * length / ((1200 / H0) ** 2 - 1):.4f} um. A slip in the paper.")
+               f"H0 sqrt(1 + 0.69 um/r) with H0 = {H0:.0f} N/mm2 gives 550; the printed 1.2 GPa would need H0 = {big:.0f} N/mm2, or r = {1e3 * length / ((1200 / H0) ** 2 - 1):.4f} um. Probably an error in the paper.")
     run = Result(f"{folder}/maps.nc")
     plateau = Result(f"{folder}/maps_plateau.nc")
     for name, r in (("no plateau", run), ("plateau", plateau)):
@@ -104,17 +104,17 @@ def hardness(folder, report):
         for name, hits in share.items():
             q, n = np.sum(hits) / max(total, 1), max(total, 1)
             report.row(f"beyond it at Z0/sigma = {z:.3g}, {name} [%]", None, f"{100 * q:.3f}", 100 * np.sqrt(max(q * (1 - q), 1 / n) / n))
-        report.raw(f"      {total} contacts; errors are at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2")
-    report.finding("Mean pressures are some 100 times the hardness: elastic contact of a surface with an rms slope of 4.6 is not what gold would do. All but a vanishing share is beyond it, with "
-                "any of the readings of r.")
+        report.raw(f"      {total} contacts; errors correspond to at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2")
+    report.finding("Mean pressures are some 100 times the hardness: elastic contact at an rms slope of 4.6 is not realistic for gold. Nearly all contacts are beyond the hardness, for "
+               "any interpretation of r.")
     yielding(folder, report)
     value, error = mean_and_error(run["rms_slope"])
     report.row("rms slope of the gold surface", 4.7, value, error, f"Formula {np.sqrt(2 * float(run['m2_theory'])):.3f} without, {np.sqrt(2 * float(plateau['m2_theory'])):.3f} with the plateau: "
-               "the paper's 4.7 is the formula without a plateau; whole wavevectors in a square give a little less.")
+               "the paper's 4.7 is the formula without a plateau; discrete wavevectors in a square give slightly less.")
 
 
 def yielding(folder, report):
-    """What yields, and the force that is left."""
+    """Yielding contacts, and the remaining force."""
     elastic, yielding = members(folder, "yielding")
     report.note('The paper: "almost all contacting asperities would be deformed plastically". The same surfaces with pressures bounded by 250 N/mm2 sqrt(1 + 0.69 um/r), loaded level by level:')
     for z in (3.0, 2.5, 2.0, 10 / 7, 1.0):
@@ -130,7 +130,7 @@ def yielding(folder, report):
             report.row(f"N at Z0/sigma = {z:.3g} [N], {name}", None, value, error)
         areas = [r["contact_area"][:, r.level(z)].sum() for r in (elastic, yielding)]
         report.raw(f"      yielding over elastic: N {y.sum() / e.sum():.4f}, A {areas[1] / areas[0]:.2f}")
-    report.finding("All of them: the elastic force is 50 times (1 sigma) to 150 times (3 sigma) what such a surface would bear. Asperities flattened so far cover each other, too; elements that yield say what is left of the model (test/README).")
+    report.finding("All contacts yield: the elastic force is 50 times (1 sigma) to 150 times (3 sigma) that of a yielding surface. Asperities flattened this much also overlap; for the accuracy of the model see the comparison with yielding elements (test/README).")
 
 
 def result_scale(run, k, z):
@@ -139,9 +139,9 @@ def result_scale(run, k, z):
 
 
 def each_contact_once(bins, counts, rng):
-    """Exponents of the pressure density when every contact counts once instead of by its area: fitted, with errors by resampling the contacts."""
+    """Fitted exponents of the pressure density with equal weight for every contact instead of its area, with errors by resampling the contacts."""
     edges = np.linspace(0, 1.5 * (bins[-1] + bins[0]), 121)
-    # A contact of mean pressure q has 2 p/p0^2 on [0, p0], p0 = 1.5 q; within a bin of q five places stand for all.
+    # A contact of mean pressure q has 2 p/p0^2 on [0, p0], p0 = 1.5 q; each bin of q is represented by five values.
     shares = np.array([np.mean([np.diff(np.minimum(edges / (1.5 * (q + s * 2 * bins[0])), 1) ** 2) for s in (-0.4, -0.2, 0, 0.2, 0.4)], axis=0) for q in bins])
 
     def fit(weights):
@@ -196,10 +196,10 @@ def full_pressure(folder, report):
     axes[1].set(yscale="log", ylim=(1e-9, 0.05))
     axes[0].legend(title=r"solid: fitted; dashed: $p^{2/3}\exp(-(p/\delta)^{3/2})$, $\delta$ by the mean")
     save(figure, folder, "paper_pressure_full")
-    report.finding("The fits are maximum likelihood over all bins; alpha and beta are strongly anticorrelated, and errors are those of as many independent draws as the areas stand for. By area the "
-                "density starts in proportion to p, as every Hertz contact does, so alpha lies near 1, and beta near the paper's 3/2. Counting each contact once, whatever its area, gives more weight to the "
-                "small and lightly pressed and brings alpha down to 0.6, near the paper's 2/3, with beta below 3/2. The paper's alpha thus looks like that of contacts counted once, rounded; no reading was "
-                "found that gives both exponents.")
+    report.finding("The fits are maximum likelihood over all bins; alpha and beta are strongly anticorrelated, and errors are for the effective number of independent contacts. Weighted by area the "
+                 "density is proportional to p at small p, as for every Hertz contact, so alpha is near 1, and beta near the paper's 3/2. Equal weight for each contact gives more weight to the "
+                 "small and lightly loaded ones and reduces alpha to 0.6, near the paper's 2/3, with beta below 3/2. The paper's alpha thus resembles that of equally weighted contacts, rounded; no interpretation "
+                 "gives both exponents.")
 
 
 def spots(folder, report):
@@ -228,8 +228,8 @@ def spots(folder, report):
     inset.annotate("the same, both axes logarithmic", (0.04, 0.06), xycoords="axes fraction", fontsize=7)
     axis.legend(loc="upper right")
     save(figure, folder, "paper_spots")
-    report.note("The paper states the exponential form, no number. A ratio above 1 says that there are more very large spots than the exponential has: summits that are nearly saddles, kappa2 near 0, "
-                "have r = 1/sqrt(kappa1 kappa2) without bound. With r of the algebraic mean the tail is shorter; the ratio at 2 sigma, same surfaces:")
+    report.note("The paper states the exponential form, but no number. A ratio above 1 means that there are more very large spots than in the exponential distribution: summits that are nearly saddles, kappa2 near 0, "
+                 "have unbounded r = 1/sqrt(kappa1 kappa2). With r of the algebraic mean the tail is shorter; the ratio at 2 sigma, same surfaces:")
     for t in members(folder, "trials"):
         if t.case["surface%normalise"] == "'sample'":
             ratio = t.attribute("spot_area_pdf", "standard_deviation") / t.attribute("spot_area_pdf", "mean")
@@ -244,5 +244,5 @@ def paper_method(folder, report):
     report.columns()
     low, high = np.percentile(solves, [10, 90])
     report.row("solves a level, 10 % of levels have no more than", 7.0, low, np.nan)
-    report.row("solves a level, 90 % of levels have no more than", 12.0, high, np.nan, f"Smallest {solves.min():.0f}, largest {solves.max():.0f}, median {np.median(solves):.0f}, mean {solves.mean():.1f} over {loaded.sum()} levels. The count is of every solve; rsc's rule for shrinking the regularisation, and its "
-               f"check of the true residual afterwards (at most {text(float(result['residual'][0][loaded].max()), 2)} here), are its own.")
+    report.row("solves a level, 90 % of levels have no more than", 12.0, high, np.nan, f"Smallest {solves.min():.0f}, largest {solves.max():.0f}, median {np.median(solves):.0f}, mean {solves.mean():.1f} over {loaded.sum()} levels. All solves are counted; rsc's own are the rule for reducing the regularisation and the "
+              f"check of the true residual afterwards (at most {text(float(result['residual'][0][loaded].max()), 2)} here).")

@@ -10,26 +10,26 @@ from paper_common import STYLES, jackknife, judge, mean_and_error, members, plt,
 
 # --- three surfaces from the same noise
 
-GREYS = ListedColormap(plt.get_cmap("gray")(np.linspace(0.3, 0.85, 256)))  # black and white lines both stand out from it
+GREYS = ListedColormap(plt.get_cmap("gray")(np.linspace(0.3, 0.85, 256)))  # black and white lines are visible on it
 
 def asperities(folder, report):
     results = members(folder, "asperities")
     figure, axes = plt.subplots(2, len(results), figsize=(4.1 * len(results), 6.5), constrained_layout=True, squeeze=False)
     report.heading("Asperities of three surfaces from the same noise (paper_asperities.png)")
-    report.note("The paper states no number of this figure beyond those of the surfaces, L/lambda_l = 4, L/lambda_s = 16, 32, 64 and sigma/L = 0.025, which are the case's. Found:")
+    report.note("For this figure the paper states only the parameters of the surfaces, L/lambda_l = 4, L/lambda_s = 16, 32, 64 and sigma/L = 0.025, as in the case. Result:")
     for column, result in enumerate(results):
         waves = result.number("surface%L_lambda_s")
         z, hx = result["height"], result["height_x"]
         x, y, r = result["asperity_x"], result["asperity_y"], result["asperity_radius"]
         k1, k2, angle = result["asperity_kappa1"], result["asperity_kappa2"], result["asperity_angle"]
-        # The contour of the paraboloid at a depth h: half axes sqrt(2 h/kappa), h such that a typical one covers a sixth of an asperity's room.
+        # The contour of the paraboloid at a depth h: half axes sqrt(2 h/kappa), h such that a typical one covers a sixth of the area per asperity.
         depth = 1 / (6 * x.size * 2 * np.pi * np.median(1 / np.sqrt(k1 * k2)))
         for row, half in enumerate((0.5, 1.6 / np.sqrt(x.size) if x.size > 400 else 0.12)):
             axis = axes[row, column]
             window = abs(hx - 0.5) <= half
             image = axis.imshow(z[np.ix_(window, window)], extent=[0.5 - half, 0.5 + half] * 2, cmap=GREYS, interpolation="nearest")
             figure.colorbar(image, ax=axis, shrink=0.85, label="height $z$ [mm]")
-            # A nearly cylindrical summit has an ellipse longer than the paraboloid is true: half axes end at three mean spacings.
+            # For a nearly cylindrical summit the ellipse is longer than the range of the paraboloid: half axes are limited to three mean spacings.
             long, short = np.minimum(2 * np.sqrt(2 * depth / k2), 6 / np.sqrt(x.size)), 2 * np.sqrt(2 * depth / k1)
             at = {"units": "xy", "offsets": np.column_stack([x, y]), "transOffset": axis.transData, "facecolors": "none"}
             axis.add_collection(EllipseCollection(long, short, np.degrees(angle), edgecolors="k", linewidths=0.7 + row, **at))
@@ -38,7 +38,7 @@ def asperities(folder, report):
                 axis.add_collection(EllipseCollection(circle, circle, np.zeros_like(x), edgecolors="w", linestyles="--", linewidths=1.2, **at))
             axis.set(xlim=(0.5 - half, 0.5 + half), ylim=(0.5 - half, 0.5 + half), xlabel="$x$ [mm]", ylabel="$y$ [mm]")
         axes[0, column].set_title(rf"$L/\lambda_s$ = {waves:.0f}: {x.size} asperities")
-        report.raw(f"L/lambda_s = {waves:.0f}: {x.size} asperities, {result['saddles'][0]:.0f} saddles left out, formula {float(result['density_theory']):.0f}")
+        report.raw(f"L/lambda_s = {waves:.0f}: {x.size} asperities, {result['saddles'][0]:.0f} saddles excluded, formula {float(result['density_theory']):.0f}")
     figure.suptitle("The same noise, more short waves. Solid: contours of the summits' paraboloids; dashed: circles of equal geometric curvature", fontsize=9)
     save(figure, folder, "paper_asperities")
 
@@ -68,7 +68,7 @@ MIDDLE = (EDGES[1:] + EDGES[:-1]) / 2
 
 
 def mode_of(histogram):
-    """(kappa1, kappa2) of the maximum of Greenwood's density times the exponential of a cubic polynomial, fitted to the bins that hold something."""
+    """(kappa1, kappa2) of the maximum of Greenwood's density times the exponential of a cubic polynomial, fitted to the nonempty bins."""
     k1, k2 = np.meshgrid(MIDDLE, MIDDLE, indexing="ij")
     formula = greenwood(k1, k2)
     used = (k1 > k2 + 0.1) & (k1 < 3.2) & (histogram >= 0.03 * histogram.max()) & (formula > 0)
@@ -82,7 +82,7 @@ def mode_of(histogram):
 
 
 def curvature_numbers(result):
-    """Number, mean of kappa_g' and kappa_a', ratio at the mode, each with its error by 64 square blocks of the surface left out in turn."""
+    """Number, mean of kappa_g' and kappa_a', ratio at the mode, each with its jackknife error over 64 square blocks of the surface."""
     scale = np.sqrt(float(result["m4"][0]))
     k1, k2 = result["asperity_kappa1"] / scale, result["asperity_kappa2"] / scale
     block = np.minimum((result["asperity_x"] * 8).astype(int), 7) * 8 + np.minimum((result["asperity_y"] * 8).astype(int), 7)
@@ -124,7 +124,7 @@ def curvatures(folder, report):
         axes[2].plot(MIDDLE, exact.sum(axis=1 - k) * width, style[1], color=style[2], label=f"$\\kappa_{k + 1}$, Greenwood")
     axes[2].set(xlim=(0, 5), ylim=(0, None), xlabel=r"curvature $\kappa/\sqrt{m_4}$ [1]", ylabel="probability density [1]", title="marginal densities")
     axes[2].legend()
-    figure.suptitle("Principal curvatures of summits; cross: where the formula has its maximum; contours at 0.1, 0.3, 0.5, 0.7, 0.9 of that", fontsize=9)
+    figure.suptitle("Principal curvatures of summits; cross: maximum of the formula; contours at 0.1, 0.3, 0.5, 0.7, 0.9 of it", fontsize=9)
     save(figure, folder, "paper_curvatures")
 
     report.heading("Principal curvatures of summits (paper_curvatures.png)")
@@ -132,16 +132,16 @@ def curvatures(folder, report):
     number, g, a, ratio, _ = found[0]
     full = results[0].number("surface%L_lambda_s") == 2048
     report.row("asperities, L/lambda_s = 2048" if full else "asperities", 580000 if full else None, number[0], number[1],
-               (f"{judge(*number, 580000).capitalize()}. " if full else "") + f"The formula gives {text(float(results[0]['density_theory']))}. Saddles left out: {results[0]['saddles'][0]:.0f}; with them "
+               (f"{judge(*number, 580000).capitalize()}. " if full else "") + f"The formula gives {text(float(results[0]['density_theory']))}. Saddles excluded: {results[0]['saddles'][0]:.0f}; with them "
                f"{text(number[0] + results[0]['saddles'][0])}. H is not stated: 0.8 here.")
-    report.row("kappa1/kappa2 at the mode", 2.214, ratio[0], ratio[1], f"{judge(ratio[0], ratio[1], 2.214).capitalize()}: the grid, see below. 2.214 is the formula's own: it has its maximum at "
-               f"({mode[0]:.4f}, {mode[1]:.4f}), ratio {mode[0] / mode[1]:.4f} (the estimator used here makes {np.divide(*mode_of(exact)):.4f} of it).")
-    report.row("the same of Greenwood's formula itself", 2.214, mode[0] / mode[1], np.nan)
+    report.row("kappa1/kappa2 at the mode", 2.214, ratio[0], ratio[1], f"{judge(ratio[0], ratio[1], 2.214).capitalize()}: the grid, see below. 2.214 is the value of the formula: its maximum is at "
+               f"({mode[0]:.4f}, {mode[1]:.4f}), ratio {mode[0] / mode[1]:.4f} (the estimator used here gives {np.divide(*mode_of(exact)):.4f}).")
+    report.row("value of Greenwood's formula itself", 2.214, mode[0] / mode[1], np.nan)
     report.row("<kappa_g>/sqrt(m4), geometric mean curvature", 1.356, g[0], g[1], f"{judge(*g, 1.356).capitalize()}: the grid, see below.")
-    report.row("the same of Greenwood's formula itself", 1.356, mean_of_formula(), np.nan)
+    report.row("value of Greenwood's formula itself", 1.356, mean_of_formula(), np.nan)
     report.row("r_g sqrt(m4) = 1/<kappa_g'>", 0.737, 1 / g[0], g[1] / g[0] ** 2, f"The formula's is {1 / mean_of_formula():.4f}; the grid again.")
     report.row("<kappa_a>/sqrt(m4), algebraic mean (Greenwood)", 8 / 3 / np.sqrt(np.pi), a[0], a[1])
-    report.note("m4 is that of the modes. With m4 of the same second differences the mean is right even on the coarse grid. Curvatures from second differences are low where the grid has few points to the shortest wave: it is the grid, as finer "
+    report.note("m4 is that of the modes. With m4 of the same second differences the mean is correct even on the coarse grid. Curvatures from second differences are too small with few points per shortest wavelength, as finer "
                 "ones show:")
     for n, values in enumerate(found):
         differences = ""
@@ -155,7 +155,7 @@ def curvatures(folder, report):
 # --- density of summits
 
 def by_differences(result):
-    """The number of summits that the formula gives with the moments of the grid's differences."""
+    """The number of summits by the formula with the moments of the differences on the grid."""
     return np.sqrt(3) / (18 * np.pi) * np.mean(result["m4_grid"] / result["m2_grid"])
 
 
@@ -188,13 +188,13 @@ def density(folder, report):
     for h, paper in ((max(hursts), 8.0), (min(hursts), 15.0)):
         d = data[h, fine]
         report.row(f"grid error, n = {n:.0f}, L/lambda_s = {fine * 8:.0f}, H = {h:g} [%]", paper if fine == 125 and n == 4096 else None, abs(100 * (1 - d[3])), 100 * d[1] / d[2],
-                   f"Counted {d[0]:.0f}, formula {d[2]:.0f}: {'fewer' if d[3] < 1 else 'more'} than the formula says; {d[5]['saddles'].mean():.0f} saddles a surface left out, with them the error is "
+                   f"Counted {d[0]:.0f}, formula {d[2]:.0f}: {'fewer' if d[3] < 1 else 'more'} than by the formula; {d[5]['saddles'].mean():.0f} saddles per surface excluded; with them the error is "
                    f"{abs(100 * (1 - (d[0] + d[5]['saddles'].mean()) / d[2])):.1f} %"
                    + (f"; against the formula with m2 and m4 of the differences it is {abs(100 * (1 - d[0] / by_differences(d[5]))):.1f} %." if "m4_grid" in d[5] else "."))
     if n == 4096:
-        report.finding("8 % and 15 % lie near ours with the two Hurst exponents exchanged: the paper seems to have swapped them. What is left, one or two per cent, is not explained: the saddles do not, and "
-                    "maxima among four neighbours instead of eight would be 16 to 21 % too many instead of too few.")
-    report.note("The same surfaces on other grids, counted over formula:")
+        report.finding("8 % and 15 % are near ours with the two Hurst exponents exchanged: the paper seems to have swapped them. The remaining one or two per cent are not explained by the saddles, and "
+                 "maxima among four neighbours instead of eight would be 16 to 21 % too many instead of too few.")
+    report.note("These surfaces on other grids, counted over formula:")
     for h in sorted({r.number("surface%hurst") for r in members(folder, "density_grid")}):
         part = [r for r in members(folder, "density_grid") if r.number("surface%hurst") == h]
         report.raw(f"  H = {h:g}: " + ", ".join(f"n = {r.number('surface%n'):.0f}: {r['summits'].mean() / float(r['density_theory']):.4f}" for r in part))

@@ -1,4 +1,4 @@
-// The boundary: every entry of rsc.h runs inside guarded(), which turns whatever is thrown into a status and a message.
+// Every function of rsc.h runs inside guarded(), which converts every exception into a status and a message.
 #pragma once
 
 #include "error.hpp"
@@ -13,17 +13,17 @@ struct Refusal {
     std::string message;
 };
 
-// A status other than success that is no exception of the core.
+// A status other than success that is not an exception of the core.
 struct Outcome {
     std::int32_t status;
     const char* message;
 };
 
-// Keeps the message for rsc_message; cut where it does not fit. Never fails, because it also reports that memory was refused.
+// Stores the message for rsc_message, truncated if too long. Never fails, because it also reports lack of memory.
 void remember(std::string_view message) noexcept;
 std::int32_t status_of(const Error& error, int input) noexcept;
 
-// Runs the body of an entry. `input`: the number of the argument that is wrong when the core finds bad input; 0: there is none.
+// Runs the body of a function. `input`: the number of the argument to blame if the core throws bad_input; 0: none.
 template <class Body>
 std::int32_t guarded(int input, Body&& body) noexcept {
     try {
@@ -58,12 +58,12 @@ std::int32_t guarded(int input, Body&& body) noexcept {
 
 [[noreturn]] void refuse(int argument, const char* name, const char* why);
 
-// Of handles (api/handles.hpp) also that they are what they should be.
+// For handles (api/handles.hpp) also checks their kind.
 template <class T>
 void require(T* pointer, int argument, const char* name) {
     if (!pointer) refuse(argument, name, "must not be null");
     if constexpr (requires { pointer->tag.sound(); })
-        if (!pointer->tag.sound()) refuse(argument, name, "was released already, or is a handle of another kind");
+        if (!pointer->tag.sound()) refuse(argument, name, "was already released, or is a handle of another kind");
 }
 
 inline void require_finite(double value, int argument, const char* name) {
@@ -78,10 +78,10 @@ void put(T* output, const U& value) {
     if (output) *output = static_cast<T>(value);
 }
 
-// Text into a caller's buffer: arguments number `first` (buffer) and first + 1 (size).
+// Copies text into a caller's buffer: arguments number `first` (buffer) and first + 1 (size).
 void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first);
 
-// An entry that makes a handle, its argument 1, as guarded(). The handle is null unless everything succeeds.
+// guarded() for a function that creates a handle, its argument 1. The handle is null unless the function succeeds.
 template <class Handle, class Make>
 std::int32_t constructed(int input, Handle** handle, const char* name, Make&& make) noexcept {
     return guarded(input, [&] {
@@ -91,7 +91,7 @@ std::int32_t constructed(int input, Handle** handle, const char* name, Make&& ma
     });
 }
 
-// An entry that releases a handle and sets it to null.
+// guarded() for a function that releases a handle and sets it to null.
 template <class Handle>
 std::int32_t destroyed(Handle** handle, const char* name) noexcept {
     return guarded(0, [&] {

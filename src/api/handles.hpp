@@ -10,8 +10,8 @@
 
 namespace rsc::api {
 
-// The first member of every handle: identifies its kind while it exists, so that released handles and those of another kind are recognised
-// as long as their memory can be read.
+// The first member of every handle: identifies its kind during its lifetime, so that released handles and those of another kind are
+// recognised as long as their memory can be read.
 template <std::uint64_t kKind>
 struct Tag {
     Tag() = default;
@@ -19,7 +19,7 @@ struct Tag {
     Tag& operator=(const Tag&) { return *this; }
     ~Tag() { kind = 0; }
     bool sound() const { return kind == kKind; }
-    volatile std::uint64_t kind = kKind;  // volatile: a compiler leaves out what is written before memory is released
+    volatile std::uint64_t kind = kKind;  // volatile: compilers omit stores before memory is released
 };
 
 }  // namespace rsc::api
@@ -41,26 +41,26 @@ struct rsc_asperities {
 
 struct rsc_contact {
     rsc::api::Tag<0x7273635f636f6e74> tag;
-    // The keys of the case decide on all but the indenter. Throws Error(bad_input) for keys that are refused.
+    // All but the indenter is determined by the keys of the case. Throws Error(bad_input) for invalid keys.
     rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on, std::shared_ptr<const rsc::Case> keys, const rsc::Indenter& indenter);
-    explicit rsc_contact(const rsc_contact& like);  // the same one without a result
+    explicit rsc_contact(const rsc_contact& like);  // a copy of the contact without a result
     std::shared_ptr<const rsc::SurfaceModel> on;
     std::shared_ptr<const rsc::Case> keys;
-    std::optional<std::array<double, 2>> given;  // E* and R given to rsc_contact_create; none: those of the case
+    std::optional<std::array<double, 2>> given;  // E* and R of rsc_contact_create; none: those of the case
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Contact> model;
     rsc::Contact& contact;
-    // The last level and what is known of it.
+    // The last level and its derived results.
     struct Known {
         std::optional<rsc::Level> level;
-        double x0 = 0, y0 = 0;  // where the tip was; it may have moved since
+        double x0 = 0, y0 = 0;  // tip of that level; it may have moved since
         double energy = 0;
         rsc::Vec2 lateral, moment;
     };
     Known known;
-    bool recalled = true;  // `contact` speaks of that level; false: recall() has to be called first
+    bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
 
-    // All that the next level depends on, and the last one.
+    // The last level and everything that the next level depends on.
     struct State {
         double x0 = 0, y0 = 0;       // the tip
         std::vector<double> memory;  // Contact::memory()
@@ -69,7 +69,7 @@ struct rsc_contact {
     State state() const;
     void go_back(const State& state);
     void recall(const std::vector<double>& memory = {});
-    State committed;  // at first as it was made
+    State committed;  // initially the new contact
 };
 
 struct rsc_friction {
@@ -80,7 +80,7 @@ struct rsc_friction {
           curve(outer.contact, inner.contact),
           history(friction),
           committed_tip{like.contact.indenter().x0, like.contact.indenter().y0} {}
-    rsc_contact outer, inner;  // two ends of the path's memory
+    rsc_contact outer, inner;  // the outer and inner end of the memory of the path
     rsc::ContactCurve curve;
     rsc::FrictionHistory history;
     rsc::Vec2 committed_tip;  // of history's committed state
@@ -91,19 +91,19 @@ namespace rsc::api {
 // The settings of a case, or the defaults for null.
 const Case& settings_of(const rsc_case* a_case);
 
-// Throws Error(bad_input) if check_case finds fault with keys of these groups, or of these keys ("group%key").
+// Throws Error(bad_input) if check_case reports a problem with keys of these groups or with these keys ("group%key").
 void require_sound(const Case& settings, std::initializer_list<std::string_view> names);
 
 int threads_of(const Case& settings);
 
-// The place of the tip as the contact has it: on a surface that repeats moved by whole periods onto its rectangle. Refuses argument 2
-// unless the tip may be put there.
+// The position of the tip for the contact: on a periodic surface moved by whole periods onto its rectangle. Refuses argument 2 for a
+// position outside the surface.
 Vec2 place_of(const rsc_contact& contact, double x0, double y0);
 
-// An indenter of the library can go round a surface that repeats.
+// The indenter of a contact of the library, which can move across the borders of a periodic surface.
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain);
 
-// For asperities given one by one the case says how large the surface is (surface%L).
+// For asperities from arrays the size of the surface is that of the case (surface%L).
 SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on);
 
 }  // namespace rsc::api

@@ -230,7 +230,7 @@ private:
         if (!(s.kurtosis > s.skewness * s.skewness + 1))
             complain({"surface%kurtosis", "surface%skewness"},
                      "kurtosis = " + namelist::from_real(s.kurtosis) + ": must be greater than skewness^2 + 1 = " +
-                         namelist::from_real(s.skewness * s.skewness + 1) + ", a bound for any distribution");
+                         namelist::from_real(s.skewness * s.skewness + 1) + ", the lower bound for any distribution");
         if (s.n % 2 != 0) complain({"surface%n"}, "n = " + std::to_string(s.n) + ": must be even");
         if (s.twin_heights == TwinHeights::measured && (s.skewness != 0 || s.kurtosis != 3))
             complain({"surface%twin_heights", "surface%skewness", "surface%kurtosis"},

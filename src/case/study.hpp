@@ -34,7 +34,7 @@ Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& fau
 // Faults in the study's keys, values and lengths, each checked alone on `base`.
 std::vector<namelist::Fault> check_study(const Case& base, const Study& study);
 
-// All members in order, each of them checked (check_case). Throws Error(bad_input) naming the members that are wrong.
+// All members in order, each of them checked (check_case). Throws Error(bad_input) with the names of invalid members.
 std::vector<Member> expand_study(const Case& base, const Study& study);
 
 // "output/rsc.nc" -> "output/rsc_007.nc"; as many digits as `members` needs, three at least.

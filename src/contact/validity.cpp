@@ -23,7 +23,6 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
-// Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
 // Border points of a measured map that would touch: no asperity represents them. Neighbouring points count once.
 std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks) {
     std::vector<Vec2> touching;
@@ -42,6 +41,7 @@ std::int32_t border_contacts(const Level& level, const Indenter& indenter, const
     return count;
 }
 
+// Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
 void count_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
     level.edge_contacts = 0;
     Rectangle surface = options.surface;

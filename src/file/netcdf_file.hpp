@@ -1,4 +1,4 @@
-// A NetCDF file to be written: described first, then written at once, and given its final name when it is complete.
+// A NetCDF file for writing: its contents are declared first, then written in one call; the file gets its final name when it is complete.
 #pragma once
 
 #include "case/case.hpp"
@@ -8,7 +8,7 @@ namespace rsc {
 using NetcdfAttribute = std::variant<std::string, std::vector<double>, std::vector<std::int32_t>>;
 using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;
 
-// Rows of doubles with room between them: row j begins at data + j*stride.
+// Rows of doubles with gaps between them: row j begins at data + j*stride.
 struct StridedRows {
     const double* data = nullptr;
     std::ptrdiff_t stride = 0;
@@ -21,8 +21,8 @@ struct NetcdfVariable {
     // StridedRows: two dimensions; texts: two, the last one their longest length in bytes (shorter ones end in zeros)
     std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows, std::vector<std::string>> values;
     NetcdfAttributes attributes;
-    bool may_be_absent = false;  // NaN is an absent value, written as _FillValue; elsewhere it is an internal error
-    bool disorder = false;       // digits without any order: deflate saves a quarter of them at most, and takes ten times the writing
+    bool may_be_absent = false;  // NaN is a missing value, written as _FillValue; elsewhere it is an internal error
+    bool disorder = false;       // incompressible numbers: deflate saves a quarter at most and takes ten times as long as writing
 };
 
 class NetcdfFile {
@@ -32,9 +32,9 @@ public:
     void attribute(const std::string& name, NetcdfAttribute value);
     void variable(NetcdfVariable variable);
 
-    // Writes everything to `path`, completely or not at all (whole_file.hpp); missing folders are created. An existing file is replaced only
-    // if it is a result or a manifest of rsc. Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system) with a
-    // remedy, and Error(internal) for an infinite value or an unexpected NaN; there is then no file.
+    // Writes everything to `path`, completely or not at all (whole_file.hpp); missing folders are created. An existing file is replaced
+    // only if it is a result or a manifest of rsc. Text becomes NC_CHAR, the data model is the classic one. Throws Error(file_system) with
+    // a remedy, and Error(internal) for an infinite value or an unexpected NaN; then there is no file.
     void write(const std::string& path, Format format, int compression) const;
 
 private:

@@ -41,8 +41,8 @@ void ResultTable::global_attributes(const std::string& history) {
         file_.attribute(
             "path",
             r_.relaxes
-                ? "levels depend on the levels before: the response of a relaxing body depends on the history of loads"
-                : "levels depend on the levels before: points that yielded (solids hardness) remain lowered, attached spots (solids adhesion) remain attached until pull-off");
+                ? "each level depends on the previous ones: the response of a relaxing body depends on the history of loads"
+                : "each level depends on the previous ones: points that yielded (solids hardness) remain lowered, attached spots (solids adhesion) remain attached until pull-off");
     file_.attribute("case", r_.case_text);
     if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
         file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});

@@ -1,4 +1,4 @@
-// The table of variables of a result file, one function a group of them. Internal to the writer.
+// The table of variables of a result file, one function for each group of variables. Internal to the writer.
 #pragma once
 
 #include "case/units.hpp"
@@ -8,10 +8,10 @@
 
 namespace rsc {
 
-// In the comment of every variable that may lack values.
-inline constexpr const char* kAbsentMeans = "_FillValue: absent";
+// In the comment of every variable that may have missing values.
+inline constexpr const char* kAbsentMeans = "_FillValue: missing";
 
-// The classic data model has no integers longer than 32 bits; larger counts are written as the largest.
+// The classic data model has no integers longer than 32 bits; larger counts are written as the largest one.
 inline std::int32_t clamped(std::int64_t n) {
     return static_cast<std::int32_t>(std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
 }
@@ -99,12 +99,12 @@ private:
              std::vector<std::int32_t> values, NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
     }
-    // Incompressible data: positions, heights, forces in no order.
+    // Incompressible data: unordered positions, heights, forces.
     void add_disorder(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
                       std::vector<double> values, NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false, true});
     }
-    // One that may lack values.
+    // A variable that may have missing values.
     void add_absent(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
                     std::vector<double> values, std::string note = "") {
         note = note.empty() ? kAbsentMeans : note + "; " + kAbsentMeans;

@@ -159,7 +159,7 @@ void ResultTable::measured() {
          {"comment",
           "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, k = hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction "
           "[degree] of the lay, mean over all directions; errors are 90 % intervals; ks_seen 0: the power law extends to the shortest wavelength of the grid; "
-          "kl_seen 0: kl is an upper bound, the map is too small to show it; plateau_seen 0: whether there is a plateau cannot be decided"}});
+          "kl_seen 0: kl is an upper bound because the map is too small; plateau_seen 0: the existence of a plateau is not determined"}});
 }
 
 }  // namespace rsc

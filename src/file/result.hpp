@@ -1,12 +1,12 @@
-// Everything a result file holds, in memory: R realizations x S levels of one case.
+// The contents of a result file in memory: R realizations x S levels of one case.
 //
-// The way there, from a case to a file:
+// Steps from a case to a file:
 //
 //     check_output(c.output.file);                              // early: the file can be written, or Error(bad_input)
-//     const Contacts keep = contacts_kept(c);                   // likewise early: what the case may keep
+//     const Contacts keep = contacts_kept(c);                   // likewise early: contacts to store
 //     ObserveOptions options = observe_options(c, domain, indenter, sigma, sqrt_m4);
 //     Accumulators sums(options, steps);
-//     for each realization k in order:                          // made by whichever thread, added in order
+//     for each realization k in order:                          // computed by any thread, added in order
 //         sums.add(observe(options, k, surface_statistics, asperities, levels, stiffness));
 //     Result result = make_result(c, case_text, indenter, sigma, theory, sums.finish());
 //     if there is one realization:
@@ -32,27 +32,28 @@ struct Domain {
 // The contacts of the levels one after the other; level s has contacts start[s] ... start[s] + count[s] - 1, numbered from 0 here
 // and from 1 in the file.
 struct PackedContacts {
-    std::vector<std::int32_t> start, count;  // [step]; empty: contacts are not kept
+    std::vector<std::int32_t> start, count;  // [step]; empty: contacts are not stored
     std::vector<std::int32_t> asperity;      // index of the asperity, from 0; elements: empty
     std::vector<double> x, y;                // centroid of the contact's pressure; asperities: empty
     std::vector<double> force, radius;
-    std::vector<std::int32_t> yields;  // 1 where the contact yields; empty where none ever does
+    std::vector<std::int32_t> yields;  // 1 if the contact yields; empty if none ever does
 };
 
-// First loading and the cycle at constant separation, a row a level (contact/friction.hpp). Levels without contact have NaN.
+// First loading and the cycle at constant separation, one row for each level (contact/friction.hpp). NaN for levels without contact.
 struct FrictionLoops {
-    std::size_t first = 0, points = 0;          // of a row: of first loading, in all; 0: there is no friction
+    std::size_t first = 0, points = 0;          // of a row: of first loading, in all; 0: no friction
     std::vector<double> displacement, force;    // [step][point] [length], [force]
     std::vector<double> stiffness, cycle_work;  // [step] [force/length], [force length]
 };
 
-// Levels of the asperity model once more by elements (&compare), a value each.
+// Levels of the asperity model solved also by elements (&compare), one value for each.
 struct ComparedLevels {
     std::vector<std::int32_t> step;  // the level, from 0
     std::vector<std::int32_t> contacts;
     std::vector<double> separation, force, area, area_pixels, residual;
-    std::vector<double> force_error, area_error, contacts_error;    // asperities over elements - 1; the force's NaN under force control
-    std::vector<double> separation_error;                           // asperities less elements, under force control [length]
+    std::vector<double> force_error, area_error,
+        contacts_error;                    // asperities over elements - 1; that of the force is NaN under force control
+    std::vector<double> separation_error;  // asperities minus elements, under force control [length]
     std::vector<double> force_error_expected, area_error_expected;  // of the elements themselves; NaN: not known
     std::vector<std::int32_t> columns, rows;                        // of the grid of elements
     LevelPixels pixels;                                             // of the last one
@@ -62,11 +63,11 @@ struct ComparedLevels {
 struct Result {
     std::string title, case_text, length_unit, force_unit, time_unit;
     std::int64_t seed = 1;
-    bool path_dependent = false;  // a level depends on those before it
+    bool path_dependent = false;  // levels depend on the levels before
     bool relaxes = false;         // because body 1 relaxes
     bool force_control = false;   // the separation of a level then differs between realizations
     Indenter indenter;
-    double sigma = kAbsent;         // the length separations are divided by
+    double sigma = kAbsent;         // unit of length of separations
     std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
     Observations observations;
     // Of one realization only:
@@ -82,10 +83,10 @@ struct Result {
 };
 
 // output%contacts, with `automatic` resolved: all for one realization, none for more.
-// Throws Error(bad_input) if the case wants contacts or heights of several realizations.
+// Throws Error(bad_input) if the case requests contacts or heights of several realizations.
 Contacts contacts_kept(const Case& c);
 
-// sqrt_m4 sets the ranges of the distributions: sqrt(m4) in theory for a synthetic surface, of the grid for a measured one, and
+// sqrt_m4 determines the ranges of the distributions: sqrt(m4) in theory for a synthetic surface, of the grid for a measured one, and
 // typical_sqrt_m4(asperities) for asperities given without a surface.
 ObserveOptions observe_options(const Case& c, const Domain& domain, const Indenter& indenter, double sigma, double sqrt_m4);
 
@@ -95,21 +96,20 @@ double typical_sqrt_m4(const Asperities& asperities);
 Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma, std::optional<Moments> theory,
                    Observations observations);
 
-// Packs the contacts of all levels, of the last one (the others then have none), or of no level.
+// Packs the contacts of all levels, of the last one only, or of no level.
 void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep);
 
-// The moments the regimes are drawn with: the closed forms, otherwise the means of m2 and m4 over the realizations; NaN if there
+// The moments for drawing the regimes: the closed forms, otherwise the means of m2 and m4 over the realizations; NaN if there
 // are none.
 Moments regime_moments(const Result& result);
 
-// The way back from the result file of a campaign to its sums over realizations, so that others can be added to them.
+// Reads the sums over realizations from the result file of a campaign, so that realizations can be added.
 
-// The sums as they were, bit for bit, when the file was written; `options` and `steps` are those of its case. Throws Error(bad_input),
-// naming the file, for one that lacks them (it holds one realization, or is of an earlier version), whose bins, map or levels are
-// others, or that is damaged.
+// The sums at the time of writing, bit for bit; `options` and `steps` are those of the case. Throws Error(bad_input) with the name of the
+// file if it lacks the sums (it has one realization, or is of an earlier version), has other bins, map or levels, or is damaged.
 Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps);
 
-// Levels of all realizations in a result, and how many of them did not converge. None for a file that does not tell.
+// Levels of all realizations in a result, and how many of them did not converge. None if the file lacks them.
 struct LevelCount {
     long levels = 0, failed = 0;
 };

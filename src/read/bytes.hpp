@@ -1,4 +1,4 @@
-// Checks of the grid of a height map before its memory is allocated, and a reader of binary files.
+// Checks of the size of a height map before its memory is allocated, and a reader of binary files.
 #pragma once
 
 #include "error.hpp"
@@ -9,22 +9,23 @@ namespace rsc {
 // "1.23456789"
 std::string text_of(double value);
 
-// Refuses `what`, of `count` doubles, if it needs more memory than the machine has: a damaged file may announce any size. Throws Error(bad_input).
+// Throws Error(bad_input) if `what`, of `count` doubles, needs more memory than the machine has: the size in a damaged file may be
+// arbitrary.
 void check_memory(const std::string& path, const std::string& what, double count);
 
-// At least 3 x 3 points, at most 2^31 - 1 a side, in the machine's memory. Throws Error(bad_input).
+// Throws Error(bad_input) unless a map has at least 3 x 3 points, at most 2^31 - 1 a side, and fits into memory.
 void check_grid(const std::string& path, std::size_t nx, std::size_t ny);
 
 // Rows without padding.
 HeightMap allocate_map(std::size_t nx, std::size_t ny);
 
-// Turn a map round.
+// Reverse the order of columns or rows.
 void reverse_columns(HeightMap& map);
 void reverse_rows(HeightMap& map);
 
-// The bytes of a binary file, read one after the other; reading beyond their end is refused with the place.
+// The bytes of a binary file, read in order; reading beyond their end throws an error with the position.
 
-// A file's bytes as they are. Throws Error(bad_input) if they cannot be read.
+// Reads all bytes of a file. Throws Error(bad_input) if they cannot be read.
 inline std::string read_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
@@ -50,11 +51,11 @@ public:
         throw Error(Failure::bad_input, path_ + ": at byte " + std::to_string(at_) + ": " + what);
     }
 
-    // The next `count` items of `size` bytes each; `what` they are.
+    // The next `count` items of `size` bytes each; `what` names them in messages.
     std::string_view take(std::size_t count, std::size_t size, const std::string& what) {
         if (count > left() / size)
             refuse(what + " of " + std::to_string(count) + " x " + std::to_string(size) + " bytes, but " + std::to_string(left()) +
-                   " are left; is the file whole?");
+                   " are left; is the file complete?");
         const std::string_view taken = bytes_.substr(at_, count * size);
         at_ += count * size;
         return taken;
@@ -66,7 +67,7 @@ public:
     // Up to a zero byte.
     std::string_view text(const std::string& what) {
         const std::size_t zero = bytes_.substr(at_, left()).find('\0');
-        if (zero == std::string_view::npos) refuse(what + " has no end; is the file whole?");
+        if (zero == std::string_view::npos) refuse(what + " has no end; is the file complete?");
         const std::string_view taken = bytes_.substr(at_, zero);
         at_ += zero + 1;
         return taken;

@@ -1,15 +1,15 @@
-// The readers of file formats, each in a source of its own; read/inputs.cpp chooses among them by the first bytes of a file. All throw
-// Error(bad_input) naming the line or byte of what is wrong.
+// The readers of file formats, each in its own source file; read/inputs.cpp selects one by the first bytes of a file. All throw
+// Error(bad_input) with the line or byte of the error.
 #pragma once
 
 #include "rough/surface.hpp"
 
 namespace rsc {
 
-// Gwyddion's own files (.gwy), a tree of named values (http://gwyddion.net/documentation/user-guide-en/gwyfile-format.html). is_gwy() is true
-// for the first bytes of such a file. Reads the channel named `channel`, or the first one whose values are lengths; missing points (NaN, or
-// those under the channel's mask) are NaN. Lengths are converted to length_unit. The first row of the file, the top of the picture, has the
-// largest y; x0 = y0 = 0.
+// Gwyddion's own files (.gwy), a tree of named values (http://gwyddion.net/documentation/user-guide-en/gwyfile-format.html). is_gwy() is
+// true for the first bytes of such a file. Reads the channel named `channel`, or by default the first one whose values are lengths;
+// missing points (NaN, or those under the channel's mask) are NaN. Lengths are converted to length_unit. The first row of the file, the
+// top of the picture, has the largest y; x0 = y0 = 0.
 bool is_gwy(const std::string& start);
 HeightMap read_gwy(const std::string& path, const std::string& channel, const std::string& length_unit);
 
@@ -26,11 +26,11 @@ struct TextTable {
     std::vector<long> line;
 };
 
-// Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon (blanks beside them are ignored); the
-// same separator is required throughout. Between semicolons the decimal mark may be a comma, then throughout. `#` starts a comment; empty
-// lines are skipped; exponents may be Fortran's (1.5d-3). `columns`: the number required, or 0 for that of the first row. With `missing`
-// the words nan and bad are missing values: NaN. Refused are words that are no finite number, rows longer or shorter than the others or
-// with another separator, files without rows, and UTF-16.
+// Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon (adjacent blanks are ignored); the
+// same separator is required throughout. With semicolons the decimal mark may be a comma, but then throughout. `#` starts a comment; empty
+// lines are skipped; exponents may be Fortran's (1.5d-3). `columns`: the required number, or 0 for that of the first row. With `missing`
+// the words nan and bad are missing values: NaN. Throws Error(bad_input) for words that are no finite number, rows of different length or
+// separator, files without rows, and UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
 
 }  // namespace rsc

@@ -1,4 +1,4 @@
-// Reading NetCDF files: their checksum, their length, their variables.
+// Reads NetCDF files: checksum, length, variables.
 #pragma once
 
 #include <netcdf.h>
@@ -7,27 +7,27 @@
 
 namespace rsc {
 
-// The checksum of result files: a last line of text behind what NetCDF and HDF5 know of, "\nrsc: CRC-32 of all before this line: 0a1b2c3d\n".
+// The checksum of result files: a last line of text after the data of NetCDF or HDF5, "\nrsc: CRC-32 of all before this line: 0a1b2c3d\n".
 // It is checked before these libraries open the file: HDF5 crashes on some damaged ones, and classic files have no checksums of their own.
 
-// That line for the `size` bytes of a file.
+// The checksum line for the `size` bytes of a file.
 std::string checksum_line(const char* bytes, std::size_t size);
 
-// Throws Error(bad_input) for a file with such a line whose bytes are not those it was made for. Files without one pass: those of earlier versions
-// and of other programs.
+// Throws Error(bad_input) for a file with such a line whose bytes do not match it. Files without a checksum, of earlier versions
+// or other programs, pass.
 void require_sound(const std::string& path);
 
-// The length a NetCDF file of the classic formats must have.
+// The required length of a NetCDF file of the classic formats.
 
-// Reads the header of a classic, 64-bit offset or CDF-5 file and throws Error(bad_input) if the file ends before the header or
-// the data it announces: the NetCDF library gives zeros or worse there without a word. Does nothing with other files.
+// Reads the header of a classic, 64-bit offset or CDF-5 file and throws Error(bad_input) if the file is shorter
+// than its header and data, because the NetCDF library then returns zeros or worse without an error. Does nothing for other files.
 void check_classic_length(const std::string& path);
 
-// A NetCDF file open for reading, with errors that name the file and the variable. While it lives it holds library_lock(): the library
-// is not made for several threads.
+// A NetCDF file open for reading; errors name the file and the variable. Holds library_lock() during its lifetime, because the library
+// is not thread-safe.
 class NetcdfInput {
 public:
-    // Throws Error(bad_input) if it cannot be opened, ends before its data do, or its checksum (checksum.hpp) does not hold.
+    // Throws Error(bad_input) if the file cannot be opened, is truncated, or its checksum does not match.
     explicit NetcdfInput(const std::string& path);
     ~NetcdfInput();
     NetcdfInput(const NetcdfInput&) = delete;
@@ -46,11 +46,11 @@ public:
     std::vector<Variable> variables() const;
     std::optional<Variable> find(const std::string& name) const;
 
-    // All values of a numeric variable to out, unpacked with scale_factor and add_offset. Throws Error(bad_input) naming the
-    // first that is missing or not finite, by its indices counted from 0; with `missing` these are NaN, but infinity is refused.
+    // All values of a numeric variable to out, unpacked with scale_factor and add_offset. Throws Error(bad_input) with the indices,
+    // counted from 0, of the first value that is missing or not finite; with `missing` missing values become NaN, but infinity is refused.
     void read(const Variable& variable, double* out, bool missing = false) const;
 
-    // None where there is none; throws Error(bad_input) for one that is no text. Control characters are replaced.
+    // None if the attribute does not exist; throws Error(bad_input) if it is no text. Control characters are replaced.
     std::optional<std::string> text_attribute(const Variable& variable, const char* name) const;
     const std::string& path() const { return path_; }
 

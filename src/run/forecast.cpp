@@ -83,7 +83,7 @@ double element_level_seconds(const Job& job, double Z0, double points) {
     return 5e-6 * points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);
 }
 
-// Seconds for a surface, its summits included.
+// Seconds for a surface, including its summits.
 double surface_seconds(const Case& settings) {
     using Clock = std::chrono::steady_clock;
     constexpr int small = 512;

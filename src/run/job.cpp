@@ -184,7 +184,7 @@ Job prepare(const Case& settings) {
                 throw Error(
                     Failure::bad_input,
                     format(
-                        "indentation: a pressure of %g: from E* sqrt(2 m2) = %g on less than 5 %% of the area is gap, too little for the "
+                        "indentation: a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
                         "asperity model; use solver%%model = 'elements', which is valid up to full contact",
                         level * unit, full));
         }

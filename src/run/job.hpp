@@ -1,4 +1,4 @@
-// A prepared case, with all that is read, computed and checked once, and the run of one realization.
+// A prepared case, with everything that is read, computed and checked once, and the run of one realization.
 #pragma once
 
 #include "case/case.hpp"
@@ -18,20 +18,20 @@ struct Job {
     SolverOptions solver;
     double sigma = 0;                  // unit of length for unit = 'sigma' and delta0
     std::vector<double> levels;        // separations [length], or forces [force] with control='force' or 'pressure'
-    std::vector<double> times;         // of the levels; empty: none are given
-    double level_unit = 1;             // what 1 of the case's levels is of them
+    std::vector<double> times;         // of the levels; empty: no times
+    double level_unit = 1;             // factor from the levels of the case to `levels`
     std::optional<Spectrum> spectrum;  // of a synthetic surface
     std::optional<Moments> theory;     // its moments
     ObserveOptions observe;
-    // The surface that was read, if it is the same in every realization.
+    // The surface from the file, if it is the same in every realization.
     std::optional<SurfaceModel> given;
     std::shared_ptr<const Measured> measured;                        // of a measured map, the first of several
-    double points_touch = -std::numeric_limits<double>::infinity();  // of a map read, by asperities: Z0 at which one of its points touches
-    double seam = 0;                         // of a map that is to repeat: its jump across the border over those between points
-    std::optional<HeightMap> given_heights;  // if the case, or its elements, want them
+    double points_touch = -std::numeric_limits<double>::infinity();  // asperities of a map: Z0 at which one of its points touches
+    double seam = 0;                         // of a periodic map: jump across the border relative to that between points
+    std::optional<HeightMap> given_heights;  // if the case or its elements need them
 };
 
-// Reads what the case names, works out levels, domain and ranges. Throws Error(bad_input) for what cannot be run.
+// Reads the inputs of the case, determines levels, domain and ranges. Throws Error(bad_input) if the case cannot be run.
 Job prepare(const Case& settings);
 
 // One realization: its surface, its asperities, its levels.
@@ -42,7 +42,7 @@ struct Realization {
     FrictionLoops friction;
     std::vector<double> residual_depth;  // residual depth of the asperities after the last level; empty without hardness
     ResidualProfile residual_profile;    // of elements that yielded, likewise
-    std::optional<HeightMap> heights;    // if the case wants them
+    std::optional<HeightMap> heights;    // if requested by the case
     Fields fields;                       // likewise
 };
 
@@ -54,11 +54,11 @@ RealizationRecord observe(const Job& job, std::int64_t number, const Realization
 
 // Friction at the levels of a run: the tangential force of a slide at each separation.
 
-// Adds the loops of a level. `one` and `other` are copies of the contact of the level, whose path is not changed.
+// Adds the friction loops of a level. `one` and `other` are copies of the contact of the level, whose path is not changed.
 class FrictionRows {
 public:
     FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other);
-    // Returns false if a level did not converge on the way: the row is then not to be used.
+    // Returns false if a level did not converge meanwhile; the row must then not be used.
     bool add(const Level& level, FrictionLoops& loops);
 
 private:

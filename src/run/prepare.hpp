@@ -1,5 +1,5 @@
-// From a case to its surface, asperities and contact: the one way, for the program and for the library. Defaults of keys that are not set
-// are decided here.
+// Creates the surface, the asperities and the contact of a case, for both the program and the library. Sets the defaults of keys that are
+// not set.
 #pragma once
 
 #include "case/case.hpp"
@@ -12,20 +12,20 @@ namespace rsc {
 // The spectrum described by the keys of &surface, or read from surface%file with source = 'spectrum'.
 Spectrum spectrum_of(const Case& settings);
 
-// True where surfaces are made from a spectrum (source = 'synthetic' or 'spectrum'), false where they are read.
+// True if surfaces are synthesized (source = 'synthetic' or 'spectrum'), false if they are read.
 bool has_spectrum(const Case& settings);
 
-// True where every realization has a surface of its own: made, or read from several files.
+// True if every realization has its own surface: synthesized, or read from several files.
 bool differs_by_realization(const Case& settings);
 
-// Properties of a surface beside its heights.
+// Properties of a surface other than its heights.
 struct Origin {
     double sigma = 0;                          // rms height: that of the case, or after detrending [length]
-    double points_per_wave = 0;                // grid steps in the shortest wave of a made surface; 0: not known
-    std::optional<Moments> theory;             // of a made surface: moments of its spectrum
-    std::optional<Moments> sampled;            // of a made surface: moments of its modes
+    double points_per_wave = 0;                // grid steps in the shortest wavelength of a synthetic surface; 0: not known
+    std::optional<Moments> theory;             // of a synthetic surface: moments of its spectrum
+    std::optional<Moments> sampled;            // of a synthetic surface: moments of its modes
     std::string name = "the surface";          // for messages
-    std::shared_ptr<const Measured> measured;  // how a measured map was prepared; null for others
+    std::shared_ptr<const Measured> measured;  // preparation of a measured map; null for others
 };
 
 struct Surface {
@@ -38,37 +38,37 @@ struct Surface {
 Surface make_surface(const Case& settings, std::int64_t number, int threads);
 Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
 
-// Points along a side of the element grid of a made surface: elements%points_per_wave in the shortest wave, or slightly more.
+// Points along a side of the element grid of a synthetic surface: elements%points_per_wave in the shortest wavelength, or slightly more.
 int element_points(const Case& settings, const Spectrum& spectrum);
 
-// Throws Error(bad_input) where that grid is larger than allowed, or than the memory of the machine.
+// Throws Error(bad_input) if that grid is larger than allowed or does not fit into memory.
 void require_element_memory(const Case& settings, const Spectrum& spectrum);
 bool element_memory_suffices(const Case& settings, const Spectrum& spectrum);
 
-// The same surface on the element grid; a measured map as it is.
+// Realization `number` of the surface on the element grid; a measured map keeps its own grid.
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads);
 
 // The rectangle of a surface, with the properties of the surface that a contact needs.
 struct SurfaceDomain : Domain {
     double sigma = 0;            // rms height of the surface, or of the asperities of a list [length]
-    bool guessed = false;        // the rectangle was derived from the asperities of a list, because surface%L is not set
+    bool guessed = false;        // rectangle derived from the asperities of a list, because surface%L is not set
     double mean_spacing = 0;     // <d> of the asperities [length]; 0: not known (a single one)
-    double points_per_wave = 0;  // of the grid its summits are found on, in the shortest wave; 0: not known
-    // Half a grid step of a map read: its points are cells that begin at 0, so the middle of the points lies half a step below that of the cells.
+    double points_per_wave = 0;  // of the grid of the summits, in the shortest wavelength; 0: not known
+    // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
     double rms_slope = 0;  // 0: not known (a list)
     bool repeats = false;  // beyond its rectangle: made surfaces, and heights that are said to
     std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
 };
 
-// The surface as contacts use it: asperities, or with solver%model = 'elements' the points of the surface.
+// The surface for contacts: asperities, or with solver%model = 'elements' the points of the surface.
 struct SurfaceModel {
     Asperities asperities;                    // the summits of the surface
     SummitSearch search;                      // finds the summits that an indenter touches, for laws with summits between the points
-    std::shared_ptr<const HeightMap> points;  // for elements; there are no asperities then
+    std::shared_ptr<const HeightMap> points;  // for elements, without asperities
     SurfaceDomain domain;
     SurfaceStatistics statistics;
-    bool list = false;                         // the asperities were given one by one; surface%L may correct the guessed domain
+    bool list = false;                         // the asperities were given as arrays; surface%L may replace the derived domain
     std::shared_ptr<const Measured> measured;  // of a measured map
 };
 
@@ -78,8 +78,8 @@ std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& bre
 // The domain of a made surface, which is known before its asperities are.
 SurfaceDomain synthetic_domain(const Spectrum& spectrum);
 
-// The domain of listed asperities: the square [0, L]^2 if it holds them, otherwise a square of side L around them. Without L it is the
-// smallest square around them, or one of side 1 for a single asperity. Throws Error(bad_input) when L is less than their extent; `whose`
+// The domain of listed asperities: the square [0, L]^2 if it contains them, otherwise a square of side L around them. Without L it is the
+// smallest square around them, or one of side 1 for a single asperity. Throws Error(bad_input) if L is less than their extent; `whose`
 // names the asperities in the message.
 SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L, const std::string& whose);
 
@@ -87,23 +87,24 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
 // for a surface without summits.
 SurfaceModel make_surface_model(const Surface& surface, const Case& settings, int threads);
 
-// Realization `number` of the case. Asperities of a made surface are found while it is made, without storing it; they equal those of
-// make_surface() where that grid is fine enough for the law. Throws Error(bad_input) for what cannot be read, made or used by the law.
+// Realization `number` of the case. Asperities of a synthetic surface are found during synthesis, without storing it; they equal those of
+// make_surface() if that grid is fine enough for the law. Throws Error(bad_input) for a surface that cannot be read or generated, or that
+// the law cannot use.
 SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int threads);
 SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, std::int64_t number,
                                 int threads);  // of spectrum_of(settings)
 
-// Domain and statistics alone, for elements: summits are not looked for.
+// Domain and statistics only, for elements, without a search for summits.
 SurfaceModel make_bare_model(const Surface& surface);
 
-// Throws Error(bad_input) unless the tip at (x, y) lies above the surface: on its rectangle, or where that is guessed no farther from it
-// than the indenter reaches.
+// Throws Error(bad_input) unless the tip at (x, y) is above the surface: on its rectangle, or, if the rectangle is derived from
+// asperities, no farther from it than the reach of the indenter.
 void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x, double y);
 
 // The form of body 2, from &indenter and &solids. Throws Error(bad_input) for a file that cannot be read.
 Shape shape_of(const Case& settings);
 
-// E* from &solids and that form, the tip above indentation%centre. Its default is the middle of the surface, or of the points of a map.
+// E* from &solids, the form above, and the tip at indentation%centre, by default the middle of the surface, or of the points of a map.
 Indenter indenter_of(const Case& settings, const SurfaceDomain& domain);
 
 // The sides of the surface with indentation%boundary = 'periodic'.
@@ -115,8 +116,8 @@ double sigma_of(const Case& settings, const SurfaceDomain& domain);
 // The contact of an indenter with a surface; the model must outlive it.
 std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter, const SolverOptions& options);
 
-// The keys of &solver, &asperities and &indentation that a solver needs. Throws Error(bad_input) where it needs an rms height and
-// there is none.
+// The keys of &solver, &asperities and &indentation that a solver needs. Throws Error(bad_input) if it needs an rms height and there
+// is none.
 SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain);
 
 }  // namespace rsc

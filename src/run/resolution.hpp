@@ -1,9 +1,9 @@
 // Grid errors of elements.
 //
-// A made surface is solved again on a grid of half as many points a side, a quarter of the work; a map read from a file, whose coarser
-// points would be another surface, on twice as many, interpolated by its cosine series (rough/surface.hpp). The error of elements decreases
-// at least as the first power of the grid step. The expected error is therefore half the change of N from the coarser grid, or the
-// whole change to the finer one.
+// A synthetic surface is solved again on a grid of half as many points a side, at a quarter of the cost; a map from a file, of which a
+// coarser grid would be another surface, on twice as many, interpolated by its cosine series (rough/surface.hpp). The error of elements
+// decreases at least as the first power of the grid step. The expected error is therefore half the change of N from the coarser grid, or
+// the whole change to the finer one.
 #pragma once
 
 #include "contact/contact.hpp"
@@ -17,23 +17,23 @@ namespace rsc {
 // A level is out_of_validity if N of elements changes by more than this with the grid.
 inline constexpr double kUnresolved = 0.01;
 
-// Expected errors of N and A, relative; both are bounds by the argument above.
+// Expected relative errors of N and A, both bounds by the argument above.
 struct GridError {
     double force = 0, area = 0;
 };
 
-// Beside a contact of elements, the same on the other grid.
+// A contact of elements on a second grid.
 class OtherGrid {
 public:
-    // `map`: the heights that the contact stands on, at points_per_wave if they are made. There may be no other grid (a map too large to
-    // be worth it, two flats of a map): then error() has nothing.
+    // `map`: the heights of the contact, at points_per_wave if synthetic. If there is no second grid (a map that is too large, two flats
+    // of a map), error() returns nothing.
     OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave);
-    // Likewise of two contacts that exist: `coarse` has half the points of the one judged.
+    // Uses an existing contact: `coarse` has half the points a side of the contact to be checked.
     explicit OtherGrid(std::unique_ptr<Contact> coarse) : contact_(std::move(coarse)), coarser_(true) {}
     ~OtherGrid();
 
     bool exists() const { return contact_ != nullptr; }
-    // Expected errors of a level by elements. None without another grid, or if it did not converge there.
+    // Expected errors of a level by elements. None without a second grid, or if the solver does not converge on it.
     std::optional<GridError> error(const LevelValues& level);
     // Solves a level that is not checked, but changes the path: a reversal of the path of a surface that yields.
     void visit(double separation);
@@ -44,28 +44,28 @@ private:
     bool coarser_ = false;
 };
 
-// Judges the levels of a run one after the other: each has the error of the last one that was solved on the other grid, which is done
-// anew once contacts have grown or shrunk.
+// Checks the levels of a run one after the other: each gets the error of the last level that was solved on the second grid. The check is
+// repeated once contacts have grown or shrunk.
 class ResolutionCheck {
 public:
     ResolutionCheck(const Job& job, std::int64_t number, int threads, const HeightMap& map);
-    // Fills force_error_expected and area_error_expected of level `step` and raises its status where they say so.
+    // Sets force_error_expected and area_error_expected of level `step` and raises its status if they are too large.
     void judge(std::size_t step, Level& level);
 
 private:
     const Job& job_;
     OtherGrid other_;
     std::optional<GridError> last_;
-    double pixels_ = 0;  // pixels_per_contact there
+    double pixels_ = 0;  // pixels_per_contact of that check
 };
 
-// The check of a level against the missing points of its map, which the contact itself does not know.
+// The check of a level for missing points of its map, which are not part of the contact.
 
-// More of the contact area than this on points that were missing makes a level out_of_validity.
+// A level is out_of_validity if a larger share of the contact area than this is on filled points.
 inline constexpr double kMuchFilled = 0.01;
 
-// Fills filled_share of a level on a map with filled points, and raises its status where that is too much. Elements: the pixels under
-// pressure; asperities: the points within their spots.
+// Sets filled_share of a level on a map with filled points, and raises its status if it is too large. It counts the pixels under
+// pressure of elements, or the points within the contact spots of asperities.
 void judge_filled(Level& level, const Measured& map, const Domain& domain);
 
 }  // namespace rsc

@@ -187,7 +187,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         tell(count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
              "separation below -3 sigma - the tip lies below 99.9 % of the heights: the asperity model is outside its range.");
         tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
-             "spots with more area than there is under the indenter (nominal_area) - the asperity model is outside its range.");
+             "contact area above the area under the indenter (nominal_area) - the asperity model is outside its range.");
         std::map<std::int32_t, long> causes;
         for (const LevelValues& l : levels) causes[l.error_cause] += l.force_error_expected > kMuchError;
         for (const auto& [cause, found] : causes)
@@ -254,12 +254,12 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     for (const LevelValues& level : levels)
         jumps += level.jumps, lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
     if (c.run.realizations == 1)
-        out << format("  adhesion: the smallest force met is %.4g %s; %ld jumps lost %.4g %s %s. Levels depend on those before them.\n",
-                      least, f, jumps, lost, f, l);
+        out << format(
+            "  adhesion: the smallest force is %.4g %s; energy lost in %ld jumps: %.4g %s %s. Levels depend on the levels before.\n", least,
+            f, jumps, lost, f, l);
     if (const double fine = levels.back().cohesive_resolution; fine < 2)
         out << format(
-            "  adhesion_range is %.2g of a pixel's side (cohesive_resolution): below 2 the pull-off force is some 5 to 10 %% too high.\n",
-            fine);
+            "  adhesion_range is %.2g pixel sides (cohesive_resolution): below 2 the pull-off force is about 5 to 10 %% too high.\n", fine);
     // Tabor's parameter is this length over the range of the attraction; JKR holds from 5 on.
     const auto reach = [&](double radius) { return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2)); };
     double summit = kNotComputed;
@@ -280,7 +280,7 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
             summit, l, reach(summit) / 5, l);
     if (summit > 0 && std::isfinite(R))
         out << (range > 0 ? format("; %.3g for a smooth sphere", reach(R) / range)
-                          : format("; for a smooth sphere it would be %.3g %s", reach(R) / 5, l));
+                          : format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l));
     if (summit > 0) out << ".\n";
 }
 

@@ -16,11 +16,11 @@ void print_case(std::ostream& out, const Job& job);
 // The treatment of a measured map, if there is one.
 void print_measured(std::ostream& out, const Job& job);
 
-// print_case, print_measured and the column heads; then a line a level.
+// print_case, print_measured and the column heads; then one line for each level.
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 
-// The methods of the levels and the reasons for fallbacks; the number of levels with each status, its meaning and remedies; warnings.
+// Methods of the levels with reasons for fallbacks; number of levels, meaning and remedy of each status; warnings.
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job);
 
 // A remark on rms slopes too large for the theory; empty for small ones.
@@ -35,11 +35,11 @@ std::string duration(double seconds);
 // Progress with rate and remaining time: a line that is redrawn on a terminal, a line every 30 s on other streams.
 class ProgressLine {
 public:
-    // `out` null: silent. `terminal`: redraw in place. `already`: done by an earlier run, which does not count for the rate.
+    // `out` null: no output. `terminal`: redraw in place. `already`: done by an earlier run, not included in the rate.
     ProgressLine(std::ostream* out, bool terminal, const char* unit, double already = 0);
     ~ProgressLine();  // erases the line
     void show(double done, double total);
-    void wipe();  // before something else is printed to the same terminal
+    void wipe();  // before other output to the same terminal
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -52,13 +52,13 @@ private:
 
 // A campaign on stdout: a line for each batch of realizations, and at the end the mean curve with its scatter.
 
-// The case, the numbers of realizations and workers, the column heads. `done`: realizations of an interrupted run.
+// Prints the case, the numbers of realizations and workers, and the column heads. `done`: realizations of an interrupted run.
 void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done);
 
-// Means and scatter (standard deviation of a realization) of the last level over the realizations so far.
+// Prints means and scatter (standard deviation of one realization) of the last level over the realizations so far.
 void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds, std::size_t done_in_this_run);
 
-// The mean curve, statuses, warnings, the file.
+// Prints the mean curve, statuses, warnings and the name of the file.
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file,
                             bool replaces);
 

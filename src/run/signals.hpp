@@ -5,18 +5,18 @@
 
 namespace rsc {
 
-// From now on the first of them is remembered instead of ending the program; a second one, some seconds later, ends it
-// at once. SIGINT and SIGHUP stay ignored where they are, and a file beyond the limit of file sizes becomes an error instead of a signal. A
-// program calls this; the library never does, so that caught_signal() stays 0.
+// Installs handlers: the first of these signals is recorded instead of ending the program; a second one, some seconds later, ends it
+// at once. SIGINT and SIGHUP stay ignored if they were, and exceeding the file size limit becomes an error instead of a signal. Called by
+// programs; the library never calls it, so that caught_signal() stays 0.
 void catch_signals();
 
-// Their number once one has come, 0 before.
+// Number of the signal that was caught, 0 before.
 int caught_signal() noexcept;
 
-// Records a signal that another rank received.
+// Records a signal received by another rank.
 void note_signal(int signal) noexcept;
 
-// The run was stopped by a signal; the text says how to continue. The exit status is 128 + signal.
+// Thrown if the run was stopped by a signal; the text states how to continue. The exit status is 128 + signal.
 class Interrupted : public std::runtime_error {
 public:
     Interrupted(int signal, const std::string& message) : std::runtime_error(message), signal_(signal) {}

@@ -1,4 +1,4 @@
-// The run of the program: one case, or the members of a study and their manifest.
+// Runs one case, or the members of a study, and writes the manifest.
 #pragma once
 
 #include "case/read_case.hpp"
@@ -13,25 +13,25 @@ namespace rsc {
 // Error(file_system).
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command);
 
-// "1  output/rsc_001.nc  surface%sigma=0.001 surface%L_lambda_s=256", a line a member.
+// "1  output/rsc_001.nc  surface%sigma=0.001 surface%L_lambda_s=256", one line for each member.
 std::string list_members(const std::vector<Member>& members);
 
 // "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
 std::string member_name(const Member& member);
 
-// The members of the study, or the case as its only one. Throws Error(bad_input) naming the members that are wrong.
+// The members of the study, or the case as its only one. Throws Error(bad_input) with the names of invalid members.
 std::vector<Member> members_of(const ReadCase& read);
 
-// The work of all members; every rank makes the same from the same case. A member that is run as a whole gets its share of the `threads`.
+// The work of all members, identical on every rank. A member that is run as a whole gets its share of the `threads`.
 CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options, std::size_t threads);
 
-// Checks all members, or the one numbered `only`, without solving a level: every input is read, and the place of every result checked.
-// Returns the expected time of the run with so many threads [s]. Error(bad_input) names the member.
+// Checks all members, or the one numbered `only`, without solving a level: reads every input and checks the path of every result.
+// Returns the expected time of the run with `threads` threads [s]. Error(bad_input) names the member.
 double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads);
 
-// Runs all members, or the one numbered `only` (from 1), and writes the manifest. With options.resume finished members are kept. All is
-// checked before anything runs: Error(bad_input) names the member. Returns the sums of levels. An interrupted study leaves complete
-// files and checkpoints.
+// Runs all members, or the one numbered `only` (from 1), and writes the manifest. With options.resume finished members are kept. All
+// members are checked before anything runs: Error(bad_input) names the member. Returns the sums of levels. An interrupted study leaves
+// complete files and checkpoints.
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team);
 
 }  // namespace rsc

@@ -1,4 +1,4 @@
-// Workers of campaigns and studies, and their work.
+// Parallel work on campaigns and studies.
 #pragma once
 
 #include "case/case.hpp"
@@ -7,35 +7,36 @@
 
 namespace rsc {
 
-// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Work is
-// handed out piece by piece to workers that are idle; results do not depend on the distribution.
+// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Tasks
+// are distributed one by one to idle workers; results do not depend on the distribution.
 
-// A piece of work: one realization of a member, or the whole member (realization 0).
+// A task: one realization of a member, or the whole member (realization 0).
 struct Task {
     std::int32_t member = 0;  // from 0
     std::int64_t realization = 0;
 };
 
-// Does a task and returns its result as bytes. When `abandoned` becomes true the result is no longer needed.
+// Executes a task and returns its result as bytes. Once `abandoned` is true the result is no longer needed.
 using Work = std::function<std::string(const Task&, const std::atomic<bool>& abandoned)>;
 
 class Team {
 public:
-    // The next task; none when there is none at present. Called again after every result.
+    // The next task, or none at present. Called again after every result.
     using Next = std::function<std::optional<Task>()>;
     // Takes a result. Called by the thread that called run(), in the order in which results arrive.
     using Collect = std::function<void(const Task&, std::string&&)>;
 
     virtual ~Team() = default;
     virtual std::size_t workers() const = 0;
-    // Runs until `next` has no more tasks and every result has arrived. `ahead`: tasks queued for a worker beside its present one.
-    // Throws what a task or `collect` throws, and Interrupted once a signal has been caught; unfinished tasks are then abandoned.
+    // Runs until `next` has no more tasks and every result has arrived. `ahead`: tasks queued for a worker in addition to its present one.
+    // Rethrows exceptions of tasks and of `collect`, and throws Interrupted once a signal has been caught; unfinished tasks are then
+    // abandoned.
     virtual void run(const Next& next, const Collect& collect, int ahead) = 0;
 
-    std::function<void()> meanwhile;  // called several times a second by the thread that called run(); may throw, as a task may
+    std::function<void()> meanwhile;  // called several times a second by the thread that called run(); may throw
 };
 
-// Threads that take tasks from a queue. Loops inside a task run on its thread alone.
+// Threads that execute tasks from a queue. Loops within a task run on its thread only.
 class WorkerThreads {
 public:
     struct Done {
@@ -51,7 +52,7 @@ public:
     void push(const Task& task);
     // Waits for a result, at most for this time.
     std::optional<Done> pop(std::chrono::microseconds wait);
-    // Tasks pushed and not popped.
+    // Number of tasks pushed and not popped.
     std::size_t unfinished() const { return unfinished_; }
     std::size_t size() const { return threads_.size(); }
 
@@ -64,7 +65,7 @@ private:
     std::deque<Task> tasks_;
     std::deque<Done> done_;
     std::atomic<bool> abandoned_{false};
-    std::size_t unfinished_ = 0;  // the owner's
+    std::size_t unfinished_ = 0;  // of the owner
     std::vector<std::thread> threads_;
 };
 
@@ -85,13 +86,13 @@ void leave_if_interrupted();
 
 // The work of a worker: realizations of the members of a study (or of the one case there is), or whole members.
 
-// Any thread may ask for any task. A member is prepared when it is first wanted and kept until another is.
+// Any thread may request any task. A member is prepared on the first request and kept until another member is requested.
 class CampaignWork {
 public:
-    // `whole`: how members are run as a whole, by so many threads.
+    // `whole`: options for running whole members, with `threads` threads.
     CampaignWork(std::vector<Case> members, RunOptions whole);
-    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member its RunSummary. Throws Error naming
-    // the realization, Interrupted when abandoned.
+    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member its RunSummary. Throws Error with the
+    // number of the realization, and Interrupted when abandoned.
     std::string operator()(const Task& task, const std::atomic<bool>& abandoned);
     std::shared_ptr<const Job> job(std::int32_t member);
 

@@ -50,7 +50,7 @@ grep -q 'SHORTENED' "$report" || fail "the report does not say that it is the sh
 if grep -n -w -i nan "$report"; then fail "not a number in the report"; fi
 # What does not depend on the size of the run: Greenwood's mode by its own formula, kappa1/kappa2 = 2.2153.
 grep -q 'ratio 2\.2153' "$report" || fail "the mode of Greenwood's density is not at kappa1/kappa2 = 2.2153"
-grep -q "same of Greenwood's formula itself  *1\.356  *1\.356 " "$report" || fail "the mean of Greenwood's density is not 1.356"
+grep -q "value of Greenwood's formula itself  *1\.356  *1\.356 " "$report" || fail "the mean of Greenwood's density is not 1.356"
 # The surfaces beside elements are not shortened, only fewer: eight points to the shortest wave, of which hertz takes the highest for
 # summits, so that its load is 4 to 9 % too low; that of fourth_order is within 3 %.
 for waves in 64 128; do
