@@ -58,13 +58,13 @@ struct LevelValues {
     double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
     double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
     // Adhesion:
-    double least_force = kNotComputed;  // the smallest met since the beginning [force]
+    double least_force = kNotComputed;          // the smallest met since the beginning [force]
     double cohesive_area = kNotComputed;        // of the points that attract without touching [length^2]
     double cohesive_resolution = kNotComputed;  // elements: z0 over the side of a pixel
-    std::int32_t jumps = 0;             // on the way from the level before
-    std::int32_t plastic_contacts = 0;  // contacts that yield at this level
-    double time = kNotComputed;         // of bodies that relax [time]
-    double energy_lost = kNotComputed;  // work that will not come back, since the first level [force length]
+    std::int32_t jumps = 0;                     // on the way from the level before
+    std::int32_t plastic_contacts = 0;          // contacts that yield at this level
+    double time = kNotComputed;                 // of bodies that relax [time]
+    double energy_lost = kNotComputed;          // work that will not come back, since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // asperities or pixels given to the solver
     std::int32_t iterations = 0;  // Newton steps

@@ -56,8 +56,8 @@ struct SurfaceDomain : Domain {
     double points_per_wave = 0;  // of the grid of the summits, in the shortest wavelength; 0: not known
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
-    double rms_slope = 0;  // 0: not known (a list)
-    bool repeats = false;  // beyond its rectangle: made surfaces, and heights that are said to
+    double rms_slope = 0;                             // 0: not known (a list)
+    bool repeats = false;                             // beyond its rectangle: made surfaces, and heights that are said to
     std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
 };
 
