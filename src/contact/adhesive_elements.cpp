@@ -18,12 +18,13 @@ constexpr double kCoarsest = 0.5;     // z0 over the side of a pixel
 constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
 // Renewals after which pixels no longer leave the points that attract, so that renewals come to an end; and at most.
 constexpr int kQuick = 200, kMost = 2000;
+constexpr std::size_t kKept = 5;  // numbers of a memory before its points
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // What the accepted levels leave.
 struct Past {
-    double separation = kInfinity, force = 0, work = 0, least_force = 0;
+    double separation = kInfinity, force = 0, work = 0, least_force = 0, lost = 0;
     std::vector<std::int32_t> attracting;  // increasing
 };
 
@@ -167,7 +168,6 @@ bool AdhesiveElements::Impl::press(double Z, Level& level) {
 // The state at Z that follows from the points that attract now. False: not converged.
 bool AdhesiveElements::Impl::renew(double Z, Level& level) {
     gather(Z);
-    long first = 0, later = 0;
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
         std::vector<double> p(reach.size());
@@ -190,12 +190,7 @@ bool AdhesiveElements::Impl::renew(double Z, Level& level) {
             changed += next != attracts;
             attracts = next;
         }
-        (round == 0 ? first : later) += changed;
-        if (changed == 0) {
-            constexpr long few = 8;
-            level.jumps = later > 2 * first + few;
-            return true;
-        }
+        if (changed == 0) return true;
     }
     return false;
 }
@@ -237,7 +232,14 @@ Level AdhesiveElements::Impl::solve(double Z) {
     now.force = level.force;
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
-    level.energy_lost = now.work - energy;
+    level.energy_lost = now.lost = now.work - energy;
+    // A jump loses a good part of the work of adhesion over the area that changed; what the trapezoidal rule misses is little beside it.
+    std::vector<std::int32_t> changed;
+    std::set_symmetric_difference(accepted.attracting.begin(), accepted.attracting.end(), now.attracting.begin(), now.attracting.end(),
+                                  std::back_inserter(changed));
+    constexpr double good = 0.25;
+    const double gone = good * options.adhesion.work * pixel * static_cast<double>(changed.size());
+    level.jumps = accepted.separation < kInfinity && !changed.empty() && now.lost - accepted.lost > gone;
     if (flats)
         level.nominal_area = heights.Lx() * heights.Ly();
     else
@@ -328,7 +330,7 @@ void AdhesiveElements::forget_levels() {
 std::vector<double> AdhesiveElements::memory() const {
     const Past& past = impl_->accepted;
     if (past.separation == kInfinity) return {};
-    std::vector<double> numbers = {past.separation, past.force, past.work, past.least_force};
+    std::vector<double> numbers = {past.separation, past.force, past.work, past.least_force, past.lost};
     numbers.insert(numbers.end(), past.attracting.begin(), past.attracting.end());
     return numbers;
 }
@@ -336,12 +338,12 @@ std::vector<double> AdhesiveElements::memory() const {
 void AdhesiveElements::recall(const std::vector<double>& memory, const Level* level) {
     Impl& my = *impl_;
     Past past;
-    bool sound = memory.empty() || memory.size() >= 4;
+    bool sound = memory.empty() || memory.size() >= kKept;
     for (std::size_t k = 0; k < memory.size() && sound; ++k)
-        sound = std::isfinite(memory[k]) && (k < 4 || (memory[k] >= 0 && memory[k] < static_cast<double>(my.clearance.size())));
+        sound = std::isfinite(memory[k]) && (k < kKept || (memory[k] >= 0 && memory[k] < static_cast<double>(my.clearance.size())));
     if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
-    if (!memory.empty()) past = {memory[0], memory[1], memory[2], memory[3], {}};
-    for (std::size_t k = 4; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
+    if (!memory.empty()) past = {memory[0], memory[1], memory[2], memory[3], memory[4], {}};
+    for (std::size_t k = kKept; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
     forget_levels();
     my.accepted = std::move(past);
     if (level) (void)solve(level->separation);

@@ -31,7 +31,7 @@ public:
     const Indenter& indenter() const override;
     bool path_dependent() const override { return true; }
     bool pulls() const override { return true; }
-    // Separation, force, work done, the smallest force, then the points that attract.
+    // Separation, force, work done, the smallest force, what is lost, then the points that attract.
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
 
