@@ -306,7 +306,7 @@ def _call(function, *values):
             value, owner = _convert(argument, value)
             converted.append(value)
             alive.append(owner)
-    objects.sort(key=lambda entry: id(entry[0]))  # one order for all threads
+    objects.sort(key=lambda entry: id(entry[0]))  # the same order in all threads
     held = []
     try:
         for value, const, _ in objects:
@@ -893,7 +893,7 @@ class Friction(_Object):
 
 def stiffness_ratio(E, nu):
     """m = 4 G*/E* of two bodies, the ratio of tangential to normal stiffness of any of their contacts. E: two Young's moduli, inf: rigid
-    [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError naming what is wrong."""
+    [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError with the name of the wrong argument."""
     return _number("rsc_stiffness_ratio", _array("E", E, (2,)), _array("nu", nu, (2,)))
 
 

@@ -59,7 +59,7 @@ def nayak(folder, report):
         _, _, points, fall, start = of[model]
         rest = points[:, 0] - start - fall * np.log10(alpha)
         report.note(f"{model}: kappa = {start:.3f} {fall:+.3f} log10 alpha, to {np.sqrt(np.mean(rest**2)):.3f} rms (standard errors {np.sqrt(np.mean(points[:, 1] ** 2)):.3f}).")
-    report.note("Yastrebov, Anciaux and Molinari (J. Mech. Phys. Solids 107, 2017, arXiv 1704.05650) found by elements that kappa falls with the logarithm of alpha, and is between Persson's theory, which is independent of alpha  "
+    report.note("Yastrebov, Anciaux and Molinari (J. Mech. Phys. Solids 107, 2017, arXiv 1704.05650) found by elements that kappa falls with the logarithm of alpha, and is between Persson's theory, which is independent of alpha "
                 f"({PERSSON:.3f}), and the asymptote of Bush, Gibson and Thomas ({BUSH:.3f}).")
     report.finding("Elements say the same." if slope < 0 else "Elements do not fall here.")
 

@@ -31,7 +31,7 @@ def preface(report, folder):
     report.lines += ["Comparison of rsc with the numbers of the paper", "==================================="]
     report.note("V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). " + first.file.source + ".")
     report.note("Columns: quantity, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: not stated in the paper; '-' in the "
-            "third: no sampling error.  "
+            "third: no sampling error. "
                 "No parameter is tuned; variants of what the paper does not state are tried, and those that agree are named.")
     report.full = first.realizations == 2000
     if not report.full:

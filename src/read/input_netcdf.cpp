@@ -347,7 +347,7 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
             continue;
         }
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            refuse(path_ + ": " + indices(v, i) + " is missing (it has the fill value  " + shown(stored) + "); every value must be known");
+            refuse(path_ + ": " + indices(v, i) + " is missing (it has the fill value " + shown(stored) + "); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) refuse(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

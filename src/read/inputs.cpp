@@ -25,7 +25,7 @@ std::vector<std::string> matching_files(const std::string& name) {
         throw;
     }
     globfree(&found);
-    if (status == GLOB_NOSPACE) throw Error(Failure::no_memory, "not enough memory for the files of  " + name);
+    if (status == GLOB_NOSPACE) throw Error(Failure::no_memory, "not enough memory for the files of " + name);
     if (files.empty()) throw Error(Failure::bad_input, name + ": no file matches this pattern");
     std::sort(files.begin(), files.end());  // independent of the locale
     return files;
@@ -177,7 +177,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
         const auto named = file.find(channel);
         if (!named) refuse(file.path() + ": there is no variable '" + channel + "'");
         if (named->lengths.size() != 2 || !named->numeric())
-            refuse(file.path() + ": channel '" + channel + "': a numeric variable of two dimensions was expected, not  " + named->shape());
+            refuse(file.path() + ": channel '" + channel + "': a numeric variable of two dimensions was expected, not " + named->shape());
         return *named;
     }
     if (const auto named = file.find("height")) {
@@ -193,7 +193,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
             maps.push_back(v);
         }
     if (maps.empty()) refuse(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
-    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and several others have two dimensions:  " + names);
+    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and several others have two dimensions: " + names);
     return maps[0];
 }
 
