@@ -46,7 +46,7 @@ Shape shape_of(const Function& of, double step = 0.025) {
 
 // Of SU in closed form (Johnson 1949, with w = exp(1/delta^2)); of SB, analytic within pi delta of the real axis, by few points.
 Shape shape_of(const Johnson& j) {
-    if (j.bounded) return shape_of<Johnson>(j, std::clamp(0.4 * j.delta, 0.02, 0.1));
+    if (j.bounded) return shape_of<Johnson>(j, std::clamp(0.4 * j.delta, 0.02, 0.2));
     const double less = std::expm1(1 / (j.delta * j.delta)), w = 1 + less, s = j.shift;
     const double variance = 0.5 * less * (w * std::cosh(2 * s) + 1);
     const double m3 = 0.25 * std::sqrt(w) * less * less * (w * (w + 2) * std::sinh(3 * s) + 3 * std::sinh(s));

@@ -12,8 +12,8 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Half the tolerances that are documented for one surface, so that two or three rounds are enough.
-constexpr double kNearSkewness = 0.012, kNearKurtosis = 0.03;
+// Within the tolerances that are documented for one surface, 0.02 and 0.05, which hold on any grid.
+constexpr double kNearSkewness = 0.016, kNearKurtosis = 0.04;
 double distance(HeightShape got, HeightShape wish) {
     return std::max(std::abs(got.skewness - wish.skewness) / kNearSkewness, std::abs(got.kurtosis - wish.kurtosis) / kNearKurtosis);
 }
@@ -72,9 +72,9 @@ public:
     HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
         take();
         transform(up_);
-        HeightShape now{}, best{}, lost{};
+        HeightShape now, best, lost{0, 0};
         double nearest = HUGE_VAL;
-        now = sample();
+        now = shape(std::max(1, m_ / 128));  // enough to choose the first distribution
         for (int round = 0; round <= rounds; ++round) {
             // How much of a change of the distribution the restored amplitudes leave: less of the first one.
             const double skewed = gaussian ? (round == 0 ? 0.42 : 0.55) : 0.8, peaked = gaussian ? (round == 0 ? 0.3 : 0.5) : 0.8;
@@ -232,23 +232,23 @@ private:
         double count = 0;
     };
 
-    // Moments of all heights, and the share of them below each edge of the bins.
+    // Moments of every `step`-th row, and the number of heights in each bin, of 128 rows or more.
     HeightShape shape(int step = 1) {
         Sums sums;
         std::fill(std::begin(bin_), std::end(bin_), 0);
+        int row = 0;
+        const int binned = std::max(1, m_ / (step * 128));
         rows(step, false, [&](const float* z) {
             sums.add(z, m_);
-            for (int i = 0; i < m_; ++i) ++bin_[bin(z[i])];
+            for (int i = 0; row % binned == 0 && i < m_; ++i) ++bin_[bin(z[i])];
+            ++row;
         });
         return sums.shape();
     }
-    // Of enough rows to choose the first distribution.
-    HeightShape sample() { return shape(std::max(1, m_ / 128)); }
-
     // Heights in rms heights: bins over +-kRange of them, in which the outermost hold what lies beyond.
-    static constexpr float kRange = 12;
+    static constexpr float kRange = 12, kPerUnit = kBins / (2 * kRange);
     static std::size_t bin(float z) {
-        return static_cast<std::size_t>(std::clamp((z + kRange) * (kBins / (2 * kRange)), 0.0f, static_cast<float>(kBins - 1)));
+        return static_cast<std::size_t>(std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins - 1)));
     }
 
     void change(HeightShape ask, HeightShape wish, const HeightDistribution* measured) {
@@ -266,8 +266,9 @@ private:
         }
         rows(1, true, [&](float* z) {
             for (int i = 0; i < m_; ++i) {
-                const std::size_t b = bin(z[i]);
-                z[i] = value[b] + (value[b + 1] - value[b]) * ((z[i] + kRange) * (kBins / (2 * kRange)) - static_cast<float>(b));
+                const float place = std::clamp((z[i] + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins));
+                const std::size_t b = std::min<std::size_t>(static_cast<std::size_t>(place), kBins - 1);
+                z[i] = value[b] + (value[b + 1] - value[b]) * (place - static_cast<float>(b));
             }
         });
     }
@@ -285,7 +286,7 @@ private:
 // Enough points for the sums of the fourth power where modes are few; more would only repeat the phases of many.
 int points(const Band& band) {
     const double highest = std::max({band.highest_kx, band.highest_ky, 16});
-    return fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 256.0)));
+    return fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 160.0)));
 }
 
 // The band of the long waves that hold `share` of the mean square height, and what they hold.
@@ -329,7 +330,7 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
     const int m = points(all.band);
     // Long waves first, on a coarse grid. The short ones are Gaussian still, and uncorrelated with them: the moments of all are those of the
     // long waves times powers of their share of the rms height.
-    constexpr double most_of_it = 0.88, nearly_all = 0.95, flat = 2.8;
+    constexpr double most_of_it = 0.9, nearly_all = 0.95, flat = 2.8;
     constexpr int many_rounds = 40, few_rounds = 8;
     const auto [band, share] = long_waves(all, wish.kurtosis < flat ? nearly_all : most_of_it);
     const Modes longest{band, columns, stride, n};
