@@ -12,6 +12,7 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
+constexpr int kMostRows = 64;          // of a tile: see rows_of
 constexpr int kOffsets = 49;           // offsets between boxes: -3 ... 3 in both directions
 constexpr std::size_t kThreads = 500;  // number of boxes above which threads are used
 constexpr std::size_t kChunk = 128;    // boxes processed by a thread at a time
@@ -61,6 +62,8 @@ struct Generation {
 struct Layout {
     std::vector<Generation> generations;  // tiles first
     std::vector<std::size_t> place;       // of each pixel: tile * (8 rows) + row * 8 + column
+    std::vector<std::size_t> in_tiles;    // the pixels tile by tile, those of tile t from tile_begin[t] on
+    std::vector<std::size_t> tile_begin;
 };
 
 void enclose(Generation& g, const std::vector<Box>& boxes) {
@@ -138,6 +141,13 @@ Layout make_layout(const std::vector<Pixel>& pixels, int rows) {
         layout.place[k] = at(tile) * at(kTileColumns * rows) + at((pixels[k].y - boxes[k].y * rows) * kTileColumns) +
                           at(pixels[k].x - boxes[k].x * kTileColumns);
     }
+    const std::size_t size = at(kTileColumns * rows);
+    layout.tile_begin.assign(layout.generations[0].boxes.size() + 1, 0);
+    for (const std::size_t place : layout.place) ++layout.tile_begin[place / size + 1];
+    std::partial_sum(layout.tile_begin.begin(), layout.tile_begin.end(), layout.tile_begin.begin());
+    std::vector<std::size_t> next(layout.tile_begin.begin(), layout.tile_begin.end() - 1);
+    layout.in_tiles.resize(pixels.size());
+    for (std::size_t k = 0; k < pixels.size(); ++k) layout.in_tiles[next[layout.place[k] / size]++] = k;
     for (;;) {
         Generation& g = layout.generations.back();
         const bool last = g.nx <= 4 && g.ny <= 4;
@@ -370,8 +380,7 @@ private:
     std::vector<Pixel> pixels_;
     Layout layout_;
     // Work space of one product: pressures by tile, points of all boxes.
-    std::vector<double> tiles_;
-    std::vector<std::size_t> source_begin_;
+    std::vector<std::size_t> source_end_;
     std::vector<TileSource> sources_;
     std::vector<std::vector<double>> up_, down_;
     std::vector<std::vector<char>> loaded_;
@@ -384,33 +393,36 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     const std::size_t tiles = leaf.boxes.size(), size = at(kTileColumns * rows_), points = at(interpolation.padded());
     const int q = interpolation.points();
 
-    tiles_.assign(tiles * size, 0.0);
-    for (std::size_t k = 0; k < n; ++k) tiles_[layout.place[k]] += p[k];
-    source_begin_.assign(tiles + 1, 0);
-    sources_.clear();
-    for (std::size_t t = 0; t < tiles; ++t) {
-        for (std::size_t k = 0; k < size; ++k) {
-            if (const double v = tiles_[t * size + k]; v != 0)
-                sources_.push_back({static_cast<std::int16_t>(k % kTileColumns), static_cast<std::int16_t>(k / kTileColumns), v});
-        }
-        source_begin_[t + 1] = sources_.size();
-    }
-
     const std::size_t levels = generations.size();
     up_.resize(std::max(up_.size(), levels));
     down_.resize(std::max(down_.size(), levels));
     loaded_.resize(std::max(loaded_.size(), levels));
     for (std::size_t l = 0; l < levels; ++l) {
-        up_[l].assign(generations[l].boxes.size() * points, 0.0);
-        down_[l].assign(generations[l].boxes.size() * points, 0.0);
+        up_[l].resize(generations[l].boxes.size() * points);
+        down_[l].resize(generations[l].boxes.size() * points);
+        if (l > 0) std::fill(up_[l].begin(), up_[l].end(), 0.0);
         loaded_[l].assign(generations[l].boxes.size(), 0);
         if (!generations[l].pair_from.empty()) interpolation.matrices(l);
     }
-    for (std::size_t t = 0; t < tiles; ++t) {
-        const std::size_t b = source_begin_[t], m = source_begin_[t + 1] - b;
-        if (m > 0) interpolation.up_from_tile(m, sources_.data() + b, up_[0].data() + t * points);
-    }
-    for (std::size_t t = 0; t < tiles; ++t) loaded_[0][t] = source_begin_[t + 1] > source_begin_[t];
+    // Three loops a product that threads share: over the tiles, between boxes of all sizes, and over the tiles again.
+    const int threads = tiles > kThreads ? 0 : 1;
+    sources_.resize(n);
+    source_end_.resize(tiles);
+    parallel_for(tiles, 32, threads, [&](std::size_t t) {
+        const std::size_t begin = layout.tile_begin[t];
+        std::size_t end = begin;
+        for (std::size_t i = begin; i < layout.tile_begin[t + 1]; ++i) {
+            const std::size_t k = layout.in_tiles[i], at_place = layout.place[k] % size;
+            if (p[k] != 0)
+                sources_[end++] = {static_cast<std::int16_t>(at_place % kTileColumns), static_cast<std::int16_t>(at_place / kTileColumns),
+                                   p[k]};
+        }
+        source_end_[t] = end;
+        loaded_[0][t] = end > begin;
+        double* const to = up_[0].data() + t * points;
+        std::fill_n(to, points, 0.0);
+        interpolation.up_from_tile(end - begin, sources_.data() + begin, to);
+    });
     for (std::size_t l = 0; l + 1 < levels; ++l) {
         const Generation& g = generations[l];
         for (std::size_t k = 0; k < g.boxes.size(); ++k) {
@@ -421,15 +433,15 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         }
     }
     const PixelKernels& kernels = pixel_kernels();
-    // Two loops a product that threads share: between boxes of all sizes, and at last for the tiles.
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
         for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
-    const int threads = tiles > kThreads ? 0 : 1;
     parallel_for(chunks.size(), 1, threads, [&](std::size_t job) {
         stopping_point();
         const std::size_t l = chunks[job].first, c = chunks[job].second;
         const Generation& g = generations[l];
+        const std::size_t first = c * kChunk * points, last = std::min((c + 1) * kChunk * points, down_[l].size());
+        std::fill(down_[l].begin() + static_cast<std::ptrdiff_t>(first), down_[l].begin() + static_cast<std::ptrdiff_t>(last), 0.0);
         if (g.pair_from.empty()) return;
         std::vector<const double*> from;
         std::vector<double*> to;
@@ -455,7 +467,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     parallel_for(tiles, 32, threads, [&](std::size_t t) {
         stopping_point();
         if (levels > 1) down(0, t);
-        double* values = tiles_.data() + t * size;
+        double values[kTileColumns * kMostRows];
         std::fill_n(values, size, 0.0);
         interpolation.down_to_tile(down_[0].data() + t * points, values);
         const Box b = leaf.boxes[t];
@@ -463,11 +475,14 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
             for (int ox = -1; ox <= 1; ++ox) {
                 const int s = leaf.find(b.x + ox, b.y + oy);
                 if (s < 0) continue;
-                const std::size_t begin = source_begin_[at(s)], m = source_begin_[at(s) + 1] - begin;
+                const std::size_t begin = layout.tile_begin[at(s)], m = source_end_[at(s)] - begin;
                 if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
             }
+        for (std::size_t i = layout.tile_begin[t]; i < layout.tile_begin[t + 1]; ++i) {
+            const std::size_t pixel = layout.in_tiles[i];
+            w[pixel] = values[layout.place[pixel] % size];
+        }
     });
-    for (std::size_t k = 0; k < n; ++k) w[k] = tiles_[layout.place[k]];
 }
 
 }  // namespace
