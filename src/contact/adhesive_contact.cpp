@@ -510,6 +510,11 @@ Level AdhesiveContact::Impl::report() {
     }
     judge_asperities(l, *law, asperities, indenter, options, of_difference ? nullptr : &flanks);
     if (options.adhesion.range > 0) l.cohesive_area = cohesive;
+    // Where the zones that attract around the summits overlap, they would count twice.
+    if (cohesive + l.area >
+            static_cast<double>(now.asperity.size()) * 0.25 * std::numbers::pi * options.mean_spacing * options.mean_spacing &&
+        options.adhesion.range > 0 && options.mean_spacing > 0)
+        l.status = graver(l.status, LevelStatus::out_of_validity);
     l.jumps = jumps;
     l.energy_lost = now.lost;
     l.least_force = now.least_force;

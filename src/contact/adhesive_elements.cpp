@@ -233,11 +233,11 @@ Level AdhesiveElements::Impl::solve(double Z) {
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
     level.energy_lost = now.lost = now.work - energy;
-    // A jump loses a good part of the work of adhesion over the area that changed; what the trapezoidal rule misses is little beside it.
+    // A jump loses a tenth or more of the work of adhesion over the area that changed; what the trapezoidal rule misses is little beside it.
     std::vector<std::int32_t> changed;
     std::set_symmetric_difference(accepted.attracting.begin(), accepted.attracting.end(), now.attracting.begin(), now.attracting.end(),
                                   std::back_inserter(changed));
-    constexpr double good = 0.25;
+    constexpr double good = 0.1;
     const double gone = good * options.adhesion.work * pixel * static_cast<double>(changed.size());
     level.jumps = accepted.separation < kInfinity && !changed.empty() && now.lost - accepted.lost > gone;
     if (flats)
