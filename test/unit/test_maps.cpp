@@ -80,7 +80,7 @@ void gwy() {
     CHECK_RELATIVE(in_micrometres(write("three.gwy", three), "Height")(0, 3), 1.0, 1e-12);
     REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"), "channel 'Amplitude': its values are in 'V',");
     REFUSED(in_micrometres(write("three.gwy", three), "Phase"), "there is no channel 'Phase'; there are");
-    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))), "no channel holds heights; there are 'A' in");
+    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))), "no channel contains heights; there are 'A' in");
     REFUSED(in_micrometres(write("number.gwy", gwy_file(gwy_channel(0, "A", map, "")))),  // a number is no length
             "number.gwy: no channel contains heights; there are 'A' in ''");
     REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "none.gwy: contains no channel (image)");
