@@ -57,7 +57,7 @@ struct SurfaceDomain : Domain {
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
     double rms_slope = 0;                             // 0: not known (a list)
-    bool repeats = false;                             // beyond its rectangle: made surfaces, and heights that are said to
+    bool repeats = false;                             // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
 };
 
@@ -75,7 +75,7 @@ struct SurfaceModel {
 // The border points and spikes of a map that is not periodic.
 std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks);
 
-// The domain of a made surface, which is known before its asperities are.
+// The domain of a synthetic surface, known before its asperities.
 SurfaceDomain synthetic_domain(const Spectrum& spectrum);
 
 // The domain of listed asperities: the square [0, L]^2 if it contains them, otherwise a square of side L around them. Without L it is the
