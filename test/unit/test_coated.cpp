@@ -1,0 +1,108 @@
+// Contacts with a body that carries layers, through the library: kept in files, moved sideways, asked for deflections; asperities of a list.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "physics/random_asperities.hpp"
+#include "rsc.h"
+#include "unit/temporary_folder.hpp"
+
+namespace {
+
+struct Coated {
+    rsc_case* c = nullptr;
+    rsc_asperities* asperities = nullptr;
+    rsc_contact* contact = nullptr;
+    explicit Coated(const std::string& solids, const std::string& more = "") {
+        const rsc::Asperities list = random_asperities(300, 0.01, 0.01, 5e-4, 0.4, 7);
+        CHECK(rsc_asperities_take(&asperities, static_cast<std::int64_t>(list.size()), list.x.data(), list.y.data(), list.z.data(),
+                                  list.radius.data(), nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+        const std::string text = "&surface L=1 sigma=0.01 / &solver tolerance=1e-9 model='asperities' / &solids " + solids + " / " + more;
+        CHECK(rsc_case_create(&c) == RSC_SUCCESS && rsc_case_read(c, text.c_str()) == RSC_SUCCESS);
+        CHECK(rsc_contact_create_from_case(&contact, asperities, c) == RSC_SUCCESS);
+    }
+    ~Coated() {
+        rsc_contact_destroy(&contact);
+        rsc_asperities_destroy(&asperities);
+        rsc_case_destroy(&c);
+    }
+};
+
+double value(rsc_contact* contact, const char* name) {
+    double found = std::nan("");
+    CHECK(rsc_contact_value(contact, name, &found) == RSC_SUCCESS);
+    return found;
+}
+
+double force_at(rsc_contact* contact, double Z0) {
+    double N = std::nan("");
+    CHECK(rsc_contact_indent(contact, Z0, &N) == RSC_SUCCESS);
+    return N;
+}
+
+double deflection_at(rsc_contact* contact, double x, double y) {
+    double found = std::nan("");
+    CHECK(rsc_contact_deflection(contact, 1, &x, &y, &found) == RSC_SUCCESS);
+    return found;
+}
+
+const std::string kSphere = " R=Infinity,2.5", kBody = "E=1e5,Infinity nu=0.3,0" + kSphere;
+const char* const kValues[] = {"force",           "contact_area",    "energy",   "stiffness",
+                               "lateral_force_x", "lateral_force_y", "moment_x", "contacts"};
+
+// Layers like the body below them are not there, in every number.
+void alike() {
+    Coated plain(kBody), coated(kBody + " layer_thickness=0.05,0.1 layer_E=1e5,1e5 layer_nu=0.3,0.3");
+    CHECK(force_at(plain.contact, 0.004) > 0);
+    force_at(coated.contact, 0.004);
+    for (const char* name : kValues) CHECK_RELATIVE(value(coated.contact, name), value(plain.contact, name), 1e-6);
+    for (const double x : {0.1, 0.5, 0.93})
+        CHECK_RELATIVE(deflection_at(coated.contact, x, 0.3), deflection_at(plain.contact, x, 0.3), 1e-6);
+    double length = 0;
+    CHECK(rsc_contact_value(coated.contact, "conductance_length", &length) != RSC_SUCCESS);
+}
+
+// What a file gives back goes on as the original does; the lateral force is the gradient of the energy.
+void kept(const std::string& more, const Folder& folder) {
+    const std::string body = more.empty() ? kBody : "E=1e5,Infinity nu=0.3,0 R=Infinity,Infinity";
+    Coated coated(body + " layer_thickness=0.05 layer_E=4e5 layer_nu=0.2", more);
+    const double Z0 = 0.004;
+    const double force = force_at(coated.contact, Z0);
+    rsc_contact* again = nullptr;
+    const std::string path = folder / "coated";
+    CHECK(rsc_contact_save(coated.contact, path.c_str()) == RSC_SUCCESS);
+    CHECK(rsc_contact_restore(&again, coated.asperities, path.c_str()) == RSC_SUCCESS);
+    for (const char* name : {"force", "contact_area", "energy", "contacts"}) CHECK(value(again, name) == value(coated.contact, name));
+    CHECK(force > 0 && force_at(again, 0.003) == force_at(coated.contact, 0.003));
+    CHECK(rsc_contact_destroy(&again) == RSC_SUCCESS);
+    force_at(coated.contact, Z0);
+    if (!more.empty()) return;  // flats have no lateral force
+    const double lateral = value(coated.contact, "lateral_force_x"), step = 1e-4;
+    double energy[2];
+    for (const int side : {0, 1}) {
+        CHECK(rsc_contact_move_tip(coated.contact, 0.5 + (side ? step : -step), 0.5) == RSC_SUCCESS);
+        force_at(coated.contact, Z0);
+        energy[side] = value(coated.contact, "energy");
+    }
+    CHECK_CLOSE(std::abs(energy[1] - energy[0]) / (2 * step), std::abs(lateral), 1e-3 * std::abs(lateral));
+}
+
+// The hardness is that of what lies on top: no contact bears more. A stiff coating carries more than its base, and yields at the same pressure.
+void yielding() {
+    const std::string layer = " layer_thickness=0.05 layer_E=4e5 layer_nu=0.2";
+    Coated elastic(kBody + layer), yields(kBody + layer + " hardness=1000");
+    const double N = force_at(yields.contact, 0.004);
+    CHECK(N > 0 && N < force_at(elastic.contact, 0.004));
+    CHECK(N <= 1000 * value(yields.contact, "contact_area") * (1 + 1e-9));
+}
+
+}  // namespace
+
+TESTS {
+    const Folder folder;
+    alike();
+    kept("", folder);
+    kept("&indentation boundary='periodic' /", folder);
+    yielding();
+}
