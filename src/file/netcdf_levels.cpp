@@ -19,7 +19,8 @@ NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t firs
     std::string meanings;
     for (std::size_t k = first; k < n; ++k) {
         values.push_back(static_cast<std::int32_t>(k));
-        meanings += (k > first ? " " : "") + std::string(names[k]);
+        if (k > first) meanings += ' ';
+        meanings += names[k];
     }
     return {{"flag_values", values}, {"flag_meanings", meanings}};
 }

@@ -92,8 +92,8 @@ struct MomentTensor {
 // One-dimensional profile moments m0, m2, m4 of an isotropic surface; m_p has the unit length^(2-p).
 struct Moments {
     double m0 = 0, m2 = 0, m4 = 0;
-    MomentTensor tensor;                                  // moments by direction
-    HeightShape heights;                                  // of a non-Gaussian surface
+    MomentTensor tensor = {};                             // moments by direction
+    HeightShape heights = {};                             // of a non-Gaussian surface
     double nayak() const { return m0 * m4 / (m2 * m2); }  // Nayak's alpha
     double rms_slope() const;                             // rms gradient sqrt(2 m2)
     double summit_density() const;                        // D = sqrt(3) m4 / (18 pi m2) [1/length^2]
