@@ -32,10 +32,15 @@ import itertools
 import operator
 import os
 import re
+import sys
 import threading
 import zlib
 
-import numpy as np
+try:
+    import numpy as np
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(f"rsc needs numpy, which {sys.executable} lacks: install it there, or use another Python that has it "
+                              "(Debian: package python3-numpy, /usr/bin/python3)", name=error.name) from None
 
 import _rsc_h
 from _rsc_h import (FILE, INTERNAL, LEVEL_CONVERGED, LEVEL_NOT_CONVERGED, LEVEL_NOT_UNIQUE, LEVEL_OUT_OF_VALIDITY, LEVEL_OVERLAPPING, LEVELS, NO_MEMORY, NO_RESULT,  # noqa: F401

@@ -25,6 +25,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "output", "plot"))
+from plot_python import needs
+
+if __name__ == "__main__":
+    needs("numpy", "scipy", "netCDF4")
+
 import numpy as np
 
 LAWS = ("hertz", "elliptic", "fourth_order")

@@ -110,6 +110,8 @@ def main():
     report = Report()
     try:
         runs = members(folder, "alpha_elements")
+        if not runs:
+            sys.exit(f"flat.py: no results in {folder!r}; they are made by input/flat/run.sh")
         report.lines += ["Rough flats under a pressure", "============================"]
         report.note("Two periodic flats, H = 0.8; elements on every point of the surface with 8 points in the shortest wavelength, asperities by law 'fourth_order'.")
         report.full = runs[0].realizations >= 20
