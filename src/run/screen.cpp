@@ -187,7 +187,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         tell(count([sigma](const LevelValues& l) { return l.separation < kLowestSeparation * sigma; }),
              "separation below -3 sigma - the tip lies below 99.9 % of the heights: the asperity model is outside its range.");
         tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
-             "contact area above the area under the indenter (nominal_area) - the asperity model is outside its range.");
+             "contact area above the nominal area - the asperity model is outside its range.");
         std::map<std::int32_t, long> causes;
         for (const LevelValues& l : levels) causes[l.error_cause] += l.force_error_expected > kMuchError;
         for (const auto& [cause, found] : causes)
