@@ -14,20 +14,21 @@ using Vector = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// In penetrations at which an asperity lets go: how near a place is brought to its touching, and the attached to where they let go.
+// Tolerances relative to the detachment penetration of an asperity: for touching, for the detachment point, and the shortest step.
 constexpr double kTouching = 1e-8, kFold = 1e-5, kShortest = 1e-9;
-// Of the way to where an asperity is expected to let go: by its own law, and as its rate of change grows.
+// Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
+// (far and near).
 constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// What the accepted levels leave.
+// State left by accepted levels.
 struct Past {
     double separation = kInfinity;
-    std::vector<int> asperity;  // attached, increasing
+    std::vector<int> asperity;  // attached asperities, increasing
     Vector s;
-    double lost = 0;         // energy, since the beginning
-    double least_force = 0;  // met since the beginning
+    double lost = 0;         // energy dissipated since the beginning
+    double least_force = 0;  // smallest force since the beginning
 };
 
 }  // namespace
@@ -37,7 +38,7 @@ struct AdhesiveContact::Impl {
     SummitSearch search;
     std::optional<Asperities> of_difference;
     mutable FlankTouch flanks;
-    const Asperities& asperities;  // one of the two
+    const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
     SolverOptions options;
     std::shared_ptr<const Kernel> kernel;
@@ -47,28 +48,28 @@ struct AdhesiveContact::Impl {
     std::unique_ptr<Products> direct, mesh;
     Products* products = nullptr;
     AttachedSolver solver;
-    double goal = 1e-9;  // relative residual
+    double goal = 1e-9;  // tolerance of the relative residual
 
     Past accepted, now;
     int jumps = 0, steps = 0;
     long products_before = 0;
-    bool lost_way = false;  // an avalanche did not end
-    Level level;            // of `now`
+    bool lost_way = false;  // the path could not be followed, e.g. an avalanche did not end
+    Level level;            // corresponds to `now`
     double slope = 0, energy = 0;
 
-    // The places at hand: those that may attach, and the attached.
+    // Working set: asperities that may attach, and the attached ones.
     WorkingSet set;
     Vector clearance;
-    std::vector<int> place;      // of an asperity in the set; -1: not in it
-    double covered = kInfinity;  // places with a clearance above this are in the set
-    double margin = 0;           // by which forces may raise a place, and the range of the attraction
-    std::vector<int> active;     // positions in the set
+    std::vector<int> place;      // position of an asperity in the set; -1: not in the set
+    double covered = kInfinity;  // asperities with a clearance above this are in the set
+    double margin = 0;           // height by which forces may raise an asperity, and the range of the attraction
+    std::vector<int> active;     // positions of the attached in the set
 
-    // A state on the way.
+    // A state on the path.
     struct Point {
         double Z = 0;
-        Vector s;  // of the attached
-        Vector u;  // penetrations of the others, from where they attach
+        Vector s;  // states of the attached
+        Vector u;  // penetrations of the others, relative to attachment
         std::vector<Sticking::State> states;
         double force = 0, energy = 0, residual = 0;
         AttachedSolver::Change change;
@@ -88,13 +89,14 @@ struct AdhesiveContact::Impl {
           direct(make_direct_products(kernel)),
           solver(sticking),
           place(asperities.size(), -1) {
-        const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion: with ") + what); };
-        if (std::isfinite(options.hardness.H0)) refuse("solids%hardness it is not available yet");
-        if (!options.relaxation.none()) refuse("solids%relaxation_share it is not available yet");
-        if (options.method == Method::dgesv) refuse("solver%method = 'dgesv' it is not available: the paper's method knows no tension");
-        if (options.selection == Selection::paper) refuse("indentation%selection = 'paper' it is not available: others are pulled in, too");
+        const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what); };
+        if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
+        if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
+        if (options.method == Method::dgesv) refuse("not available with solver%method = 'dgesv': the paper's method excludes tension");
+        if (options.selection == Selection::paper)
+            refuse("not available with indentation%selection = 'paper': other asperities are attracted as well");
         if (options.adhesion.range > 0 && options.law == LawKind::fourth_order)
-            refuse("solids%adhesion_range > 0 and asperities%law = 'fourth_order' it is not available yet");
+            refuse("not available yet with solids%adhesion_range > 0 and asperities%law = 'fourth_order'");
         margin = options.adhesion.range;
         ranking.assign(asperities, indenter);
     }
@@ -117,7 +119,7 @@ struct AdhesiveContact::Impl {
     Level report();
 };
 
-// Brings all places into the set that may attach down to a separation; the attached stay.
+// Includes all asperities in the set that may attach at separations down to `lowest`; attached ones are kept.
 void AdhesiveContact::Impl::cover(double lowest) {
     std::vector<int> attached;
     for (int p : active) attached.push_back(set.asperity[at(p)]);
@@ -147,12 +149,12 @@ void AdhesiveContact::Impl::choose_products() {
     const bool on_mesh = choose_method(options, *kernel, set) == Method::mesh;
     if (on_mesh && !mesh) mesh = make_mesh_products(kernel, std::min(1e-6, 0.1 * options.tolerance), 1e-3);
     products = on_mesh ? mesh.get() : direct.get();
-    goal = std::min(on_mesh ? 1e-8 : 1e-9, options.tolerance);  // full products are the same each time, exact or not
+    goal = std::min(on_mesh ? 1e-8 : 1e-9, options.tolerance);  // full products are reproducible, whatever their error
     products->set_points(set.size(), set.x.data(), set.y.data());
     solver.use(*products);
 }
 
-// These asperities with these states are the attached ones.
+// Sets the attached asperities and their states.
 void AdhesiveContact::Impl::attach(const std::vector<int>& attached, const Vector& s) {
     std::vector<std::pair<int, double>> order;
     for (std::size_t k = 0; k < attached.size(); ++k) order.emplace_back(place[at(attached[k])], s[k]);
@@ -162,7 +164,7 @@ void AdhesiveContact::Impl::attach(const std::vector<int>& attached, const Vecto
     products->set_active(active);
 }
 
-// The equilibrium of the attached at Z near s.
+// Finds the equilibrium of the attached asperities at Z near s.
 bool AdhesiveContact::Impl::find(double Z, Vector s, Point& point) {
     ++steps;
     for (std::size_t k = 0; k < clearance.size(); ++k) set.g0[k] = clearance[k] - Z;
@@ -176,11 +178,12 @@ bool AdhesiveContact::Impl::find(double Z, Vector s, Point& point) {
     return true;
 }
 
-// The margin wanted: twice what the forces of the state found last raise any place by at most, or 0 while the margin at hand is enough.
+// Required margin: twice the largest height by which the forces of the last state raise any asperity, or 0 if the present margin is
+// sufficient.
 double AdhesiveContact::Impl::raised() const {
     double most = 0;
     for (double phi : solver.phi()) most = std::max(most, -phi);
-    for (std::size_t k = 0; k < solver.states().size(); ++k) {  // beside a contact that pulls
+    for (std::size_t k = 0; k < solver.states().size(); ++k) {  // near contacts under tension
         const Sticking::State& state = solver.states()[k];
         most = std::max(most, -solver.phi()[at(active[k])] - state.f * kernel->near() / std::sqrt(state.outer / std::numbers::pi));
     }
@@ -188,10 +191,11 @@ double AdhesiveContact::Impl::raised() const {
     return 1.2 * most > margin - range ? 2 * most + range : 0.0;
 }
 
-// How the state found last changes with Z.
+// Computes the derivatives of the last state with respect to Z.
 void AdhesiveContact::Impl::complete(Point& point) { point.change = solver.change(); }
 
-// At Z, from states of the attached that are no equilibrium: those that touch attach, those that find no equilibrium let go, one after the other.
+// Finds an equilibrium at Z from states that are not in equilibrium: one by one, touching asperities are attached and those without
+// equilibrium are detached.
 bool AdhesiveContact::Impl::settle(double Z, Vector s) {
     const std::size_t most = 100 + 4 * clearance.size();
     for (std::size_t k = 0; k < most; ++k) {
@@ -242,7 +246,7 @@ void AdhesiveContact::Impl::let_go(std::size_t weakest, double Z, double energy_
     jump(Z, energy_before, std::move(s));
 }
 
-// The state of the smallest force between two, of which the one below has dN/dZ0 < 0 and the one above dN/dZ0 > 0.
+// Finds the state of the smallest force between a state `below` with dN/dZ0 < 0 and a state `above` with dN/dZ0 > 0.
 AdhesiveContact::Impl::Point AdhesiveContact::Impl::least_between(const Point& below, const Point& above) {
     Point low = below, high = above, least = below.force < above.force ? below : above, middle;
     for (int i = 0; i < 40; ++i) {
@@ -260,7 +264,7 @@ AdhesiveContact::Impl::Point AdhesiveContact::Impl::least_between(const Point& b
     return least;
 }
 
-// Between two states of which one carries more and one less than wanted: the one that carries it.
+// Finds the state with the wanted force between two states, one with a larger and one with a smaller force.
 bool AdhesiveContact::Impl::find_force(const Point& a, const Point& b, double wanted) {
     Point low = a, high = b, middle;
     const double precise = 0.1 * options.tolerance * std::max(std::abs(wanted), 1e-3 * std::max(std::abs(a.force), std::abs(b.force)));
@@ -283,7 +287,7 @@ bool AdhesiveContact::Impl::find_force(const Point& a, const Point& b, double wa
     return false;
 }
 
-// Takes up the accepted state. False: nothing is attached and nothing touches on the way to the target.
+// Restores the accepted state. Returns false if nothing is attached and nothing touches before the target.
 bool AdhesiveContact::Impl::begin(double target) {
     now = accepted;
     jumps = steps = 0;
@@ -306,7 +310,7 @@ bool AdhesiveContact::Impl::begin(double target) {
     }
     for (int i : set.asperity) place[at(i)] = -1;
     set = {}, clearance.clear();
-    // cover() keeps the attached: they stand in a set of their own first.
+    // cover() keeps attached asperities, so they are put into the set first.
     for (int i : now.asperity) active.push_back(set.size()), set.asperity.push_back(i);
     here.s = now.s;
     cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
@@ -321,16 +325,16 @@ bool AdhesiveContact::Impl::begin(double target) {
     return true;
 }
 
-// The path from `here` to a separation, or to the first state that carries the force wanted. False: everything let go before.
+// Follows the path from `here` to a separation, or to the first state with the wanted force. Returns false if everything detached before.
 bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
     const double direction = target > here.Z ? 1 : -1;
-    Point before;  // the state before this one, with the same asperities attached
+    Point before;  // previous state with the same attached asperities
     bool known = false;
-    double shorter = 1;  // after a failure
+    double shorter = 1;  // reduction of the step after a failure
     for (long guard = 0; here.Z != target; ++guard) {
         if (lost_way || guard > 1000000) return lost_way = true;
         if (active.empty() && direction > 0) return false;
-        // A place that touches attaches.
+        // Attaches an asperity that touches.
         const auto& passive = products->passive();
         std::optional<int> touching;
         double step = std::abs(target - here.Z);
@@ -350,7 +354,7 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
             known = false, shorter = 1;
             continue;
         }
-        // Those that are to let go: no further than most of the way, and there they do.
+        // Limits the step to a part of the distance to the next detachment; very close to it, the asperity is detached.
         double way = kInfinity;
         std::size_t weakest = 0;
         for (std::size_t k = 0; k < active.size(); ++k) {
@@ -363,7 +367,7 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
                 continue;
             }
             double left = kInfinity, share = kFarWay;
-            if (known) {  // 1/rate^2 falls along a straight line to 0
+            if (known) {  // 1/rate^2 decreases linearly to 0
                 const double g = 1 / (rate * rate), g_before = 1 / std::pow(before.change.s[k], 2);
                 if (g < g_before) left = g * std::abs(here.Z - before.Z) / (g_before - g);
                 if (g < 0.3 * g_before) share = kNearWay;
@@ -426,7 +430,7 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
             covered = kInfinity;
             continue;
         }
-        // Where a place has come too deep, back to where it touched.
+        // If an asperity penetrates too deeply, the step is reduced to where it touched.
         const double length = std::abs(Z - here.Z);
         double share = 1;
         for (std::size_t p = 0; p < there.u.size(); ++p) {
@@ -441,12 +445,12 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
             continue;
         }
         complete(there);
-        // A place that comes up and goes back on the way may have touched.
+        // An asperity that approaches and retreats within the step may have touched.
         bool between = false;
         for (std::size_t p = 0; p < there.u.size() && !between; ++p) {
             const double up = direction * here.change.u[p] * length, down = -direction * there.change.u[p] * length;
             if (up <= 0 || down <= 0) continue;
-            const double x = up / (up + down), rest = 1 - x;  // of the cubic through both ends, near its highest
+            const double x = up / (up + down), rest = 1 - x;  // near the maximum of the cubic through both ends
             const double value =
                 here.u[p] * rest * rest * (1 + 2 * x) + up * x * rest * rest + there.u[p] * x * x * (1 + 2 * rest) + down * x * x * rest;
             between = value > 0;
@@ -458,7 +462,7 @@ bool AdhesiveContact::Impl::go(double target, std::optional<double> wanted) {
         shorter = 1;
         const Point &low = direction > 0 ? here : there, &high = direction > 0 ? there : here;
         if (low.change.force < 0 && high.change.force > 0) {
-            // The smallest force lies between, at most so much below both ends.
+            // The smallest force is between both ends and at most `most` below them.
             const double most = std::max(std::abs(low.change.force), high.change.force) * length;
             const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
             if (std::min(low.force, high.force) - most < bound) {
@@ -541,7 +545,7 @@ std::optional<Level> AdhesiveContact::solve_under(double N) {
     if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
         const bool down = my.here.force < N && !(my.active.empty() && N < 0);
         if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
-            // No state carries it: back to the one with the smallest force.
+            // No state has this force: returns to the state with the smallest force.
             const double least = my.now.least_force;
             for (const double above : {1e-7, 1e-5, 1e-3}) {
                 my.begin(-kInfinity);
@@ -569,7 +573,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
     if (!my.accepted.asperity.empty())
-        throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while asperities are attached, which is not available yet");
+        throw Error(Failure::bad_input, "solids%adhesion: moving the tip while asperities are attached is not available yet");
     my.indenter.move(x0, y0);
     forget_levels();
 }
@@ -601,7 +605,7 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
             if (!sound) break;
             past.asperity.push_back(static_cast<int>(memory[k])), past.s.push_back(memory[k + 1]);
         }
-        if (!sound) throw Error(Failure::bad_input, "this is no memory of these asperities");
+        if (!sound) throw Error(Failure::bad_input, "the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
     }
     if (last) (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);

@@ -14,15 +14,15 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCoarsest = 0.5;     // z0 over the side of a pixel
-constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
-// Renewals after which pixels no longer leave the points that attract, so that renewals come to an end; and at most.
+constexpr double kCoarsest = 0.5;     // smallest ratio of z0 to the side of a pixel
+constexpr double kInnerError = 1e-3;  // error of products in iterations
+// Number of renewals after which pixels no longer leave the attracting set, so that the iteration ends; and largest number.
 constexpr int kQuick = 200, kMost = 2000;
-constexpr std::size_t kKept = 5;  // numbers of a memory before its points
+constexpr std::size_t kKept = 5;  // numbers before the points in memory()
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// What the accepted levels leave.
+// State left by accepted levels.
 struct Past {
     double separation = kInfinity, force = 0, work = 0, least_force = 0, lost = 0;
     std::vector<std::int32_t> attracting;  // increasing
@@ -35,19 +35,19 @@ struct AdhesiveElements::Impl {
     Indenter indenter;
     SolverOptions options;
     double s0, z0, pixel;
-    HeightMap raised;                         // between flats: what the solver sees
+    HeightMap raised;                         // periodic flats: heights for the solver
     std::unique_ptr<PeriodicElements> flats;  // between flats
     std::unique_ptr<PixelProducts> products, field;
     std::optional<ElementsSolver> spots;
 
-    // Over the points of the map: clearance under the indenter, pressure + s0, whether it attracts.
+    // For all points of the map: clearance under the indenter, pressure + s0, and whether the point attracts.
     std::vector<double> clearance, q;
     std::vector<char> on;
     double top = -kInfinity;
-    // Points within reach, row by row; how far the attraction raises each, and its gap.
+    // Points within reach, row by row, with their elevation by the attraction and their gaps.
     std::vector<std::int32_t> reach;
     std::vector<double> lift, gap;
-    double margin = 0;  // by which points may be raised
+    double margin = 0;  // largest height by which points may be raised
 
     Past accepted, now;
     double energy = 0;
@@ -60,12 +60,13 @@ struct AdhesiveElements::Impl {
           z0(options.adhesion.range),
           pixel(heights.dx * heights.dy) {
         const auto refuse = [](const std::string& what) { throw Error(Failure::bad_input, "solids%adhesion: " + what); };
-        if (!(z0 > 0)) refuse("elements need a range: solids%adhesion_range > 0 (JKR is its limit)");
-        if (std::isfinite(options.hardness.H0)) refuse("with solids%hardness it is not available yet");
-        if (!options.relaxation.none()) refuse("with solids%relaxation_share it is not available yet");
+        if (!(z0 > 0)) refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
+        if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
+        if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
         if (resolution() < kCoarsest)
-            refuse(format("solids%%adhesion_range = %.6g is %.2g of a pixel's side; elements need half of it, and are better with two", z0,
-                          resolution()));
+            refuse(format(
+                "solids%%adhesion_range = %.6g is %.2g of a pixel's side; boundary elements require at least 0.5, and 2 is recommended", z0,
+                resolution()));
         const Substrate body = substrate_of(indenter);
         if (indenter.period.finite()) {
             raised = heights.copy();
@@ -73,7 +74,7 @@ struct AdhesiveElements::Impl {
             flats = std::make_unique<PeriodicElements>(Relief{raised.nx, raised.ny, raised.dx, raised.dy, raised.data.get(), raised.stride},
                                                        body, kInfinity);
         } else {
-            if (body.smooth()) refuse("of elements on a free surface with layers it is not available yet");
+            if (body.smooth()) refuse("not available yet for boundary elements on a free surface with layers");
             products = make_tree_products(body, heights.dx, heights.dy, kInnerError, 0.1 * options.tolerance);
             field = make_tree_products(body, heights.dx, heights.dy, kInnerError, 0.1 * options.tolerance);
             spots.emplace(*products, kInfinity);
@@ -91,7 +92,7 @@ struct AdhesiveElements::Impl {
     Level solve(double Z);
 };
 
-// Under the tip where it is now, with nothing attracting.
+// Initialises for the present position of the tip, without attracting points.
 void AdhesiveElements::Impl::place() {
     const std::size_t n = at(heights.nx) * at(heights.ny);
     clearance.resize(n);
@@ -105,7 +106,7 @@ void AdhesiveElements::Impl::place() {
     top = *std::max_element(clearance.begin(), clearance.end());
 }
 
-// Nothing else can come nearer than z0 while points are raised by the margin at most. Between flats every point is within reach.
+// Selects the points whose gap can be below z0 if points are raised by at most the margin; for periodic flats all points.
 void AdhesiveElements::Impl::gather(double Z) {
     reach.clear();
     for (std::size_t k = 0; k < clearance.size(); ++k) {
@@ -134,7 +135,7 @@ std::vector<double> AdhesiveElements::Impl::deflections(const std::vector<double
     return flats->deflections(where, some);
 }
 
-// q for the points that attract as they are. False: not converged.
+// Solves for q with fixed attracting points. Returns false if it does not converge.
 bool AdhesiveElements::Impl::press(double Z, Level& level) {
     ElementsOutcome outcome;
     if (flats) {
@@ -165,7 +166,7 @@ bool AdhesiveElements::Impl::press(double Z, Level& level) {
     return outcome.converged;
 }
 
-// The state at Z that follows from the points that attract now. False: not converged.
+// Finds the state at Z by renewing the attracting points, starting from the present ones. Returns false if it does not converge.
 bool AdhesiveElements::Impl::renew(double Z, Level& level) {
     gather(Z);
     for (int round = 0; round < kMost; ++round) {
@@ -233,7 +234,8 @@ Level AdhesiveElements::Impl::solve(double Z) {
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
     level.energy_lost = now.lost = now.work - energy;
-    // A jump loses a tenth or more of the work of adhesion over the area that changed; what the trapezoidal rule misses is little beside it.
+    // A jump dissipates at least a tenth of the work of adhesion of the changed area; the error of the trapezoidal rule is small compared
+    // with it.
     std::vector<std::int32_t> changed;
     std::set_symmetric_difference(accepted.attracting.begin(), accepted.attracting.end(), now.attracting.begin(), now.attracting.end(),
                                   std::back_inserter(changed));
@@ -271,7 +273,7 @@ std::optional<Level> AdhesiveElements::solve_under(double N) {
     constexpr int most = 400;
     bool found = precise(miss);
     for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
-        if (way > 0 && my.now.attracting.empty()) break;  // away from everything
+        if (way > 0 && my.now.attracting.empty()) break;  // no attraction is left
         before = Z, before_miss = miss;
         Z = std::max(Z + way * step, std::nextafter(closed(), kInfinity));
         step *= 1.4;

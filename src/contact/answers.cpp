@@ -10,7 +10,7 @@ double constriction_resistance(double conductance_length, const double (&resisti
 }
 
 void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]) {
-    if (std::isnan(level.force)) return;  // there is no state to speak of
+    if (std::isnan(level.force)) return;  // there is no valid state
     const Indenter& indenter = contact.indenter();
     level.stiffness = contact.stiffness();
     level.energy = contact.energy();

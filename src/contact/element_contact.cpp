@@ -13,10 +13,10 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInnerError = 1e-3;  // of the products that iterations are made of
-constexpr double kMostTimes = 30;     // of the last force, for a start from its pressures
-constexpr double kMargin = 0.3;       // by which pixels are chosen lower than the step to the separation expected
-constexpr int kBlock = 16;            // pixels of a side of the blocks whose highest points are kept
+constexpr double kInnerError = 1e-3;  // error of products in iterations
+constexpr double kMostTimes = 30;     // largest ratio to the last force for a start from its pressures
+constexpr double kMargin = 0.3;       // pixels are selected lower by this share of the step to the expected separation
+constexpr int kBlock = 16;            // side of the blocks whose highest points are stored [pixels]
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -26,9 +26,9 @@ struct ElementContact::Impl {
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
-    // Pixels are counted from the map's column turn_x and row turn_y, where a surface that repeats is cut open: away from the tip. Else 0.
+    // Column turn_x and row turn_y of the map, at which a periodic surface is cut open (far from the tip), are the first ones; otherwise 0.
     int turn_x = 0, turn_y = 0;
-    HeightMap frame;  // their number, steps, and the place of pixel (0, 0); no heights
+    HeightMap frame;  // number and sides of pixels and position of pixel (0, 0), without heights
     double bulge;
     std::unique_ptr<PixelProducts> products;
     ElementsSolver solver;
@@ -36,11 +36,11 @@ struct ElementContact::Impl {
     std::vector<double> block_top;  // highest z of each block
     double top = -kInfinity;        // highest point under the indenter
 
-    // Pixels with g0 > 0 of the level at hand, row by row, and the answer.
+    // Pixels with g0 > 0 at the current level, row by row, and the solution.
     std::vector<Pixel> pixels;
     std::vector<double> g0, p;
 
-    // Pixels under pressure at earlier levels, the last one first.
+    // Pixels under pressure at earlier levels, the last level first.
     struct Past {
         double separation;
         std::vector<Pixel> pixels;
@@ -50,22 +50,22 @@ struct ElementContact::Impl {
     std::size_t since_move = 0;
 
     PressedOut pressed;
-    bool accepted = false;  // the last level: from then on the contact is elastic until pressed further
+    bool accepted = false;  // the last level is accepted: the contact is elastic until loaded further
 
-    // Of a body that relaxes. p is then the pressures times scale().
+    // Relaxing bodies: p is then the pressures times scale().
     std::optional<LoadMemory> loads;
-    std::unique_ptr<PixelProducts> loads_products;  // the solver's own keep its set of pixels
-    // How far earlier loads lower the pixels that could touch at `lowered_at` or higher, in this step; NaN: not known for any.
+    std::unique_ptr<PixelProducts> loads_products;  // separate, since those of the solver keep its set of pixels
+    // Deflection by earlier loads of the pixels that could touch at `lowered_at` or above, in this step; NaN: unknown.
     double lowered_at = kUnknown;
     std::vector<Pixel> lowered_pixels;
     std::vector<double> lowered;
 
     double scale() const { return loads ? loads->compliance() : 1.0; }
-    // Of the map: column, row, and a pixel's index.
+    // Column, row and index of a pixel on the map.
     int column(int i) const { return i + turn_x < heights.nx ? i + turn_x : i + turn_x - heights.nx; }
     int row(int j) const { return j + turn_y < heights.ny ? j + turn_y : j + turn_y - heights.ny; }
     std::int32_t place(const Pixel& pixel) const { return static_cast<std::int32_t>(row(pixel.y) * heights.nx + column(pixel.x)); }
-    // And back.
+    // Pixel of a point of the map.
     int pixel_x(int column) const { return column >= turn_x ? column - turn_x : column - turn_x + heights.nx; }
     int pixel_y(int row) const { return row >= turn_y ? row - turn_y : row - turn_y + heights.ny; }
     Pixel pixel_at(std::int32_t place) const { return {pixel_x(place % heights.nx), pixel_y(place / heights.nx)}; }
@@ -101,8 +101,7 @@ struct ElementContact::Impl {
         return indenter.clearance(x(i), y(j), heights(c, r) - pressed(c, r));
     }
 
-    // No point of the block is higher under the indenter: its highest one, before anything was pressed out, under the lowest part of the
-    // face above the block.
+    // Upper bound of the clearances of a block: its highest point (without plastic residual) under the lowest part of the face above it.
     double bound(int bi, int bj) const {
         const Box block{x(pixel_x(bi * kBlock)) - indenter.x0, x(pixel_x(std::min((bi + 1) * kBlock, heights.nx) - 1)) - indenter.x0,
                         y(pixel_y(bj * kBlock)) - indenter.y0, y(pixel_y(std::min((bj + 1) * kBlock, heights.ny) - 1)) - indenter.y0};
@@ -118,7 +117,7 @@ struct ElementContact::Impl {
     Level report(double Z0, const ElementsOutcome& outcome) const;
 };
 
-// Half a period further where the tip lies in the outer quarters, at the border of a block.
+// Cuts half a period away if the tip lies in the outer quarters, at the border of a block.
 void ElementContact::Impl::cut_open() {
     const auto cut = [](double tip, double first, double step, int n, bool repeats, int& turn, double& origin) {
         turn = 0, origin = first;
@@ -142,7 +141,7 @@ void ElementContact::Impl::find_top() {
         }
 }
 
-// Pixels with g0 > 0: K > 0 only lowers the surface, so nothing else can touch.
+// Selects the pixels with g0 > 0; no others can touch, because K > 0 only lowers the surface.
 void ElementContact::Impl::select(double Z0) {
     pixels.clear();
     g0.clear();
@@ -167,7 +166,7 @@ void ElementContact::Impl::select(double Z0) {
     }
 }
 
-// K q at the pixels `where` of pressures q on the places of the memory.
+// K q at the pixels `where`, for pressures q on the points of the load memory.
 std::vector<double> ElementContact::Impl::deflections(const std::vector<Pixel>& where, const std::vector<std::int32_t>& places,
                                                       const std::vector<double>& q) {
     if (!loads_products)
@@ -189,7 +188,7 @@ std::vector<double> ElementContact::Impl::deflections(const std::vector<Pixel>& 
     return wanted;
 }
 
-// The deflection that earlier loads have left is taken off g0; what is left of it nowhere cannot touch.
+// Subtracts the deflection by earlier loads from g0 and drops pixels that can no longer touch.
 void ElementContact::Impl::take_off_rest(double Z0) {
     if (loads->places().empty()) return;
     if (!(Z0 >= lowered_at)) {
@@ -208,7 +207,7 @@ void ElementContact::Impl::take_off_rest(double Z0) {
     pixels.resize(kept), g0.resize(kept);
 }
 
-// Pressures of the last level, or extrapolated through the last two where they lie near enough; all zero without any.
+// Predicts the pressures from the last level, or by extrapolation through the last two if they are close; zero without earlier levels.
 void ElementContact::Impl::predict(double Z0) {
     p.assign(pixels.size(), 0.0);
     double weight[2] = {1, 0};
@@ -228,7 +227,7 @@ void ElementContact::Impl::predict(double Z0) {
     for (double& v : p) v = std::max(v, 0.0);
 }
 
-// Contacts get the index that their pixel has on the map, and are sorted by it.
+// Numbers the contacts by the index of their pixel on the map and sorts them.
 void ElementContact::Impl::number_by_map(Level& level) const {
     const std::size_t n = level.asperity.size();
     std::vector<std::size_t> order(n);
@@ -285,8 +284,8 @@ Level ElementContact::solve(double Z0) {
     return my.report(Z0, outcome);
 }
 
-// The force is the sum of the pressures, and Z0 one unknown more of the same solution (Polonsky and Keer). Pixels are chosen at a Z0 that lies
-// lower than the one expected: N grows with a power of the depth that the last two levels tell.
+// Solves with the sum of the pressures given and Z0 as an additional unknown (Polonsky and Keer). Pixels are selected at a Z0 below the
+// expected one, which follows from a power law of N with the exponent of the last two levels.
 std::optional<Level> ElementContact::solve_under(double N) {
     Impl& my = *impl_;
     if (path_dependent() || my.bulge > 0 || my.past.empty()) return std::nullopt;
@@ -294,7 +293,7 @@ std::optional<Level> ElementContact::solve_under(double N) {
     const auto force = [pixel](const Impl::Past& level) { return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0); };
     const double N0 = force(my.past[0]), depth = my.top - my.past[0].separation;
     if (!(depth > 0) || !(N0 > N / kMostTimes) || !(N0 < N * kMostTimes)) return std::nullopt;
-    double power = 1.5;  // of a sphere; rough ones have more
+    double power = 1.5;  // of a sphere; larger for rough surfaces
     if (my.past.size() > 1) {
         const double grown = std::log(force(my.past[1]) / N0) / std::log((my.top - my.past[1].separation) / depth);
         if (grown > power) power = grown;
@@ -314,7 +313,7 @@ std::optional<Level> ElementContact::solve_under(double N) {
             lowest = expected - kMargin * std::abs(rise);
             continue;
         }
-        std::size_t kept = 0;  // what lies below Z0 only was a candidate
+        std::size_t kept = 0;  // drops candidates below Z0
         for (std::size_t k = 0; k < my.pixels.size(); ++k) {
             if (!(my.g0[k] > rise)) continue;
             my.pixels[kept] = my.pixels[k], my.g0[kept] = my.g0[k] - rise, my.p[kept++] = my.p[k];
@@ -326,7 +325,7 @@ std::optional<Level> ElementContact::solve_under(double N) {
     return std::nullopt;
 }
 
-// The level just solved, for the start of later ones.
+// Stores the last solution as a starting point for later levels.
 void ElementContact::Impl::remember(double Z0) {
     Past now{Z0, {}, {}};
     for (std::size_t k = 0; k < p.size(); ++k) {
@@ -377,7 +376,7 @@ void ElementContact::step(double dt) {
     impl_->lowered_at = kUnknown;
 }
 
-// Triples: column and row of a point that was pressed out, how far; of a body that relaxes its loads, behind the time.
+// Triples of column, row and residual depth of a yielded point; for relaxing bodies the time, followed by the loads.
 std::vector<double> ElementContact::memory() const {
     std::vector<double> triples;
     if (relaxes()) {
@@ -427,7 +426,7 @@ double ElementContact::stiffness() {
 
 double ElementContact::slope() { return Contact::slope() / impl_->scale(); }
 
-// The part of p'Kp/2 that comes from the shift is no energy of the bodies.
+// The part of p'Kp/2 due to the shift is not part of the energy of the bodies.
 double ElementContact::energy() const {
     const Impl& my = *impl_;
     const double pixel = my.heights.dx * my.heights.dy;

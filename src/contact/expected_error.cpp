@@ -7,7 +7,7 @@ namespace {
 
 using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is the constant 1
 
-// In the order of the table; the same as in input/trust/trust.py.
+// Descriptions of the predictors in the order of the table, as in input/trust/trust.py.
 constexpr const char* kCauses[kErrorPredictors + 2] = {
     "",
     "the slope of the indenter at the contacts, which touches points beside summits (slope_ratio)",
@@ -51,7 +51,7 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             indenter.period.finite() ? 1.0 : 0.0};
 }
 
-// Share of the force on spikes, which may carry any load.
+// Share of the force on spikes, whose load is unreliable.
 double spike_share(const Level& level, const MapMarks& marks) {
     double force = 0;
     for (std::size_t k = 0; k < level.x.size() && !marks.spikes.empty(); ++k)

@@ -1,4 +1,4 @@
-// Pressing with a force: one unknown, Z0, and one equation, N(Z0) = N, more than a level at a separation.
+// Force control: solves N(Z0) = N for the separation Z0.
 
 #include "contact/contact.hpp"
 #include "error.hpp"
@@ -8,21 +8,21 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnresolved = 1e-6;  // a relative error of the force that rounding of the separation may have
-constexpr double kFarAbove = 100;     // times the force asked for
-constexpr int kPasses = 2;            // failures of predicted starts after which only full solves are used
+constexpr double kUnresolved = 1e-6;  // accepted relative error of the force due to rounding of the separation
+constexpr double kFarAbove = 100;     // relative to the requested force
+constexpr int kPasses = 2;            // number of failures after which only full solves are used
 
-// What a level at z says of the one looked for: it is the one (or failed), or lies above it; where Newton's method goes next, -Infinity:
-// nowhere.
+// Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next separation by Newton's method,
+// -Infinity: none.
 struct Verdict {
     bool found, above;
     double next;
 };
 
-// Newton's method with the slope that every level has, kept inside a bracket. A library's root finder without slopes takes about twice as
-// many levels. First along levels that pass() finds, which settle() then makes answers of; where that fails, along answers alone.
-// `look` gives the level at a separation, passing or as an answer, `settle` the answer at one passed, `judge` the verdict on it. `reach` turns
-// the next place, while none below is known, into one to go to: of it, the present one, the lowest known above, the count.
+// Bracketed Newton's method with the slopes of levels; a root finder without slopes takes about twice as many levels. It first uses
+// intermediate levels (pass()), the last of which settle() completes; if this fails, only full solves. `look` computes the level at a
+// separation, intermediate or full; `settle` completes an intermediate level; `judge` evaluates a level. While no lower bound is known,
+// reach(next, z, high, i) limits the next separation.
 template <class Look, class Settle, class Judge, class Reach>
 Level search(double begin, double below, double above, int most, Look&& look, Settle&& settle, Judge&& judge, Reach&& reach, bool& stuck) {
     Level level;
@@ -35,7 +35,7 @@ Level search(double begin, double below, double above, int most, Look&& look, Se
     };
     double z = begin, low = below, high = above;
     int passes = kPasses, i = 0;
-    const auto answers_alone = [&] {  // from where it all began
+    const auto answers_alone = [&] {  // restarts with full solves only
         passes = 0, i = -1;
         z = begin, low = below, high = above;
     };
@@ -47,7 +47,7 @@ Level search(double begin, double below, double above, int most, Look&& look, Se
         if (verdict.found && passing) {
             level = counted(settle(level));
             verdict = judge(level, z);
-            if (!verdict.found) {  // another solution than those passed: on from this one
+            if (!verdict.found) {  // settle() found another solution; continues from it
                 if (--passes == 0) {
                     answers_alone();
                     continue;
@@ -61,7 +61,7 @@ Level search(double begin, double below, double above, int most, Look&& look, Se
         if (std::isinf(low)) next = reach(next, z, high, i);
         if (!(next < high) || !(next > low)) next = 0.5 * (low + high);
         if (i + 1 >= most || next == z || !(next > low) || !(next < high)) {
-            if (passing) {  // so it is for what was passed; now for the answers
+            if (passing) {  // stuck with intermediate levels; restarts with full solves
                 answers_alone();
                 continue;
             }
@@ -92,7 +92,7 @@ void Contact::finish(Level& level) {
         accept(level);
         accepted_ = time_;
     }
-    // A residual as large as the forces is that of no state: none of its numbers is passed on.
+    // With a residual as large as the forces there is no valid state: its values are not returned.
     if (!converged && level.fallback != Fallback::held && !(level.residual < 1)) {
         Level nothing;
         nothing.separation = level.separation;
@@ -113,7 +113,7 @@ void Contact::finish(Level& level) {
 void Contact::set_time(double time) {
     if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
     if (relaxes() && accepted_ && time < *accepted_)
-        throw Error(Failure::bad_input, format("a time of %.9g lies before that of the last level, %.9g", time, *accepted_));
+        throw Error(Failure::bad_input, format("a time of %.9g is earlier than that of the last level, %.9g", time, *accepted_));
     time_ = time;
 }
 
@@ -127,7 +127,8 @@ double Contact::slope() {
     return S / (1 - shift() * S);
 }
 
-// z + shift() N(z) = Z0 with z as solve() counts: its left side rises with z, ever faster, as long as N depends on Z0 at all.
+// Solves z + shift() N(z) = Z0, where z is the separation of solve(). The left side increases with z and is convex as long as N is a
+// function of Z0.
 Level Contact::solve_between_planes(double Z0) {
     const double c = shift();
     if (Z0 >= first_touch()) return solve(Z0);
@@ -142,7 +143,7 @@ Level Contact::solve_between_planes(double Z0) {
         const double rise = slope(), steep = 1 + c * rise;
         miss = z + c * level.force - Z0;
         last_ = {z, level.force, rise};
-        // An error of Z0 is one of the force of -rise/steep times as much.
+        // An error of Z0 corresponds to an error of the force of -rise/steep times as much.
         const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
         const bool found = level.status == LevelStatus::not_converged || std::abs(miss) <= rounding ||
                            (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
@@ -161,23 +162,23 @@ Level Contact::solve_between_planes(double Z0) {
     return level;
 }
 
-// ln N(Z0) = ln N, whose slope the stiffness gives.
+// Solves ln N(Z0) = ln N with the slope from the stiffness.
 Level Contact::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
         throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
     begin();
-    double above = first_touch();  // separations that carry less
-    if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it carries no force");
+    double above = first_touch();  // upper bound of the separation
+    if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it cannot carry a force");
     if (std::optional<Level> level = solve_under(N)) {
         finish(*level);
         return std::move(*level);
     }
-    double below = closed();  // separations that carry more
-    // A first depth: the force may come with it, and not before half of it.
+    double below = closed();  // lower bound of the separation
+    // Initial depth: the force cannot be reached before half of it.
     double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
     while (force_at_most(depth) < N) depth *= 2;
     double Z0 = above - 0.25 * depth;
-    // The last level is a start unless it failed, touched nothing, or lies so much deeper that a start from first touch takes fewer steps.
+    // Starts from the last level unless it failed, had no contact, or is so much deeper that a start from first touch takes fewer steps.
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
         Z0 = likely_separation().value_or(Z0);
         if (last_ && last_->force > 0) {
@@ -202,16 +203,16 @@ Level Contact::at_force(double N) {
         Z0, below, above, most, [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
         [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
     if (stuck) {
-        // Z0 is known to its last bit. What is missing beyond that is a jump of N(Z0): no separation carries N.
+        // Z0 is exact to its last bit. A larger error of the force is due to a jump of N(Z0): no separation has the force N.
         Z0 = level.separation;
         const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
         const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
         if (std::abs(level.force - N) > resolved)
             level.status = LevelStatus::not_converged;
-        else if (std::abs(level.force / N - 1) > kUnresolved)  // a force grows with the depth to the power 3/2
+        else if (std::abs(level.force / N - 1) > kUnresolved)  // N is proportional to depth^(3/2)
             throw Error(Failure::bad_input,
-                        format("a force of %.9g is too small for the resolution of the separation: near %.9g its smallest steps "
-                               "allow %.9g or more",
+                        format("a force of %.9g is too small for the resolution of the separation: near %.9g the smallest possible "
+                               "force is %.9g",
                                N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
     }
     if (shift() > 0) {

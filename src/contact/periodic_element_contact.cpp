@@ -16,18 +16,18 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 struct PeriodicElementContact::Impl {
     const HeightMap& surface;
-    // Of a surface that yields or relaxes, or under a rough indenter: the heights as they are now, less the indenter's face.
+    // For yielding or relaxing surfaces, or a rough indenter: the current heights minus the indenter's face.
     HeightMap own;
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
     PressedOut pressed;
-    std::optional<LoadMemory> loads;  // of a body that relaxes; the solver's pressures are then scale() times the true ones
-    std::vector<double> lowered;      // how far earlier loads lower each point at the end of the step; empty: there were none
+    std::optional<LoadMemory> loads;  // relaxing bodies; pressures in the solver are then scale() times the true ones
+    std::vector<double> lowered;      // deflection of each point by earlier loads at the end of the step; empty: none
     PeriodicElements solver;
     double top = 0;
-    bool touches = false;   // the last level
-    bool accepted = false;  // the last level: from then on the contact is elastic until pressed further
+    bool touches = false;   // true if the last level is in contact
+    bool accepted = false;  // the last level is accepted: the contact is elastic until loaded further
 
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
         : surface(heights_),
@@ -49,7 +49,7 @@ struct PeriodicElementContact::Impl {
         for (const std::int32_t i : loads->places()) where.push_back({i % heights.nx, i / heights.nx});
         return solver.deflections(where, q);
     }
-    // The heights less the indenter's face, where it has one, and less what earlier loads have left.
+    // Subtracts the indenter's face (unless flat) and the deflection by earlier loads from the heights.
     void place_indenter() {
         const bool changes = !indenter.shape->flat() || loads;
         for (int j = 0; j < heights.ny && changes; ++j)
@@ -104,13 +104,13 @@ Level PeriodicElementContact::solve(double Z0) {
 std::optional<Level> PeriodicElementContact::solve_under(double N) {
     Impl& my = *impl_;
     const double p = N / my.area(), H = my.options.hardness.H0;
-    if (!(p < H)) throw Error(Failure::bad_input, format("a nominal pressure of %.9g is more than the hardness %.9g carries", p, H));
+    if (!(p < H)) throw Error(Failure::bad_input, format("a nominal pressure of %.9g exceeds the hardness %.9g", p, H));
     if (std::isfinite(H)) return std::nullopt;
     const ElementsOutcome outcome = my.solver.press(my.scale() * p, my.options.tolerance, my.options.max_iterations);
     return my.report(my.solver.separation(), outcome);
 }
 
-// Pixels at the hardness that would penetrate are lowered by it: the same pressures then leave no penetration anywhere.
+// Penetrating pixels at the hardness are lowered by their penetration; the same pressures then cause no penetration.
 void PeriodicElementContact::accept(Level& level) {
     Impl& my = *impl_;
     my.accepted = true;
@@ -153,7 +153,7 @@ void PeriodicElementContact::step(double dt) {
     my.place_indenter();
 }
 
-std::vector<double> PeriodicElementContact::memory() const {  // as of ElementContact
+std::vector<double> PeriodicElementContact::memory() const {  // as in ElementContact
     std::vector<double> triples;
     if (relaxes()) {
         triples.push_back(accepted_time());
@@ -215,7 +215,7 @@ double PeriodicElementContact::first_touch() const { return impl_->top; }
 const Indenter& PeriodicElementContact::indenter() const { return impl_->indenter; }
 double PeriodicElementContact::tolerance() const { return impl_->options.tolerance; }
 
-// A flat punch as wide as the period: what a surface that yields needs no less depth for.
+// Force of a flat punch as wide as the period, an upper bound also for yielding surfaces.
 double PeriodicElementContact::force_at_most(double depth) {
     return impl_->indenter.E_star * std::max(impl_->heights.Lx(), impl_->heights.Ly()) * depth;
 }

@@ -76,7 +76,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     const std::vector<int> open = open_sides(touching, map.nx, map.ny, periodic);
     struct Sum {
         double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
-        long pixels = 0, hard = 0, border = 0;  // at the hardness; sides without a neighbour, of those that are not
+        long pixels = 0, hard = 0, border = 0;  // hard: pixels at the hardness; border: sides without a neighbour of the other pixels
         Pixel peak{0, 0};
     };
     std::vector<Sum> sums(at(contacts));

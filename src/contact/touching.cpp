@@ -53,7 +53,7 @@ Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter)
 }
 
 void add_flanks(Asperities& found, const Asperities& of_surface, double spacing, const Period& period) {
-    constexpr double kNear = 0.4, kWidest = 0.8;  // of the spacing; found by trial against elements
+    constexpr double kNear = 0.4, kWidest = 0.8;  // relative to the spacing; calibrated with boundary elements
     if (!(spacing > 0)) return;
     using Cell = std::pair<long, long>;
     const auto cell = [spacing](double x, double y) {

@@ -23,7 +23,7 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
-// Border points of a measured map that would touch: no asperity represents them. Neighbouring points count once.
+// Counts border points of a measured map that would touch but are not represented by asperities; neighbouring points count once.
 std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks) {
     std::vector<Vec2> touching;
     std::int32_t count = 0;
@@ -41,7 +41,7 @@ std::int32_t border_contacts(const Level& level, const Indenter& indenter, const
     return count;
 }
 
-// Contacts within <d>, or their own radius, of the border, and those with a pixel on it.
+// Counts contacts whose distance from the border is less than <d> or their radius, and those with a pixel on it.
 void count_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
     level.edge_contacts = 0;
     Rectangle surface = options.surface;

@@ -96,7 +96,7 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2,
      .meaning = "area that attracts without touching",
      .comment = "adhesion with a range: gaps above 0 and below adhesion_range", .always = false},
-    {.name = "cohesive_resolution", .member = &V::cohesive_resolution, .meaning = "adhesion_range over the side of a pixel",
+    {.name = "cohesive_resolution", .member = &V::cohesive_resolution, .meaning = "ratio of adhesion_range to the side of a pixel",
      .comment = "boundary elements: the error of the pull-off force is of first order in its inverse; 2 or more is wanted", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",

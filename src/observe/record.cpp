@@ -6,7 +6,7 @@ namespace rsc {
 namespace {
 
 void require_finite(const Level& level, std::size_t step) {
-    if (std::isnan(level.force) && level.status == LevelStatus::not_converged) return;  // it says so
+    if (std::isnan(level.force) && level.status == LevelStatus::not_converged) return;  // reported by its status
     bool finite =
         std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual);
     for (std::size_t k = 0; k < level.asperity.size(); ++k) finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);

@@ -8,7 +8,7 @@
 namespace rsc {
 namespace {
 
-constexpr int kFewestRows = 64;  // of a share: rows beside it are made twice
+constexpr int kFewestRows = 64;  // rows of a share; the rows beside it are synthesised twice
 
 // Summits found in one share of the rows: `found` or `refined`, depending on the detail.
 struct Part {
@@ -69,7 +69,7 @@ Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic,
     return std::move(all.found);
 }
 
-// Runs part(its Part, first, last) on shares of the rows 0 ... rows - 1, a few for each thread. Returns the parts in order.
+// Runs part(its Part, first, last) on shares of the rows 0 ... rows - 1, several per thread. Returns the parts in order.
 std::vector<Part> share_rows(int rows, int threads, const std::function<void(Part&, int, int)>& part) {
     const int shares = threads > 1 ? std::clamp(rows / kFewestRows, 1, 8 * threads) : 1;
     std::vector<Part> parts(static_cast<std::size_t>(shares));

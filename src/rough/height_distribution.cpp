@@ -27,13 +27,13 @@ struct Shape {
     double mean = 0, deviation = 1, skewness = 0, kurtosis = 3;
 };
 
-// By the trapezoidal rule, which converges exponentially under the normal density.
+// Moments by the trapezoidal rule, which converges exponentially under the normal density.
 template <class Function>
 Shape shape_of(const Function& of, double step = 0.025) {
     constexpr double end = 9.5;
     const int most = static_cast<int>(end / step);
     double total = 0, m1 = 0, m2 = 0, m3 = 0, m4 = 0;
-    const double at = of(0.0);  // near the mean: differences keep their digits
+    const double at = of(0.0);  // near the mean, to avoid cancellation
     for (int i = -most; i <= most; ++i) {
         const double u = i * step, w = std::exp(-0.5 * u * u), d = of(u) - at;
         total += w, m1 += w * d, m2 += w * d * d, m3 += w * d * d * d, m4 += w * d * d * d * d;
@@ -44,7 +44,8 @@ Shape shape_of(const Function& of, double step = 0.025) {
             (m4 - 4 * m1 * m3 + 6 * m1 * m1 * m2 - 3 * m1 * m1 * m1 * m1) / (variance * variance)};
 }
 
-// Of SU in closed form (Johnson 1949, with w = exp(1/delta^2)); of SB, analytic within pi delta of the real axis, by few points.
+// Shape of SU in closed form (Johnson 1949, w = exp(1/delta^2)), of SB by a quadrature with few points, since it is analytic within pi
+// delta of the real axis.
 Shape shape_of(const Johnson& j) {
     if (j.bounded) return shape_of<Johnson>(j, std::clamp(0.4 * j.delta, 0.02, 0.2));
     const double less = std::expm1(1 / (j.delta * j.delta)), w = 1 + less, s = j.shift;
@@ -56,7 +57,7 @@ Shape shape_of(const Johnson& j) {
     return {std::sqrt(w) * std::sinh(s), std::sqrt(variance), m3 / (variance * std::sqrt(variance)), m4 / (variance * variance)};
 }
 
-// Root of a function between `low` and `high`; if it has the same sign at both, the end with the smaller value.
+// Root of a function between `low` and `high`; if the function has the same sign at both, the end with the smaller absolute value.
 template <class Function>
 double root(const Function& f, double low, double high) {
     const double at_low = f(low), at_high = f(high);

@@ -136,7 +136,7 @@ public:
         m.log_phi0 = misfit(kl, plateau, m.hurst).second;
         return m;
     }
-    // -ln of the likelihood with the best Phi0, and its logarithm.
+    // -ln of the likelihood with the best Phi0, and ln of that Phi0.
     std::pair<double, double> misfit(double kl, bool plateau, double hurst) const {
         const std::vector<double> expected = blurred(kl, plateau, hurst);
         double ratio = 0, logs = 0;

@@ -2,14 +2,14 @@
 
 #include <pthread.h>
 
-extern "C" int omp_in_parallel() __attribute__((weak));  // there if the program uses OpenMP
+extern "C" int omp_in_parallel() __attribute__((weak));  // defined if the program uses OpenMP
 
 namespace rsc {
 namespace {
 
-thread_local int loop_threads = 0;     // of LoopThreads
-thread_local bool in_a_piece = false;  // of a loop shared with others
-std::atomic<bool> forked{false};       // the pool's threads are the parent's
+thread_local int loop_threads = 0;     // number set by LoopThreads
+thread_local bool in_a_piece = false;  // true in a piece of a shared loop
+std::atomic<bool> forked{false};       // true in a forked child, which has no pool threads
 
 int processors() {
     static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -19,7 +19,7 @@ int processors() {
 int default_threads() {
     static const int count = [] {
         const char* const text = std::getenv("OMP_NUM_THREADS");
-        const long wanted = text ? std::strtol(text, nullptr, 10) : 0;  // of a list the first
+        const long wanted = text ? std::strtol(text, nullptr, 10) : 0;  // the first of a list
         return wanted > 0 ? static_cast<int>(std::min(wanted, 1000000L)) : processors();
     }();
     return count;
@@ -28,13 +28,13 @@ int default_threads() {
 struct Job {
     std::size_t count;
     const std::function<void(std::size_t, std::size_t)>& body;
-    std::size_t wanted;  // helpers that may still join
+    std::size_t wanted;  // number of helpers that may still join
     std::size_t joined = 0, inside = 0;
     std::atomic<std::size_t> next{0};
     std::exception_ptr thrown{};
 };
 
-// The pool's threads end with the process, asleep in this.
+// Pool of threads, which sleep between loops and end with the process.
 struct Pool {
     std::mutex mutex;
     std::condition_variable wake, left;
@@ -81,7 +81,7 @@ struct Pool {
         }
     }
 
-    // Not by std::thread, whose refusal is an exception and which frees memory in the new thread.
+    // Starts helpers. std::thread is not used, because it throws if no thread can be started and frees memory in the new thread.
     void start(std::size_t wanted) {
         while (threads < wanted) {
             pthread_t thread;
@@ -100,7 +100,7 @@ struct Pool {
 
 std::size_t most_threads(int wanted) {
     const int n = wanted > 0 ? wanted : loop_threads > 0 ? loop_threads : default_threads();
-    // Threads far beyond the processors only wait for each other: a thousand on two of them take minutes for seconds of work.
+    // Far more threads than processors only wait for each other: with a thousand threads on two processors, seconds of work take minutes.
     return static_cast<std::size_t>(std::clamp(n, 1, 16 + 2 * processors()));
 }
 

@@ -12,27 +12,27 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Within the tolerances that are documented for one surface, 0.02 and 0.05, which hold on any grid.
+// Tolerances, smaller than the documented 0.02 and 0.05, which hold on any grid.
 constexpr double kNearSkewness = 0.016, kNearKurtosis = 0.04;
 double distance(HeightShape got, HeightShape wish) {
     return std::max(std::abs(got.skewness - wish.skewness) / kNearSkewness, std::abs(got.kurtosis - wish.kurtosis) / kNearKurtosis);
 }
 
-// Within Johnson's system, with a margin from distributions of two values.
+// Kept within Johnson's system, away from distributions of two values.
 HeightShape usable(HeightShape shape) {
     shape.skewness = std::clamp(shape.skewness, -6.0, 6.0);
     shape.kurtosis = std::clamp(shape.kurtosis, 1.2 * shape.skewness * shape.skewness + 1.3, 90.0);
     return shape;
 }
 
-// The modes of the half plane in a band, in the caller's columns.
+// Modes of the half plane within a band, stored in the columns of the caller.
 struct Modes {
     Band band;
     std::complex<double>* columns;
     std::ptrdiff_t stride;
     int n;
 
-    // Visits them in runs of one column: visit(kx, ky, count, coefficients).
+    // Calls visit(kx, ky, count, coefficients) for runs of modes within one column.
     template <class Visit>
     void runs(Visit visit) const {
         for (int kx = 0; kx <= band.highest_kx; ++kx) {
@@ -44,7 +44,7 @@ struct Modes {
     }
 };
 
-// A surface of some of the modes on m x m points, in single precision: only the phases of its modes are wanted of it.
+// Surface of some of the modes on m x m points. Single precision suffices, because only the phases of the modes are used.
 class Field {
 public:
     Field(const Modes& modes, int m)
@@ -67,8 +67,9 @@ public:
             throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
     }
 
-    // Repeats: heights get the values of their ranks in a distribution, modes their amplitudes. The distribution is chosen by the moments
-    // reached so far; `measured` (optional) is the one to be chosen at wish. The best phases go to the caller's columns.
+    // Iterates: heights are replaced by rank in a distribution, then the amplitudes of the modes are restored. The distribution is chosen
+    // from the moments reached so far; `measured` (optional) is the distribution for `wish`. The best phases are stored in the columns of
+    // the caller.
     HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
         take();
         transform(up_);
@@ -76,7 +77,7 @@ public:
         double nearest = HUGE_VAL;
         now = shape(std::max(1, m_ / 128));  // enough to choose the first distribution
         for (int round = 0; round <= rounds; ++round) {
-            // How much of a change of the distribution the restored amplitudes leave: less of the first one.
+            // Share of a change of the distribution that remains after the amplitudes are restored; it is smaller in the first round.
             const double skewed = gaussian ? (round == 0 ? 0.42 : 0.55) : 0.8, peaked = gaussian ? (round == 0 ? 0.3 : 0.5) : 0.8;
             const HeightShape ask = usable({now.skewness + (wish.skewness - now.skewness + lost.skewness) / skewed,
                                             now.kurtosis + (wish.kurtosis - now.kurtosis + lost.kurtosis) / peaked});
@@ -91,7 +92,7 @@ public:
                 kept_.assign(unit_.begin(), unit_.end());
             }
             if (off <= 1) break;
-            // The first round's loss is not known to be that of the next ones.
+            // The loss of the first round need not be that of the next ones.
             const double share = round == 0 ? 1.0 : 0.6, s = gaussian ? 0.55 : 0.8, k = gaussian ? 0.5 : 0.8;
             lost.skewness += share * (now.skewness + s * (ask.skewness - now.skewness) - got.skewness - lost.skewness);
             lost.kurtosis += share * (now.kurtosis + k * (ask.kurtosis - now.kurtosis) - got.kurtosis - lost.kurtosis);
@@ -144,7 +145,7 @@ private:
         mirror();
     }
 
-    // The amplitudes of the modes put back.
+    // Restores the amplitudes of the modes.
     void restore() {
         std::size_t k = 0;
         kept_.resize(unit_.size());
@@ -179,7 +180,7 @@ private:
         });
     }
 
-    // The heights of every `step`-th row, from transformed columns; with `back`, what visit() has made of them replaces them.
+    // Calls visit() for the heights of every `step`-th row, from transformed columns; with `back`, the modified heights are stored.
     template <class Visit>
     void rows(int step, bool back, Visit visit) {
         auto* const data = reinterpret_cast<float*>(rows_.get());
@@ -223,7 +224,7 @@ private:
             }
             count += n;
         }
-        HeightShape shape() const {  // the mean is 0: there is no mode (0, 0)
+        HeightShape shape() const {  // the mean is 0, because there is no mode (0, 0)
             double s2 = 0, s3 = 0, s4 = 0;
             for (int l = 0; l < kLanes; ++l) s2 += m2[l], s3 += m3[l], s4 += m4[l];
             const double variance = s2 / count;
@@ -232,7 +233,7 @@ private:
         double count = 0;
     };
 
-    // Moments of every `step`-th row, and the number of heights in each bin, of 128 rows or more.
+    // Moments of every `step`-th row, and the histogram of the heights, from at least 128 rows.
     HeightShape shape(int step = 1) {
         Sums sums;
         std::fill(std::begin(bin_), std::end(bin_), 0);
@@ -245,7 +246,7 @@ private:
         });
         return sums.shape();
     }
-    // Heights in rms heights: bins over +-kRange of them, in which the outermost hold what lies beyond.
+    // Bins over +-kRange rms heights; the outermost include all larger heights.
     static constexpr float kRange = 12, kPerUnit = kBins / (2 * kRange);
     static std::size_t bin(float z) {
         return static_cast<std::size_t>(std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins - 1)));
@@ -275,21 +276,21 @@ private:
 
     const Modes& modes_;
     int m_, columns_;
-    std::ptrdiff_t stride_, row_stride_;  // of columns in complex numbers, of rows in real ones
+    std::ptrdiff_t stride_, row_stride_;  // strides of columns (complex numbers) and rows (real numbers)
     Memory store_, rows_;
     FftwfPlan up_, down_, to_heights_, to_modes_;
-    std::vector<float> amplitude_;  // of the modes, for an rms height of 1
+    std::vector<float> amplitude_;  // amplitudes of the modes for an rms height of 1
     std::vector<Complex> unit_, kept_;
     long bin_[kBins] = {};
 };
 
-// Enough points for the sums of the fourth power where modes are few; more would only repeat the phases of many.
+// Number of points: enough for fourth powers if there are few modes; with many modes more are not required.
 int points(const Band& band) {
     const double highest = std::max({band.highest_kx, band.highest_ky, 16});
     return fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 160.0)));
 }
 
-// The band of the long waves that hold `share` of the mean square height, and what they hold.
+// Band of the long waves that contain `share` of the mean square height, and their actual share.
 std::pair<Band, double> long_waves(const Modes& modes, double share) {
     constexpr int bins = 1024;
     std::vector<double> energy(bins + 1);
@@ -328,8 +329,8 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
     const Modes all{band(spectrum), columns, stride, n};
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
     const int m = points(all.band);
-    // Long waves first, on a coarse grid. The short ones are Gaussian still, and uncorrelated with them: the moments of all are those of the
-    // long waves times powers of their share of the rms height.
+    // Long waves are reshaped first, on a coarse grid. The short waves are still Gaussian and uncorrelated with them, so the moments of the
+    // sum are those of the long waves times powers of their share.
     constexpr double most_of_it = 0.9, nearly_all = 0.95, flat = 2.8;
     constexpr int many_rounds = 40, few_rounds = 8;
     const auto [band, share] = long_waves(all, wish.kurtosis < flat ? nearly_all : most_of_it);

@@ -13,13 +13,13 @@ namespace {
 constexpr int kDegree = SquareTable::kDegree, kOctavePieces = SquareTable::kPiecesPerOctave;
 constexpr std::size_t kPieces = SquareTable::kPieces;
 
-// A double y >= 1 holds the number of its piece in its exponent and the first six bits of its mantissa; what is left is where in the piece.
+// For y >= 1, the exponent and the first six bits of the mantissa number the piece; the other bits are the position within it.
 constexpr int kBits = 6, kShift = 52 - kBits;
 static_assert(kOctavePieces == 1 << kBits);
 constexpr std::uint64_t kFirst = std::uint64_t{1023} << kBits, kRest = (std::uint64_t{1} << kShift) - 1, kOne = std::uint64_t{1023} << 52;
 constexpr double kMiddle = 1 + 0.5 / kOctavePieces;
 
-constexpr std::size_t kBlock = SquareTable::kBlock;  // sources at once
+constexpr std::size_t kBlock = SquareTable::kBlock;  // sources processed together
 
 struct Task {
     double inverse_square;

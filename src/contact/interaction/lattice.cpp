@@ -122,9 +122,9 @@ RSC_DISPATCH(lattice_values, lattice_body, (const Task& task), (task))
 
 }  // namespace
 
-// Sums over m >= 0 and n >= 0 of the modes that have a share, row by row: sum over n of all y first.
+// Sums over the modes m >= 0 and n >= 0 with a relevant share, row by row: the sums over n for all y first.
 std::vector<double> Lattice::shares(const std::vector<double>& x, const std::vector<double>& y) const {
-    // exp(-k scale) is the share's decay (SmoothPart).
+    // share(k) decays like exp(-k scale) (SmoothPart).
     constexpr double gone = 44, most = 6000;
     const double end = gone / smooth_->scale(), ux = 2 * pi / period_.x, uy = 2 * pi / period_.y;
     if (!(end / std::min(ux, uy) < most))
@@ -168,7 +168,7 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near) : period_
             const auto place = [](int k, double side) { return side / 2 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2)); };
             table[static_cast<std::size_t>(i * kNodes + j)] = ewald.rest(place(i, a), place(j, b));
         }
-    // Of a sum at the offset (x, y), what the four images around it are.
+    // Contribution of the four images around the offset (x, y).
     const auto around = [&](double x, double y) {
         const double ex = period.x - x, ey = period.y - y;
         return this->smooth(x, y) + this->smooth(ex, y) + this->smooth(x, ey) + this->smooth(ex, ey);
@@ -205,7 +205,7 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near) : period_
     self_ = ewald.rest(0, 0) / unit + 1 / period.x + 1 / period.y + 1 / std::hypot(period.x, period.y) + own;
     least_ = at(period.x / 2, period.y / 2);
     if (!smooth) return;
-    // A soft layer on a stiff base bulges around what presses it.
+    // A soft layer on a stiff base bulges around a force, so the minimum is searched.
     double largest = least_;
     constexpr int rays = 16;
     for (double d = 0.01 * smooth->scale(); d < 0.75 * (period.x + period.y); d *= 1.01)

@@ -65,10 +65,10 @@ void require_usable(const LayeredBody& body) {
 // For larger k times the thickness of the top layer, T is 1 to rounding.
 constexpr double kShallow = 22;
 
-// F = T - 1 on a logarithmic scale of wavenumbers, and its Hankel transform int F J0(k d) dk on one of distances: there the transform is a
-// convolution, and the trapezoidal rule converges exponentially, as F is analytic in a sector about the real axis. J0 is let end smoothly
-// about kEnd; what is left out is below 1e-12, for F has no structure finer than its own wavenumber. The share F(0) exp(-k z), of closed form
-// F(0)/sqrt(d^2 + z^2), is taken out first: the rest vanishes at k = 0, and its transform falls like 1/d^3.
+// F = T - 1 on a logarithmic grid of wavenumbers, and its Hankel transform int F J0(k d) dk on a logarithmic grid of distances. On these
+// the transform is a convolution, and the trapezoidal rule converges exponentially because F is analytic in a sector about the real axis.
+// J0 is truncated smoothly, with an error below 1e-12. The part F(0) exp(-k z), with the transform F(0)/sqrt(d^2 + z^2), is subtracted
+// first; the rest vanishes at k = 0, and its transform decays like 1/d^3.
 class Hankel {
 public:
     explicit Hankel(const LayeredBody& body) {
@@ -79,7 +79,7 @@ public:
             stiffest = std::max(stiffest, body.layer[l].E);
             softest = std::min(softest, body.layer[l].E);
         }
-        // A stiff layer on a soft body bends over lengths far greater than its thickness.
+        // A stiff layer on a soft body bends over lengths much larger than its thickness.
         z_ = 2 * depth * std::max(1.0, std::cbrt(stiffest / softest));
         const Layer& top = body.layer[0];
         at_zero_ = plane_modulus(top.E, top.nu) / plane_modulus(body.E, body.nu) - 1;
@@ -90,7 +90,7 @@ public:
         for (std::size_t i = 0; i < waves; ++i) answer_[i] = layered_answer(body, wave(i)) - 1;
         first_ = nearest * top.thickness;
         const auto places = static_cast<std::size_t>(std::log(farthest * z_ / first_) / (kStep * kEvery)) + kNodes;
-        // J0 of k d, from the smallest product to the largest one that counts.
+        // J0(k d) from the smallest product k d to the largest relevant one.
         constexpr double end = 80, soft = 0.25, gone = 5.5;
         const double smallest = std::log(wave(waves - 1) * first_);
         std::vector<double> wavelet(waves + places * kEvery);
@@ -98,7 +98,7 @@ public:
             const double x = std::exp(smallest + kStep * static_cast<double>(i)), late = std::log(x / end) / soft;
             wavelet[i] = late < gone ? 0.5 * std::erfc(late) * boost::math::cyl_bessel_j(0, x) : 0;
         }
-        std::vector<double> weight(waves);  // from the longest wave on
+        std::vector<double> weight(waves);  // beginning with the longest wave
         double sum = 0;
         for (std::size_t i = 0; i < waves; ++i) {
             const double k = wave(waves - 1 - i);
@@ -122,7 +122,7 @@ public:
         if (place > static_cast<double>(answer_.size() - kNodes)) return at_zero_;
         return between(answer_, place);
     }
-    // Its transform at a distance.
+    // Transform of F at a distance.
     double at(double d) const {
         const double whole = at_zero_ / std::hypot(d, z_);
         if (d <= first_) return whole + at_middle_ + (rest_[0] - at_middle_) * (d / first_) * (d / first_);
@@ -132,17 +132,17 @@ public:
 
 private:
     static constexpr double kStep = 0.02;
-    static constexpr std::size_t kEvery = 2;   // steps between distances
-    static constexpr std::size_t kNodes = 10;  // of interpolation
+    static constexpr std::size_t kEvery = 2;   // number of steps between two distances
+    static constexpr std::size_t kNodes = 10;  // interpolation nodes
 
     double wave(std::size_t i) const { return highest_ * std::exp(-kStep * (static_cast<double>(i) + 0.5)); }
 
-    // Lagrange's polynomial through the values around a place.
+    // Lagrange interpolation between the values around `place`.
     static double between(const std::vector<double>& values, double place) {
         const auto first =
             static_cast<std::size_t>(std::clamp(std::floor(place) - (kNodes / 2 - 1), 0.0, static_cast<double>(values.size() - kNodes)));
         const double t = place - static_cast<double>(first);
-        double sum = 0, weights = 0;  // the barycentric form
+        double sum = 0, weights = 0;  // barycentric formula
         double binomial = 1;
         for (std::size_t i = 0; i < kNodes; ++i) {
             const double off = t - static_cast<double>(i);
@@ -194,7 +194,7 @@ std::shared_ptr<const SmoothPart> make_layers(const LayeredBody& body, double E_
     require_usable(body);
     const double E_1 = plane_modulus(body.layer[0].E, body.layer[0].nu), near = 1 / (std::numbers::pi * E_1);
     const Hankel hankel(body);
-    // T is smooth in k, and SquareTable takes a square: that of sqrt(k). Its first pieces are far narrower than 1/z.
+    // T is smooth in k, so the table uses the square of sqrt(k). Its first pieces are much narrower than 1/z.
     constexpr double pieces = 100;
     const double z = hankel.length();
     const auto answer = std::make_shared<const SquareTable>(std::sqrt(1 / (pieces * z)),

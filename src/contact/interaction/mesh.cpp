@@ -10,28 +10,28 @@ namespace rsc {
 namespace {
 
 constexpr std::size_t kDirect = 256;        // fewer points are summed directly
-constexpr std::size_t kDirectLattice = 32;  // where a pair is a sum over images
-constexpr std::size_t kThreads = 5000;      // and so few are not worth the threads
-constexpr int kStrips = 16;                 // or rows of the mesh that a thread takes at a time
+constexpr std::size_t kDirectLattice = 32;  // for periodic kernels
+constexpr std::size_t kThreads = 5000;      // fewer points use one thread
+constexpr int kStrips = 16;                 // or rows of the mesh processed by a thread at a time
 
-// Seconds on one core, measured; they only decide how the work is shared between mesh and near field.
+// Measured times on one core in seconds, used only to balance the work of mesh and near field.
 constexpr double kSecondsPerNearPair = 2.3e-9;
 constexpr double kSecondsPerMeshPoint = 11e-9;
 double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
 
-// Far fields kept for later points take no more memory than this.
+// Largest memory of far fields stored for later points.
 constexpr std::size_t kKeptBytes = std::size_t{100} << 20;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The doubled mesh takes 16 bytes of memory per point at most; beyond this the near field does the rest.
+// Largest doubled mesh, at 16 bytes per point or less; otherwise the near field becomes larger.
 constexpr double kMeshPointsAtMost = 5e7;
 
-// Directed pairs within a distance, from counts of points in square cells of sizes that double.
+// Estimated number of directed pairs within a distance, from counts of points in square cells of doubling sizes.
 class PairEstimate {
 public:
     PairEstimate(std::size_t n, const double* x, const double* y, double x0, double y0, double length_x, double length_y) {
-        // The finest cells hold a few points each on average, for an even distribution.
+        // The finest cells contain a few points each for a uniform distribution.
         size_ = std::max({std::sqrt(length_x * length_y * 2 / static_cast<double>(n)), length_x * 2 / static_cast<double>(n)});
         std::size_t nx = static_cast<std::size_t>(length_x / size_) + 1, ny = static_cast<std::size_t>(length_y / size_) + 1;
         std::vector<double> count(nx * ny, 0.0);
@@ -40,7 +40,7 @@ public:
         for (;;) {
             double pairs = 0;
             for (double c : count) pairs += c * c;
-            pairs_.push_back(pairs - static_cast<double>(n));  // a point with itself is no pair
+            pairs_.push_back(pairs - static_cast<double>(n));  // without pairs of a point with itself
             if (nx == 1 && ny == 1) break;
             const std::size_t mx = (nx + 1) / 2, my = (ny + 1) / 2;
             std::vector<double> coarse(mx * my, 0.0);
@@ -50,7 +50,7 @@ public:
             nx = mx, ny = my;
         }
     }
-    // A cell of area pi r^2 stands for the disc of radius r; between sizes a power law.
+    // A cell of area pi r^2 represents a disc of radius r; interpolated between sizes by a power law.
     double operator()(double radius) const {
         const double level = std::log2(std::sqrt(3.14159) * radius / size_);
         if (level <= 0) return pairs_.front() * std::exp2(2 * level);
@@ -65,21 +65,21 @@ private:
     std::vector<double> pairs_;
 };
 
-// Sums over the modes of a smooth part, which bound those that a mesh does not carry.
+// Factor in the bound of the modes of a smooth part that a mesh does not resolve.
 constexpr double kAliases = 100;
 
 struct Choice {
     double spacing = 0, pairs = 0, cost = 0;
 };
 
-// The mesh spacing of least cost. The longest side must be some cutoffs long, or there is no far field worth a mesh.
-// `resolved`: the largest spacing that resolves what else there is. No spacing (0) where that takes too many points.
+// Mesh spacing of lowest cost. The longest side must be several cutoffs long; otherwise there is no relevant far field. `resolved`: largest
+// spacing that resolves the smooth part. Returns 0 if too many mesh points are required.
 template <class Pairs>
 Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, double length_y, bool periodic, double resolved,
                       Pairs pairs) {
     Choice best;
     best.cost = std::numeric_limits<double>::infinity();
-    // A mesh that repeats is wider than a window, and some cutoffs of any design wide.
+    // A periodic mesh must be wider than a window and several cutoffs of any design.
     const double largest = std::min(periodic ? std::min(length_x, length_y) / 32 : std::max(length_x, length_y) / 8, resolved);
     for (double spacing = largest; spacing > largest * 1e-7; spacing *= 0.84) {
         const double mesh =
@@ -92,7 +92,7 @@ Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, 
     return best;
 }
 
-// 1/d itself.
+// The kernel 1/d.
 std::shared_ptr<const Kernel> unit_kernel() {
     static const auto unit = make_kernel(Interaction::point, 1 / std::numbers::pi);
     return unit;
@@ -103,8 +103,8 @@ std::shared_ptr<const Kernel> unit_kernel() {
 struct MeshPotential::Parts {
     std::size_t n = 0;
     std::shared_ptr<const Kernel> kernel;
-    const Lattice* lattice;  // where everything repeats
-    PairSums direct;         // for few points, for all at one place, and where a mesh would be too fine, instead of everything else
+    const Lattice* lattice;  // null unless periodic
+    PairSums direct;         // used instead of the mesh for few or coinciding points, and if a mesh would be too fine
 
     const MeshDesign* design = nullptr;
     Choice choice;
@@ -113,15 +113,15 @@ struct MeshPotential::Parts {
     MeshWindow window;
     std::shared_ptr<const FarField> far;
 
-    // Points in strips of constant y, by x within a strip; x runs along the longer side. Strips are padded for the pair loops.
-    // With periodic boundaries the first `strips` of them are followed by copies: of the two lowest beyond the upper border, then of the
-    // left end of every strip so far beyond the right border.
+    // Points are sorted in strips along the longer side (x), by x within a strip. Strips are padded for the pair loops. With periodic
+    // boundaries the first `strips` strips are followed by copies: of the two lowest strips beyond the upper border, then of the left ends
+    // of all these strips beyond the right border.
     std::size_t strips = 0;
     std::vector<std::size_t> strip_begin, strip_size;
-    std::vector<std::uint32_t> point;  // [strip_begin[s] + k] the caller's number, k < strip_size[s]
+    std::vector<std::uint32_t> point;  // [strip_begin[s] + k] index of the caller, k < strip_size[s]
     std::vector<double> x, y;          // for the near field, scaled
     std::vector<double> u, v;          // on the mesh
-    std::size_t spread_band = 1;       // strips whose windows reach into the next band only
+    std::size_t spread_band = 1;       // number of strips whose windows reach only into the next band
 
     struct Scratch {
         std::vector<double> f, near, far;
@@ -134,7 +134,7 @@ struct MeshPotential::Parts {
 
     explicit Parts(std::shared_ptr<const Kernel> kernel_) : kernel(std::move(kernel_)), lattice(kernel->lattice()), direct(*kernel) {}
 
-    // The largest spacing for which the neglected modes of a smooth part are not larger than those of 1/d.
+    // Largest spacing for which the neglected modes of a smooth part are not larger than those of 1/d.
     double resolved(const MeshDesign& of) const {
         const SmoothPart* smooth = kernel->smooth();
         return smooth ? smooth->scale() * of.beta / of.cutoff / std::log(kAliases / of.error) : kInfinity;
@@ -159,9 +159,10 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
                              FarFields* kept)
     : parts_(std::make_unique<Parts>(kernel ? std::move(kernel) : unit_kernel())) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
-        throw Error(Failure::bad_input, "mesh product: relative error " + std::to_string(relative_error) + " is outside of 1e-10 to 1e-2");
+        throw Error(Failure::bad_input,
+                    "mesh product: relative error " + std::to_string(relative_error) + " is outside the range 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())
-        throw Error(Failure::bad_input, "mesh product: " + std::to_string(n) + " points are more than 2^32");
+        throw Error(Failure::bad_input, "mesh product: " + std::to_string(n) + " points exceed the limit of 2^32");
     Parts& p = *parts_;
     p.n = n;
     double x_min = HUGE_VAL, x_max = -HUGE_VAL, y_min = HUGE_VAL, y_max = -HUGE_VAL;
@@ -203,7 +204,7 @@ MeshPotential::MeshPotential(MeshPotential&&) noexcept = default;
 MeshPotential& MeshPotential::operator=(MeshPotential&&) noexcept = default;
 
 void MeshPotential::Parts::make_strips(const double* px, const double* py, double x0, double y0, double length_y) {
-    // Half a cutoff high at least: points of a strip meet those of two strips on each side.
+    // Strips are at least half a cutoff high, so that points interact with at most two strips on each side.
     double height = near_part.reach / scale / 2;
     strips = static_cast<std::size_t>(length_y / height) + 1;
     if (lattice) height = length_y / static_cast<double>(--strips);
@@ -211,7 +212,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
     const std::size_t whole = lattice ? strips + 2 : strips, all = lattice ? 2 * whole : strips;
     const double reach = near_part.reach / scale;
     strip_size.assign(all, 0);
-    // Calls visit(segment) for a point's strip and its copies.
+    // Calls visit(segment) for the strip of a point and its copies.
     const auto segments = [&](std::size_t i, auto&& visit) {
         const std::size_t s = strip[i];
         visit(s);
@@ -247,7 +248,7 @@ void MeshPotential::Parts::make_strips(const double* px, const double* py, doubl
             x[k] = (px[i] + right) * scale, y[k] = (py[i] + up) * scale;
             u[k] = (px[i] - x0) / dx + offset, v[k] = (py[i] - y0) / dy + offset;
         }
-        // Padding points: farther from all others than the cutoff, since the box is at most 1 wide.
+        // Padding points are farther from all others than the cutoff, since the box is at most 1 wide.
         for (std::size_t k = strip_begin[s] + strip_size[s]; k < strip_begin[s + 1]; ++k) x[k] = x0 * scale + 4, y[k] = y0 * scale;
     });
     spread_band = static_cast<std::size_t>((design->width + 1) * choice.spacing / height) + 1;
@@ -273,7 +274,7 @@ void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
     free_scratch.push_back(std::move(scratch));
 }
 
-// Points into the cell, and everything for a mesh that repeats.
+// Maps the points into the cell and sets up a periodic mesh.
 void MeshPotential::Parts::repeat(std::size_t count, const double* px, const double* py, double relative_error, FarFields* kept) {
     const Period& period = lattice->period();
     std::vector<double> inside_x(count), inside_y(count);
@@ -304,8 +305,8 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
     make_strips(inside_x.data(), inside_y.data(), 0, 0, period.y);
 }
 
-// Bands of strips, the even ones at once and then the odd ones: no two at work touch the same rows, and every row gets its parts
-// in the same order whatever the threads.
+// Even bands of strips are processed in parallel, then odd ones: concurrent bands never access the same rows, and the order of summation in
+// a row does not depend on the threads.
 void MeshPotential::Parts::spread(const double* f, double* mesh) const {
     const std::size_t bands = (strips + spread_band - 1) / spread_band, stride = far->stride();
     const auto table = pair_kernels().spread;
@@ -320,7 +321,7 @@ void MeshPotential::Parts::spread(const double* f, double* mesh) const {
         });
 }
 
-// Pairs of a strip with itself and with the next two.
+// Adds the pairs of a strip with itself and with the next two strips.
 void MeshPotential::Parts::near_strip(std::size_t s, const double* f, double* phi) const {
     const PairKernels& table = pair_kernels();
     const auto between = [&](std::size_t a, std::size_t b) {
@@ -338,7 +339,7 @@ void MeshPotential::Parts::near_strip(std::size_t s, const double* f, double* ph
     }
 }
 
-// The same with groups of strips: a group adds to its own strips and the two after it, and to the copies of their left ends.
+// Near field by groups of strips: a group adds to its own strips, the two after it, and the copies of their left ends.
 void MeshPotential::Parts::near_field(const double* f, double* phi) const {
     constexpr std::size_t kGroup = 4;
     const std::size_t groups = (strips + kGroup - 1) / kGroup;
@@ -359,7 +360,7 @@ void MeshPotential::apply(const double* f, double* phi) const {
     double *const sorted = scratch->f.data(), *const near = scratch->near.data(), *const far = scratch->far.data();
     parallel_for(all, kStrips, p.threads(), [&](std::size_t s) {
         const std::size_t b = p.strip_begin[s];
-        for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // pads stay without force
+        for (std::size_t k = b; k < b + p.strip_size[s]; ++k) sorted[k] = f[p.point[k]];  // padding remains without force
         std::fill(near + b, near + p.strip_begin[s + 1], 0.0);
     });
     p.near_field(sorted, near);
@@ -372,10 +373,10 @@ void MeshPotential::apply(const double* f, double* phi) const {
                                    p.far->stride());
         for (std::size_t k = b; k < b + p.strip_size[s]; ++k) phi[p.point[k]] = near[k] * near_unit + far[k] * far_unit;
     });
-    for (std::size_t s = strips; s < all; ++s)  // what the copies got
+    for (std::size_t s = strips; s < all; ++s)  // adds the results of the copies
         for (std::size_t k = p.strip_begin[s]; k < p.strip_begin[s] + p.strip_size[s]; ++k) phi[p.point[k]] += near[k] * near_unit;
     p.give_back(std::move(scratch));
-    if (const double shift = p.kernel->shift(); shift > 0 && !p.lattice) {  // a lattice's is in its far field
+    if (const double shift = p.kernel->shift(); shift > 0 && !p.lattice) {  // periodic kernels include it in the far field
         double total = 0;
         for (std::size_t k = 0; k < p.n; ++k) total += f[k];
         for (std::size_t k = 0; k < p.n; ++k) phi[k] += shift * total;

@@ -28,7 +28,7 @@ double integral(double a, double b, Function function) {
     return boost::math::quadrature::gauss<double, 40>::integrate(function, a, b);
 }
 
-// Coefficients of t^k, t in [-1, 1], of the Chebyshev interpolant of a function, cut where what follows is below `tolerance`.
+// Coefficients of t^k, t in [-1, 1], of the Chebyshev interpolant of a function, truncated where the rest is below `tolerance`.
 std::vector<long double> polynomial(const std::function<double(double)>& function, double tolerance, int largest_degree) {
     constexpr int kNodes = 48;
     long double value[kNodes], chebyshev[kNodes];
@@ -51,8 +51,8 @@ std::vector<long double> polynomial(const std::function<double(double)>& functio
     return sum;
 }
 
-// By falling error: the larger of those measured on 1600 random points with forces of random sign and of one sign, beta and the
-// shape of the window being searched for the least of it.
+// Sorted by decreasing error: the larger of the errors measured on 1600 random points with forces of random sign and of one sign. beta and
+// the window shape were optimised for the smallest error.
 constexpr MeshDesign kDesigns[] = {
     {6.6e-04, 4, 2.0, 8.27, 5.53},    {3.8e-04, 4, 2.5, 8.34, 6.65},    {2.0e-04, 4, 3.0, 10.26, 6.48},   {7.3e-05, 6, 2.5, 10.45, 7.71},
     {2.3e-05, 6, 3.0, 12.05, 8.72},   {9.2e-06, 6, 3.5, 13.12, 9.69},   {4.4e-06, 7, 3.5, 13.73, 10.42},  {2.6e-06, 8, 3.5, 14.06, 10.83},
@@ -61,7 +61,7 @@ constexpr MeshDesign kDesigns[] = {
     {4.9e-10, 12, 6.5, 23.64, 19.20}, {1.6e-10, 12, 7.0, 24.35, 20.17}, {5.9e-11, 12, 7.5, 24.93, 21.15}, {2.5e-11, 12, 8.0, 25.28, 22.11},
 };
 
-// Points that lie more evenly than at random have the smaller potentials, and the larger relative errors.
+// Points more uniform than random have smaller potentials and therefore larger relative errors.
 constexpr double kMargin = 0.6;
 
 }  // namespace
@@ -77,13 +77,13 @@ namespace {
 // F for a cutoff of 1.
 NearKernel unit_kernel(const MeshDesign& design) {
     const double whole = integral(0, 1, [&](double t) { return bell(design.beta, t); });
-    // As a function of s = 1 - d^2 in [0, 1]: the mean of the bell over [0, d], which has a limit at d = 0.
+    // As a function of s = 1 - d^2 in [0, 1]: the mean of the bell over [0, d], which is finite at d = 0.
     const auto smooth = [&](double s) {
         const double d = std::sqrt(std::max(0.0, 1 - s));
         return integral(0, 1, [&](double t) { return bell(design.beta, t * d); }) / whole;
     };
     const auto p = polynomial([&](double t) { return smooth((t + 1) / 2); }, 0.1 * design.error, kNearDegree);
-    std::vector<long double> q(p.size());  // from powers of t = 2 s - 1 to powers of s
+    std::vector<long double> q(p.size());  // converts powers of t = 2 s - 1 to powers of s
     for (std::size_t k = p.size(); k-- > 0;) {
         for (std::size_t m = q.size() - 1; m > 0; --m) q[m] = 2 * q[m - 1] - q[m];
         q[0] = -q[0] + p[k];
@@ -107,7 +107,7 @@ MeshWindow make_window(const MeshDesign& design) {
     return window;
 }
 
-// Made once a design: operators are made anew whenever the points change.
+// Tables are computed once for each design, because operators are created again whenever the points change.
 struct Tables {
     std::once_flag made;
     NearKernel kernel;
@@ -147,8 +147,8 @@ double window_alias_sum(const MeshDesign& design, double k) {
 }
 
 double periodic_square(const MeshDesign& design, double x, double period, double bend) {
-    // The smallest square distance to a multiple of the period, with its kink at period/2 smoothed by the bell over +- bend.
-    // Around the kink it is x^2 - 2 period (x - period/2)_+, and the bell turns the ramp into its mean.
+    // Squared distance to the nearest multiple of the period, with its kink at period/2 smoothed by the bell over +- bend. Around the kink
+    // it is x^2 - 2 period (x - period/2)_+, and the ramp is replaced by its mean over the bell.
     x = std::abs(std::remainder(x, period));
     const double from = (x - period / 2) / bend;  // in [-period/(2 bend), 0]
     if (from <= -1) return x * x;
@@ -169,12 +169,12 @@ std::size_t transform_length(double n) {
     }
 }
 
-// The doubled mesh holds every difference of two points with its sign, and room for the kernel to bend where it wraps around.
+// The doubled mesh contains all signed differences of two points and a margin for smoothing the kernel where it wraps around.
 double period_needed(const MeshDesign& design, double length) { return 2 * length + 4 * design.cutoff + 2; }
 
-constexpr int kRows = 8;  // of a mesh, that a thread takes at a time
+constexpr int kRows = 8;  // rows or columns of a mesh processed by a thread at a time
 
-// A mesh this small is not worth the threads.
+// Small meshes use one thread.
 int threads_for(std::size_t points) { return points < 65536 ? 1 : static_cast<int>(most_threads(0)); }
 
 // A buffer for each thread.
@@ -184,7 +184,7 @@ std::vector<FftwArray> buffers(int threads, std::size_t n) {
     return all;
 }
 
-// F at the square distance d2 of a kernel's cutoff.
+// F at the squared distance d2.
 double far_part(const NearKernel& kernel, double d2) {
     if (d2 >= kernel.cutoff2) return 1 / std::sqrt(d2);
     double value = 0;
@@ -209,7 +209,7 @@ double FarField::points_needed(const MeshDesign& design, double length_x, double
 FarField::FarField(const MeshDesign& design, double length_x, double length_y, double spacing, const Kernel& of)
     : period_x_(transform_length(period_needed(design, length_x))), period_y_(transform_length(period_needed(design, length_y))) {
     rows_ = static_cast<std::size_t>(length_y) + static_cast<std::size_t>(design.width) + 1;
-    // A window is written kWindowWidth wide whatever its width.
+    // All windows are written with the full width kWindowWidth.
     const std::size_t complex_columns = std::max(period_x_ / 2 + 1, (static_cast<std::size_t>(length_x) + 2 + kWindowWidth) / 2 + 1);
     columns_ = (complex_columns + kColumns - 1) / kColumns * kColumns;
 
@@ -261,7 +261,7 @@ void FarField::make_plans() {
         throw Error(Failure::internal, "FFTW made no plan for a mesh of " + std::to_string(nx) + " x " + std::to_string(ny));
 }
 
-// Before the transforms every mesh point occurs once; afterwards the border is copied, so that windows may reach across it.
+// fold() makes every mesh point occur once before the transforms; unfold() copies the border afterwards, so that windows may cross it.
 void FarField::fold(double* mesh) const {
     for (std::size_t n = period_y_; n < rows_; ++n) {
         double *from = mesh + n * stride(), *to = from - period_y_ * stride();
@@ -281,8 +281,8 @@ void FarField::unfold(double* mesh) const {
     for (std::size_t n = period_y_; n < rows_; ++n) std::copy_n(mesh + (n - period_y_) * stride(), stride(), mesh + n * stride());
 }
 
-// Transform of F on the periodic mesh, times what makes up for spreading and interpolating: u^2 / (sum of squares of the window's
-// aliases)^2 with u^2 the window's transform squared, the choice of least error.
+// Transform of F on the periodic mesh, multiplied by the optimal correction for spreading and interpolation, u^2 / (sum of squares of the
+// window's aliases)^2, where u is the transform of the window.
 void FarField::make_multiplier(const MeshDesign& design, const std::function<double(std::size_t, std::size_t)>& value) {
     const std::size_t half_x = period_x_ / 2, half_y = period_y_ / 2;
     const auto corrections = [&design](std::size_t period) {
@@ -295,7 +295,7 @@ void FarField::make_multiplier(const MeshDesign& design, const std::function<dou
     };
     const std::vector<double> cx = corrections(period_x_), cy = corrections(period_y_);
 
-    // Rows: the kernel is even, so half of them, and real transforms.
+    // The kernel is even, so half of the rows and real transforms suffice.
     const FftwArray half = fftw_array((half_y + 1) * (half_x + 1));
     const int threads = threads_for(points());
     const std::vector<FftwArray> row_of = buffers(threads, stride()), block_of = buffers(threads, 2 * kColumns * period_y_);
@@ -333,7 +333,7 @@ void FarField::convolve(double* mesh) const {
     const std::vector<FftwArray> block_of = buffers(threads, 2 * kColumns * period_y_);
     parallel_for(rows, kRows, threads,
                  [&](std::size_t n) { fftw_execute_dft_r2c(row_forward_.get(), mesh + n * stride(), as_complex(mesh + n * stride())); });
-    // Columns, a few at a time: there and back while they are in the cache; the rows that hold no points are never stored.
+    // Columns are transformed, multiplied and transformed back a few at a time, in the cache; rows without points are never stored.
     parallel_for(std::min(blocks, used), 1, threads, [&](std::size_t b, std::size_t worker) {
         constexpr std::size_t kRow = 2 * kColumns;
         double* const block = block_of[worker].get();

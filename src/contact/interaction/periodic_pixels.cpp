@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kThreads = 400000;  // number of pixels above which threads are used
 constexpr std::size_t kLine = 64;         // bytes
-constexpr int kColumns = 8;               // transformed together
+constexpr int kColumns = 8;               // columns transformed together
 constexpr int kRows = 8;                  // that a thread takes at a time
 
 // Names of FFTW in single and double precision.

@@ -5,7 +5,7 @@
 namespace rsc {
 namespace {
 
-// d^2/ds dt of corner() is 1/sqrt(s^2 + t^2): the integral over the rectangle is the alternating sum over its corners.
+// d^2/ds dt of corner() is 1/sqrt(s^2 + t^2), so that the integral over a rectangle is an alternating sum over its corners.
 double corner(double s, double t) {
     double sum = 0;
     if (t != 0) sum += t * std::asinh(s / std::abs(t));
@@ -21,7 +21,7 @@ double love(double x, double y, double a, double b) {
 
 namespace {
 
-// As many doubles at any address as an instruction takes: of wider vectors g++ makes slow code.
+// Vector of as many doubles (at any address) as an instruction processes; g++ generates slow code for wider ones.
 template <int Bytes>
 struct Lanes {
     using Vector [[gnu::vector_size(Bytes), gnu::aligned(8), gnu::may_alias]] = double;
@@ -30,7 +30,7 @@ struct Lanes {
     RSC_ALWAYS_INLINE static Vector& at(double* p) { return *reinterpret_cast<Vector*>(p); }
 };
 
-// Rows at a time, their sums in registers.
+// Processes `Rows` rows at a time, with their sums in registers.
 template <class L, int Rows>
 RSC_ALWAYS_INLINE void near_rows(const NearTable& t, const double* corner, std::size_t n, const TileSource* sources, double* sums) {
     constexpr int parts = kTileColumns / L::kCount;
@@ -84,7 +84,7 @@ RSC_ALWAYS_INLINE void all_slices(int rows, int columns, const double* T, const 
     }
 }
 
-// The sum for a pair has the same order for any number of pairs at a time.
+// The order of summation for a pair does not depend on the number of pairs processed together.
 template <class L, int Pairs>
 RSC_ALWAYS_INLINE void translate(int rows, int columns, const double* T, std::size_t n, const double* const* from, double* const* to) {
     std::size_t k = 0;

@@ -12,7 +12,7 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-constexpr int kMostRows = 64;          // of a tile: see rows_of
+constexpr int kMostRows = 64;          // rows of a tile, see rows_of()
 constexpr int kOffsets = 49;           // offsets between boxes: -3 ... 3 in both directions
 constexpr std::size_t kThreads = 500;  // number of boxes above which threads are used
 constexpr std::size_t kChunk = 128;    // boxes processed by a thread at a time
@@ -62,7 +62,7 @@ struct Generation {
 struct Layout {
     std::vector<Generation> generations;  // tiles first
     std::vector<std::size_t> place;       // of each pixel: tile * (8 rows) + row * 8 + column
-    std::vector<std::size_t> in_tiles;    // the pixels tile by tile, those of tile t from tile_begin[t] on
+    std::vector<std::size_t> in_tiles;    // pixels sorted by tile; those of tile t begin at tile_begin[t]
     std::vector<std::size_t> tile_begin;
 };
 
@@ -404,7 +404,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         loaded_[l].assign(generations[l].boxes.size(), 0);
         if (!generations[l].pair_from.empty()) interpolation.matrices(l);
     }
-    // Three loops a product that threads share: over the tiles, between boxes of all sizes, and over the tiles again.
+    // A product has three parallel loops: over the tiles, over transfers between boxes of all sizes, and over the tiles again.
     const int threads = tiles > kThreads ? 0 : 1;
     sources_.resize(n);
     source_end_.resize(tiles);

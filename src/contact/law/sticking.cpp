@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Between two positive numbers, where a property holds at `yes` and not at `no`: its border.
+// Bisection between two positive numbers for the limit of a property that holds at `yes` and not at `no`.
 template <class Property>
 double border(double yes, double no, Property&& holds) {
     for (int i = 0; i < 1100; ++i) {
@@ -48,7 +48,7 @@ void Sticking::prepare(std::span<const int> asperities) {
             limits_.push_back(limits);
             continue;
         }
-        // A small contact is that of a paraboloid, where l h is proportional to s^(-3/4).
+        // Small contacts are those of a paraboloid, for which l h is proportional to s^(-3/4).
         double s = 1e-100;
         const double start = std::pow(spreading(i, s), 4.0 / 3) * s;  // l h = 1 of the paraboloid
         const auto stands = [&](double at) { return spreading(i, at) <= 1; };
@@ -58,7 +58,7 @@ void Sticking::prepare(std::span<const int> asperities) {
         if (law_.beyond(i, deepest)) {
             const double end = border(0.01 * start < deepest && !law_.beyond(i, 1e-3 * start) ? 1e-3 * start : 1e-200, deepest,
                                       [&](double at) { return !law_.beyond(i, at); });
-            // l h falls from 1 on and rises again before the trough.
+            // l h decreases from 1 and increases again before the trough.
             double low = std::min(1e-3 * start, 0.5 * end);
             high = end;
             for (int k = 0; k < 100; ++k) {
@@ -97,7 +97,7 @@ Sticking::State Sticking::bare(int asperity, double s) const {
 Sticking::State Sticking::attracting(const Limits& of, double s) const {
     using std::numbers::pi;
     const double r = of.r, E = of.E, s0 = w_ / z0_, c = std::sqrt(r * s);
-    const auto missing = [&](double beta) {  // of the gap at c
+    const auto missing = [&](double beta) {  // difference of the gap at c from z0
         const double half = std::sin(0.5 * beta);
         return c * c / (pi * r) * (0.5 * std::sin(2 * beta) - beta * std::cos(2 * beta)) +
                4 * s0 * c / (pi * E) * (beta * std::sin(beta) - 2 * half * half) - z0_;
@@ -115,7 +115,7 @@ Sticking::State Sticking::attracting(const Limits& of, double s) const {
     state.u = apart ? 0.5 * c * c / r - 4 * s0 * c / (pi * E) - z0_ : a * a / r - 2 * s0 * e / E;
     const double root = 0.5 * (a * e + c * c * alpha);  // int_0^a sqrt(c^2 - t^2) dt
     state.f = 2 * E * a * (state.u - a * a / (3 * r)) - 4 * s0 * (0.25 * pi * c * c - root);
-    // Along c: the gap at c stays z0 while a changes, u_a da = G_c/(2 beta/pi) dc.
+    // Derivatives with respect to c at a constant gap z0 at c: u_a da = G_c/(2 beta/pi) dc.
     const double u_c = -2 * s0 * c / (E * e);
     const double G_c = c / r - u_c * 2 * beta / pi + 2 / pi * ((a * e / c - c * alpha) / r - 2 * s0 / E * (1 - a / c));
     const double to_s = 0.5 * r / c, slope = apart ? c / r - 4 * s0 / (pi * E) : u_c + G_c * 0.5 * pi / beta;
@@ -124,12 +124,13 @@ Sticking::State Sticking::attracting(const Limits& of, double s) const {
     state.stiffness = 2 * E * c;
     state.area = pi * a * a;
     state.outer = pi * c * c;
-    // E int_0^c chi^2 dt with chi = u - t^2/r in the contact, -(2 s0/E) sqrt(c^2 - t^2) beyond, and what is gained over the gaps.
+    // Elastic energy E int_0^c chi^2 dt with chi = u - t^2/r in the contact and -(2 s0/E) sqrt(c^2 - t^2) outside, minus the adhesive
+    // energy.
     const double u = state.u, elastic = E * a * (u * u - 2.0 / 3 * u * a * a / r + a * a * a * a / (5 * r * r)) +
                                         4 * s0 * s0 / E * (2.0 / 3 * c * c * c - c * c * a + a * a * a / 3);
     const double root2 = 0.125 * (c * c * c * c * alpha - a * e * (c * c - 2 * a * a));  // int_0^a t^2 sqrt(c^2 - t^2) dt
     const double sunk = 4 * (u * root - root2 / r - 2 * s0 / E * (2.0 / 3 * c * c * c - c * c * a + a * a * a / 3) -
-                             0.25 * pi * a * a * (u - 0.25 * a * a / r));  // int of the displacement over the cohesive ring
+                             0.25 * pi * a * a * (u - 0.25 * a * a / r));  // integral of the displacement over the cohesive ring
     const double gaps = 0.25 * pi * (c * c * c * c - a * a * a * a) / r - u * pi * e * e + sunk;
     state.energy = elastic - s0 * (z0_ * pi * c * c - gaps);
     return state;
@@ -150,7 +151,7 @@ Sticking::State Sticking::at(int asperity, double s) const {
     return state;
 }
 
-// u(s) is convex up to where the radius stays: Newton's method from above, between bounds.
+// Bracketed Newton's method from above; u(s) is convex up to where the radius becomes constant.
 double Sticking::state_at(int asperity, double u) const {
     double low = least(asperity), high = std::max({2 * low, 2 * u, low - lets_go(asperity) + u});
     while (at(asperity, high).u < u) low = high, high *= 2;

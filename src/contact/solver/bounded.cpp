@@ -8,7 +8,7 @@ namespace {
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kThreads = 100000;  // pixels from which threads pay
+constexpr std::size_t kThreads = 100000;  // number of pixels above which threads are used
 constexpr int kRows = 8;                  // that a thread takes at a time
 
 }  // namespace
@@ -29,7 +29,7 @@ void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
     for (std::size_t k = 0; k < w_.size(); ++k) w_[k] -= z_[k];
-    if (wanted_) {  // Z0 is such that the mean of w over the pixels under pressure is 0
+    if (wanted_) {  // sets Z0 such that the mean of w over the pixels under pressure is 0
         const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
         Z0_ = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) / static_cast<double>(touching);
     }
@@ -56,18 +56,18 @@ void BoundedSolver::find_free() {
     freed();
 }
 
-// Conjugate gradients on the free pixels. With a wanted sum of p, the sum stays, and w counts but for a constant.
+// Conjugate gradients on the free pixels. If the sum of p is given, it is kept constant, and w is minimised up to a constant.
 void BoundedSolver::descend(int most_steps, double reduction) {
     const std::size_t n = p_.size();
     direction_.assign(n, 0.0);
     const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
         return sum([&](std::size_t k) { return a[k] * b[k]; });
     };
-    // A single step is one along the gradient itself: cut off at the bounds it still leads down.
+    // A single step follows the gradient itself, which remains a descent direction after projection on the bounds.
     const bool plain = most_steps == 1;
     std::vector<double> residual(n);
     for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 1 : 0;
-    // A correction by a constant pressure, as a punch's, is cheap, the more so the fuller the contact.
+    // Correction by a constant pressure, which is most effective near full contact.
     double whole = 0, punch = 0;
     const bool constant = manner_.repeats || wanted_;
     if (constant) {
@@ -108,7 +108,7 @@ void BoundedSolver::descend(int most_steps, double reduction) {
     }
 }
 
-// Cuts pressures off at their bounds, and restores their sum by adding pressure where a lower flat would. True if any was cut off.
+// Clips pressures at their bounds, and restores their sum by adding pressure as a lower flat would. Returns true if any was clipped.
 bool BoundedSolver::bound() {
     bool cut = false;
     for (double& p : p_) {
@@ -132,7 +132,7 @@ bool BoundedSolver::bound() {
     return true;
 }
 
-// True if the last round lowered the energy; otherwise pressures return to the best ones found on the way.
+// Returns true if the last round lowered the energy; otherwise restores the best pressures along the step.
 bool BoundedSolver::fell() {
     double slope = 0, curvature = 0;
     for (std::size_t k = 0; k < p_.size(); ++k) {
@@ -148,7 +148,7 @@ bool BoundedSolver::fell() {
 
 ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool exactly) {
     ElementsOutcome outcome;
-    if (wanted_) {  // a start may have another sum
+    if (wanted_) {  // the start may have another sum
         one_ = p_;
         bound();
     }
@@ -159,7 +159,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
     evaluate(false);
     for (;;) {
         outcome.residual = error();
-        // A round that raised the energy is taken back to its best place; shorter ones follow.
+        // A round that raised the energy is reduced to its best point, and the following rounds are shorter.
         const bool watched = outcome.iterations > manner_.quick || (manner_.repeats && outcome.residual > last);
         if (watched && !before_p_.empty() && !fell()) {
             evaluate(exact);
@@ -169,7 +169,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
             steps = std::min(steps + 1, manner_.steps);
         }
         last = outcome.residual;
-        const bool judged = manner_.repeats || outcome.iterations > 0;  // starts from other levels get a round at least
+        const bool judged = manner_.repeats || outcome.iterations > 0;  // starts from other levels get at least one round
         const bool small = judged && outcome.residual <= tolerance;
         if (small && exactly && !exact) {
             exact = true;
@@ -179,7 +179,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         }
         if (judged) outcome.converged = complete(small, outcome.residual);
         if (outcome.converged || outcome.iterations >= most_rounds) break;
-        if (w_.size() != p_.size()) evaluate(exact);  // of a set that has changed
+        if (w_.size() != p_.size()) evaluate(exact);  // the set has changed
         ++outcome.iterations;
         renew();
         find_free();
@@ -194,7 +194,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
 }
 
 double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, int most_steps, double reduction) {
-    // The same steps on the same matrix, with 1 for z - Z0; the answer of the level is put back afterwards.
+    // Solves K q = 1 by the same iteration; the solution of the level is restored afterwards.
     const std::vector<double> p = p_, w = w_;
     const std::optional<double> wanted = std::exchange(wanted_, std::nullopt);
     const std::size_t n = p_.size();
@@ -211,7 +211,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
         for (double& v : w_) v -= 1;
         if (std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count) <= tolerance) break;
     }
-    // 2 1'q - q'Kq misses what it tends to by the square of the residual only.
+    // The error of 2 1'q - q'Kq is of second order in the residual.
     const double answer = sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; });
     p_ = p;
     w_ = w;

@@ -6,27 +6,27 @@ namespace {
 using Accuracy = PixelProducts::Accuracy;
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// The working set holds what lies within so many pixels of a pixel under pressure.
+// The working set contains all pixels within this distance of a pixel under pressure.
 constexpr int kReach = 3;
-// A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
+// Largest number of conjugate-gradient steps in a round, and the reduction of the preconditioned residual that ends a round earlier.
 constexpr int kSteps = 5;
 constexpr double kReduction = 0.1;
-// Pixels outside are looked at first when the residual is so small.
+// Residual below which pixels outside the working set are first checked.
 constexpr double kClosing = 1e-2;
-constexpr int kQuick = 30;  // rounds: sets that settle do so in some ten
-// Deep in the roughness, the first guess of a start covers more than this share of the pixels; a smooth sphere's covers half.
+constexpr int kQuick = 30;  // rounds before the energy is monitored; most sets converge in about ten
+// Share of pixels in the first guess above which the contact is deep in the roughness; for a smooth sphere it is one half.
 constexpr double kDeep = 0.55;
-// Full products are taken from where inner ones no longer tell, in units of their error.
+// Residual, relative to the error of inner products, below which full products are used.
 constexpr double kInnerReach = 10;
-constexpr double kChange = 0.05;  // of the tolerance: error of an exact product that was got from an earlier one
+constexpr double kChange = 0.05;  // relative to the tolerance: error of an exact product computed from an earlier one
 
 }  // namespace
 
 ElementsSolver::ElementsSolver(PixelProducts& products, double highest)
     : BoundedSolver(highest, {kSteps, kReduction, kQuick, false}), products_(products) {}
 
-// Pressures like those of Hertz, the root of the overlap `over` above s, with the s and the scale of least energy, which `least` is on
-// entry and return. Returns how many pixels carry them; 0, and p as it was, where none have less energy.
+// Hertz-like pressures: the root of the overlap `over` above s, with the s and the scale of smallest energy. `least` is the smallest energy
+// so far, on entry and return. Returns the number of pixels under pressure; 0 and p unchanged if no such pressures have a smaller energy.
 std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::vector<double>& g0, const std::vector<double>& over,
                                   double& least, std::vector<double>& p) {
     const double top = *std::max_element(over.begin(), over.end());
@@ -56,7 +56,7 @@ std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::v
     };
     double step = top / 8;
     for (int i = 7; i >= 0; --i) {
-        if (energy(i * step) > 0.98 * lowest) break;  // past the minimum
+        if (energy(i * step) > 0.98 * lowest) break;  // beyond the minimum
     }
     for (int i = 0; i < 2; ++i) {
         step *= 0.5;
@@ -78,7 +78,7 @@ void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<d
     double least = std::numeric_limits<double>::infinity();
     const std::size_t chosen = guess(pixels, g0, g0, least, p);
     if (!(static_cast<double>(chosen) > kDeep * static_cast<double>(pixels.size()))) return;
-    // The peaks of the roughness carry: they stand out in what is left of the overlap once the surface is deflected.
+    // In the roughness the peaks carry the load: they stand out in the overlap that remains after the deflection.
     std::vector<double> over(p.size());
     products_.set_pixels(pixels);
     products_.apply(p.data(), over.data(), Accuracy::inner);
@@ -86,11 +86,11 @@ void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<d
     guess(pixels, g0, over, least, p);
 }
 
-// The working set: members, and pixels within kReach of one that is a member or under pressure.
+// Selects the working set: members, and pixels within kReach of a member or of a pixel under pressure.
 void ElementsSolver::draw(const std::vector<double>& p) {
     const std::vector<Pixel>& pixels = *pixels_;
     const std::size_t n = pixels.size();
-    std::vector<std::size_t> row_begin;  // of the rows that have pixels
+    std::vector<std::size_t> row_begin;  // begin of each row that has pixels
     for (std::size_t k = 0; k < n; ++k) {
         if (k == 0 || pixels[k].y != pixels[k - 1].y) row_begin.push_back(k);
     }
@@ -121,8 +121,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     if (!set_.empty()) products_.set_pixels(set_);
 }
 
-// An exact product is a full one, or the last full one plus a cheaper product with what has changed since: the error of that is relative to the
-// change.
+// An exact product is a full one, or the last full one plus a cheaper product with the change since, whose error is relative to the change.
 void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) {
     const std::size_t n = x.size();
     Kx.resize(n);
@@ -165,7 +164,7 @@ bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ || rounds > kQuick;
 }
 
-// Pixels outside that would penetrate become members. Returns how many.
+// Makes pixels outside the working set members if they would penetrate. Returns their number.
 long ElementsSolver::join() {
     const std::vector<Pixel>& pixels = *pixels_;
     std::vector<Pixel> others;
@@ -183,7 +182,7 @@ long ElementsSolver::join() {
     std::vector<double> w(others.size());
     products_.elsewhere(p_.data(), others, w.data());
     long joined = 0;
-    // Pixels are selected by inner products; those within their error are added, and checked by full products.
+    // Pixels are selected by inner products with a margin for their error.
     const double margin = 1 - 3 * products_.inner_error();
     for (std::size_t k = 0; k < others.size(); ++k) {
         if (!(w[k] * margin < (*g0_)[at(where[k])] - Z0_)) continue;
@@ -193,7 +192,7 @@ long ElementsSolver::join() {
     return joined;
 }
 
-// Pixels outside are looked at when the residual is small, and again at the end.
+// Checks the pixels outside when the residual is small, and again at the end.
 bool ElementsSolver::complete(bool solved, double residual) {
     if (!solved && (looked_ || residual > kClosing)) return false;
     const long joined = join();

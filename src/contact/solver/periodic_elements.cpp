@@ -7,11 +7,11 @@
 namespace rsc {
 namespace {
 
-// Tolerance of the solutions on coarser grids, which only serve as a start.
+// Tolerance of solutions on coarser grids, which are only starting points.
 constexpr double kCoarseError = 1e-2;
-constexpr double kRounding = 1e-12;  // of separations, in rms heights
+constexpr double kRounding = 1e-12;  // rounding error of separations, in rms heights
 
-// The solution on the coarsened grid, got in the same way, and from there.
+// Solves on the coarsened grid (recursively) and starts from its solution.
 ElementsOutcome solve_from_coarse(PeriodicGrid& grid, Given given, double tolerance, int most_iterations, bool finest) {
     bool started = false;
     if (grid.can_be_coarsened()) {
@@ -31,9 +31,10 @@ struct PeriodicElements::Impl {
     Relief relief;
     Substrate substrate;
     double highest;
-    // Heights are counted in `rms` from `zero`, both of the first heights, pressures in E* rms/dx: numbers of the order of 1.
+    // Units in which values are of order 1: heights are relative to `zero` in units of `rms` (both of the initial heights), pressures in
+    // units of E* rms/dx.
     double zero = 0, rms = 0;
-    double mean = 0;  // of the heights as they are
+    double mean = 0;  // mean of the current heights
     std::unique_ptr<PeriodicGrid> grid;
     std::vector<Pixel> pixels;
     std::vector<double> pressures;
@@ -48,7 +49,7 @@ struct PeriodicElements::Impl {
     ElementsOutcome solve(Given given, double tolerance, int most_iterations);
 };
 
-// Of a function of the heights.
+// Mean of a function of the heights.
 template <class F>
 double PeriodicElements::Impl::mean_of(F&& f) const {
     double all = 0;
@@ -64,7 +65,7 @@ void PeriodicElements::Impl::prepare() {
     mean = zero = mean_height();
     double largest = 0;
     mean_of([&](double z) { return largest = std::max(largest, std::abs(z - mean)); });
-    if (!(largest > 0)) throw Error(Failure::bad_input, "the surface is flat: two flats without roughness touch everywhere");
+    if (!(largest > 0)) throw Error(Failure::bad_input, "the surface is flat: two smooth flats touch everywhere");
     rms = largest * std::sqrt(mean_of([&](double z) { return (z - mean) / largest * ((z - mean) / largest); }));
     PeriodicGrid::Share share;
     if (substrate.smooth()) share = [this](double k) { return substrate.smooth()->share(k / relief.dx); };

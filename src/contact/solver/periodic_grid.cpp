@@ -6,18 +6,18 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-constexpr int kThreads = 400000;  // pixels from which threads pay
+constexpr int kThreads = 400000;  // number of pixels above which threads are used
 constexpr int kRows = 8;          // that a thread takes at a time
-// The preconditioner's reach, and numbers of a row of its table: those beyond the reach are 0.
+// Reach of the preconditioner in pixels, and row length of its table, padded with zeros.
 constexpr int kReach = 4, kTaps = 12;
-// A round of conjugate gradients: steps at most, and the reduction of the preconditioned residual that ends it sooner.
+// Largest number of conjugate-gradient steps in a round, and the reduction of the preconditioned residual that ends a round earlier.
 constexpr int kSteps = 8;
 constexpr double kReduction = 0.05;
-// Rounds from which the energy is watched in all: those that settle do so in some ten.
+// Rounds after which the energy is monitored in every round; most sets converge in about ten.
 constexpr int kQuick = 15;
-// Errors below which a round is judged in double.
+// Error below which the residual of a round is computed in double precision.
 constexpr double kSingle = 1e-4;
-// The shortest side worth a coarser grid.
+// Shortest side for which a coarser grid is used.
 constexpr int kShortest = 32;
 
 }  // namespace
@@ -32,8 +32,8 @@ PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double hi
       share_(std::move(share_of)),
       inner_(nx, ny, 1, aspect, share()) {
     rows_.assign(at(ny) + 1, 0);
-    // K^-1 between pixels so many columns and rows apart, |k|/2/(1 + share) summed over the modes of a large period, times a window with a transform that
-    // is nowhere negative: so is then the product's.
+    // K^-1 by offset: |k|/2/(1 + share) summed over the modes of a large period, multiplied by a window with a non-negative transform, so
+    // that the result is positive semidefinite as well.
     constexpr int modes = 64;
     stencil_.assign(at((2 * kReach + 1) * kTaps), 0.0f);
     const auto window = [](int a) { return 1 - std::abs(a) / (kReach + 1.0); };
@@ -108,7 +108,7 @@ void PeriodicGrid::start(Given given) {
     }
     rows_.back() = p_.size();
     if (given.is_pressure || p_.empty()) return;
-    // The scale of least energy.
+    // Scales the pressures to the smallest energy.
     wanted_.reset(), Z0_ = given.value;
     evaluate(false);
     double overlap = 0, energy = 0;
@@ -157,7 +157,7 @@ void PeriodicGrid::multiply(const std::vector<double>& x, std::vector<double>& K
         multiply_by(inner_, x, Kx);
 }
 
-// Calls visit(i, position, w) for the pixels of a row that are in the set, and for those that penetrate outside it with the position -1.
+// Calls visit(i, position, w) for the pixels of row j in the set, and with position -1 for penetrating pixels outside it.
 template <class F>
 void PeriodicGrid::penetrating(int j, F&& visit) const {
     const float* const inner = inner_.row(j);
@@ -186,7 +186,7 @@ double PeriodicGrid::outside() {
     return std::accumulate(partial_.begin(), partial_.end(), 0.0);
 }
 
-// The set anew: pixels under pressure, and those that penetrate without any.
+// Renews the set: pixels under pressure, and penetrating pixels without pressure.
 void PeriodicGrid::renew() {
     const auto belongs = [&](std::ptrdiff_t k, double w) { return w < 0 || p_[static_cast<std::size_t>(k)] > 0; };
     std::vector<std::size_t> rows(at(ny_) + 1, 0);
@@ -208,7 +208,7 @@ void PeriodicGrid::renew() {
     p_ = std::move(p), w_ = std::move(w), z_ = std::move(z);
 }
 
-// y = the part of K^-1 that reaches no farther than kReach pixels, of r, over the free pixels.
+// y = K^-1, truncated to kReach pixels, times r over the free pixels.
 void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double>& y) {
     y.resize(r.size());
     parallel_for(ny_, kRows, threads(), [&](int j) {

@@ -9,7 +9,7 @@ namespace {
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // The Cholesky factor of A (n x n by rows), A = L L^T with L^T in the upper triangle, then A^-1 = L^-T L^-1. In place; the inner loops run
-// along rows and sum nothing up, so that they become vectors.
+// along rows without sums, so that they vectorise.
 RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A, double* inverse) {
     for (std::size_t k = 0; k < n; ++k) {
         double* row = A + k * n;
