@@ -172,7 +172,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
         }
         const bool found = truth.status != LevelStatus::not_converged && on_path;
         c.failed += !found;
-        const auto error = [&](double model, double elements) { return found && elements > 0 ? model / elements - 1 : kNotComputed; };
+        const auto error = [&](double model, double elements) { return found && elements != 0 ? model / elements - 1 : kNotComputed; };
         c.step.push_back(static_cast<std::int32_t>(step));
         c.contacts.push_back(truth.contacts);
         c.separation.push_back(truth.separation);
