@@ -35,7 +35,7 @@ public:
 
     std::size_t size() const;
     // phi[i] = sum_j f[j] G_ij, in the order the points were given. A const object may be used by
-    // several threads at once. Uses OpenMP threads when called outside of a parallel region; the bits do not depend on their
+    // several threads at once. Uses threads (rough/parallel.hpp); the bits do not depend on their
     // number.
     void apply(const double* f, double* phi) const;
 
