@@ -37,6 +37,10 @@ std::optional<Breaks::Kind> kind_of(const Profile& p, double least) {
     constexpr double foremost = 1.3;  // a pit's second difference is twice its neighbours'; at a step a neighbour's has the same size
     const double bend = p.bend(0), before = p.bend(-1), after = p.bend(1);
     if (!(std::abs(bend) > least)) return {};
+    // Smooth: the neighbours curve the same way, none the other way. A hill on a plain has large second differences, too.
+    constexpr double smooth = 0.3;
+    const double sign = bend > 0 ? 1 : -1, like = std::max(sign * before, sign * after), against = std::max(-sign * before, -sign * after);
+    if (like > smooth * std::abs(bend) && against < smooth * std::abs(bend)) return {};
     if (bend > foremost * std::max(-before, -after)) return Breaks::pit;
     if (-bend > foremost * std::max(before, after)) return Breaks::spike;
     return Breaks::step;

@@ -158,9 +158,13 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;
-        lines.push_back(format("spectrum%s: hurst %.3f +- %.3f, lambda_l %.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
+        const char* const plateau = !fit.kl_seen        ? ""
+                                    : !fit.plateau_seen ? " (the map is too small to tell whether there is a plateau above)"
+                                    : fit.plateau       ? " (plateau above)"
+                                                        : "";
+        lines.push_back(format("spectrum%s: hurst %.3f +- %.3f, lambda_l %s%.4g %s%s, lambda_s %.4g %s%s, %.1f points in the shortest wave",
                                fit.aspect > 1 ? format(" (waves between along and across the lay, aspect %.2f)", fit.aspect).c_str() : "",
-                               fit.hurst.value, fit.hurst.error, two_pi / fit.kl.value, l, fit.plateau ? " (plateau above)" : "",
+                               fit.hurst.value, fit.hurst.error, fit.kl_seen ? "" : "at least ", two_pi / fit.kl.value, l, plateau,
                                two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (limit of the grid)", m.points_per_wave()));
     } else {
         lines.push_back("spectrum: not fitted, the map is too small or too flat");

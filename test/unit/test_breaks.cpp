@@ -37,6 +37,15 @@ TESTS {
         CHECK_CLOSE(worst, 0, 0.05 * sigma);  // a polynomial through two points where a groove ends, through six elsewhere
     }
     {
+        // A smooth hill is none, however flat the map around it is.
+        HeightMap map = smooth();
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i)
+                map.row(j)[i] = 1e-2 * map(i, j) + 50 * sigma * std::exp(-(std::pow(i - 60, 2) + std::pow(j - 70, 2)) / 50);
+        const Breaks breaks = find_breaks(map, 0);
+        CHECK(breaks.found[Breaks::spike].points == 0 && breaks.pits.empty() && breaks.clear.empty());
+    }
+    {
         HeightMap map = smooth();
         map.row(33)[44] += 10 * sigma;
         for (int j = 0; j < n; ++j)

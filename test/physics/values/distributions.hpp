@@ -198,7 +198,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             for (const Moments1& m : moments[i])
                 if (m.deviation > 0) spread = std::max(spread, m.mean / m.deviation);
             f.attribute(of[i], name, v, 1e-6,
-                        ratio       ? 1e-9
+                        ratio       ? 1e-9 + 1e-15 * std::pow(spread, 3)
                         : deviation ? 1e-7 * moments[i][0].mean
                         : fourth    ? 1e-15 * std::pow(spread, 4)
                                     : 0);

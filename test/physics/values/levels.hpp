@@ -282,7 +282,30 @@ inline void levels(CheckedFile& f, const Truth& t) {
         }
         return n;
     });
-    f.same("edge_contacts", edges);
+    Vector with_border = edges;  // and the runs of border points of a map that asperities leave out, where they would touch
+    for (std::size_t i = 0; i < edges.size() && t.c.surface.source == Source::heights && !t.elements && !t.periodic; ++i) {
+        const Grid& g = t.heights[i / t.steps];
+        const Level& l = level(i / t.steps, i % t.steps);
+        std::vector<std::pair<double, double>> found;
+        for (long j = 0; j < g.ny; ++j)
+            for (long k = 0; k < g.nx; ++k) {
+                if (k > 0 && j > 0 && k < g.nx - 1 && j < g.ny - 1) continue;
+                double gap = g.at_point(k, j) + t.top(g.x(k), g.y(j)) - l.separation;
+                for (std::size_t n = 0; n < l.x.size(); ++n)
+                    gap -= l.f[n] / (pi * t.E * std::max(l.a[n], std::hypot(l.x[n] - g.x(k), l.y[n] - g.y(j))));
+                if (gap > 0) found.emplace_back(g.x(k), g.y(j));
+            }
+        // Connected runs, by merging.
+        std::vector<std::size_t> run(found.size());
+        for (std::size_t n = 0; n < run.size(); ++n) run[n] = n;
+        for (std::size_t again = 0; again < run.size(); ++again)
+            for (std::size_t n = 0; n < run.size(); ++n)
+                for (std::size_t m = 0; m < run.size(); ++m)
+                    if (std::hypot(found[n].first - found[m].first, found[n].second - found[m].second) < 1.5 * std::max(g.dx, g.dy))
+                        run[n] = run[m] = std::min(run[n], run[m]);
+        for (std::size_t n = 0; n < run.size(); ++n) with_border[i] += run[n] == n;
+    }
+    f.same("edge_contacts", with_border);
     const Vector nominal = t.rows([&](std::size_t k, std::size_t s) {
         if (t.periodic) return A0;
         double reach = 0;
@@ -300,12 +323,12 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const double given = static_cast<double>(level(k, s).status);
         if (given >= 3) return given;                              // how the solver ended
         const double expected = level(k, s).force_error_expected;  // input/trust; unit/test_resolution
-        if (t.elements) return edges[i] > 0 || expected > kUnresolved ? 1 : 0;
+        if (t.elements) return with_border[i] > 0 || expected > kUnresolved ? 1 : 0;
         if (!(N[i] > 0)) return given;  // what touches beside the summits: physics/test_touching
         const bool deep = level(k, s).separation<-3 * t.sigma, full = A[i]> nominal[i] * (1 + 1e-9);
         const bool far_off = std::isnan(expected) ? large[i] > 0 || beyond[i] > 0 : expected > kMuchError;
         const bool others_touch = (t.hertz || t.list) && level(k, s).slope_ratio > kMostSlopeRatio;
-        if (far_off || edges[i] > 0 || deep || full || others_touch) return 1;
+        if (far_off || with_border[i] > 0 || deep || full || others_touch) return 1;
         return pairs[i] > 0 ? 2 : 0;
     }));
 
