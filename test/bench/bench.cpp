@@ -14,6 +14,7 @@
 #include "contact/interaction/pairs.hpp"
 #include "contact/spots.hpp"
 #include "rough/detection.hpp"
+#include "rough/parallel.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
