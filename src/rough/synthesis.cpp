@@ -61,7 +61,7 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
     std::vector<Scratch> scratch;
     std::vector<Buffer> block;
     // So many rows at once that what they write to a row of the other surface is whole lines of the cache.
-    constexpr int wide = 4 * kBlock;
+    constexpr int wide = 2 * kBlock;
     const std::ptrdiff_t stride = (n_ + 7) / 8 * 8 + 8;
     for (int t = 0; t < threads; ++t) {
         scratch.emplace_back(other);

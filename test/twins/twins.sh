@@ -14,7 +14,8 @@ for k in 1 2 3 4 5 6 7 8 9 10; do
     $rsc -q "$to/ground.nml" -s run%seed=2 -s run%first_realization=$k -s output%heights=.true. -o "$to/map$k.nc"
     echo "$case" | sed '/surface/d' > "$to/measured$k.nml"
     $rsc -q "$to/measured$k.nml" -s surface%source="'heights'" -s surface%file="'$to/map$k.nc'" -s surface%detrend="'none'" -o "$to/measured$k.nc"
-    $rsc -q "$to/measured${k}_twins.nml" -s run%realizations=10 -s run%seed=$((k + 2)) -o "$to/twins$k.nc"
+    $rsc -q "$to/measured${k}_twins.nml" -s run%realizations=10 -s run%seed=$((k + 2)) \
+        -s surface%normalise="'sample'" -o "$to/twins$k.nc"
 done
 $python - "$to" <<'END'
 import sys
