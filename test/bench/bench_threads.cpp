@@ -9,6 +9,7 @@
 
 #include "bench.hpp"
 #include "case/read_case.hpp"
+#include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "rough/parallel.hpp"
 #include "rough/synthesis.hpp"
