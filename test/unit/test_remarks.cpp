@@ -36,7 +36,7 @@ void thresholds() {
     };
     CHECK(!said("-3 sigma", [](V& v) { v.separation = -6; }));
     CHECK(said("-3 sigma", [](V& v) { v.separation = std::nextafter(-6.0, -7.0); }));
-    CHECK(!said("nominal_area", [](V& v) { v.area = 2 * (1 + 1e-9); }) && said("nominal_area", [](V& v) { v.area = 2 * (1 + 2e-9); }));
+    CHECK(!said("nominal area", [](V& v) { v.area = 2 * (1 + 1e-9); }) && said("nominal area", [](V& v) { v.area = 2 * (1 + 2e-9); }));
     CHECK(said("<d> of", [](V& v) { v.edge_contacts = 1; }) && said("<d>/4", [](V& v) { v.large_contacts = 1; }));
     CHECK(said("beyond", [](V& v) { v.beyond_law = 3; }) &&
           said("more than 10 %", [](V& v) { v.force_error_expected = 0.11, v.error_cause = 1; }));
