@@ -6,10 +6,12 @@
 namespace rsc {
 
 // At most 599 characters; longer texts are cut.
-template <class... Args>
-std::string format(const char* text, Args... args) {
+[[gnu::format(printf, 1, 2)]] inline std::string format(const char* text, ...) {
     char buffer[600];
-    std::snprintf(buffer, sizeof buffer, text, args...);
+    std::va_list values;
+    va_start(values, text);
+    std::vsnprintf(buffer, sizeof buffer, text, values);
+    va_end(values);
     return buffer;
 }
 

@@ -13,6 +13,7 @@
 #include <complex>
 #include <condition_variable>
 #include <csignal>
+#include <cstdarg>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -86,7 +86,7 @@ void ResultTable::levels() {
             continue;
         }
         const std::vector<double> values = of_rows<double>([&](const LevelValues& l) { return q.of(l); });
-        if (q.always)
+        if (q.always && std::none_of(o_.rows.begin(), o_.rows.end(), absent))  // levels that did not converge may have no force
             add(q.name, dims, units(q), q.meaning, values, attributes);
         else if (q.of_step)
             add(q.name, {"step"}, units(q), q.meaning,
