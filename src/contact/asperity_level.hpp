@@ -15,13 +15,13 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
 // Resolves method `auto` to direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench.
 Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates);
 
-// Z0 below which the flank of some summit of the surface touches the indenter, for the tip position it was last computed for.
+// Z0 below which the flank of a summit of the surface touches the indenter, stored for the last position of the tip.
 struct FlankTouch {
     double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0, Z0 = 0;
 };
 
-// To a level that has its contacts, their force and the sum of their areas: the area of the union of elliptic spots, overlaps, the range of
-// the model, the error expected, and with them its status. `flanks`: null if the asperities are summits of the difference, not of the surface.
+// Completes a level that has contacts, force and the sum of areas: area of the union of elliptic spots, overlaps, validity of the model,
+// expected errors and status. `flanks`: null if the asperities are summits of the difference, not of the surface.
 void judge_asperities(Level& level, const Law& law, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                       FlankTouch* flanks);
 

@@ -8,10 +8,10 @@
 
 namespace rsc {
 
-// Enumerations with their spellings, in their order, as the namelist and result files have them.
+// Enumerations and their names in namelists and result files, in the same order.
 enum class Method : std::int32_t { automatic, dgesv, direct, mesh };
 inline constexpr std::array kMethodNames = {"auto", "dgesv", "direct", "mesh"};
-// asperity_contact.hpp, element_contact.hpp; automatic: elements for heights read from files, asperities for made surfaces.
+// asperity_contact.hpp, element_contact.hpp; automatic: boundary elements for heights read from files, asperities for synthetic surfaces.
 enum class Model : std::int32_t { asperities, elements, automatic };
 inline constexpr std::array kModelNames = {"asperities", "elements", "auto"};
 enum class Selection { overlap, paper };
@@ -34,16 +34,15 @@ struct LayeredBody {
     friend bool operator==(const LayeredBody&, const LayeredBody&) = default;
 };
 
-// The equivalent problem: elastic half-space E_star (with layers, that of the topmost), rigid indenter of some shape with its tip above
-// (x0, y0).
+// Equivalent problem: elastic half-space E_star (with layers, that of the top layer) and a rigid indenter with its tip above (x0, y0).
 struct Indenter {
     double E_star = 0;  // [force/length^2]
-    Shape shape;        // a number is a sphere of that radius, Infinity a flat
+    Shape shape;        // a number is the radius of a sphere, Infinity a flat
     double x0 = 0, y0 = 0;
-    Period period = {};  // finite: surface and contact repeat (two flats, boundary='periodic')
+    Period period = {};  // finite: surface and contact are periodic (two flats, boundary='periodic')
     LayeredBody layers = {};
-    // Finite `repeats`: the surface repeats although the bodies do not, as a ball on a made surface. It ends at its border until the tip is
-    // moved; from then on `around` is the same, and of each point the image nearest to the tip counts.
+    // `repeats`: finite if the surface is periodic although the bodies are not, for example a ball on a synthetic surface. The surface ends
+    // at its border until the tip is moved; then `around` is set to it, and the image of each point nearest to the tip is used.
     Period repeats = {}, around = {};
 
     void move(double x, double y) { x0 = x, y0 = y, around = repeats; }
@@ -55,33 +54,33 @@ struct Indenter {
         return {x + (d.x - (x - x0)), y + (d.y - (y - y0))};
     }
 
-    // A point of the surface less the indenter's face above it, z - s; the penetration without interaction is g0 = clearance - Z0.
-    // -Infinity where the indenter does not reach.
+    // Height z of a point minus the indenter's face above it, z - s; -Infinity outside the indenter. The penetration without interaction is
+    // g0 = clearance - Z0.
     double clearance(double x, double y, double z) const {
         const Vec2 d = from_tip(x, y);
         return z - shape->height(d.x, d.y);
     }
 };
 
-// Throws Error(bad_input) unless E* is positive and finite, there is a shape, and with a finite period one that repeats with it.
+// Throws Error(bad_input) unless E* is positive and finite and there is a shape, which must be periodic if the period is finite.
 void require_sound(const Indenter& indenter);
 
-// The rectangle of a free surface.
+// Rectangle of a free surface.
 struct Rectangle {
     double x0 = 0, y0 = 0, Lx = 0, Ly = 0;  // [length]
     bool known() const { return Lx > 0 && Ly > 0; }
 };
 
-// No pressure above H = H0 sqrt(1 + length/r), r an asperity's radius (law/hardness.hpp).
+// Pressures are limited to H = H0 sqrt(1 + length/r), where r is the radius of an asperity (law/hardness.hpp).
 struct Hardness {
     double H0 = __builtin_huge_val();  // [force/length^2]; Infinity: elastic
-    double length = 0;                 // of the size effect [length]
+    double length = 0;                 // length of the size effect [length]
 };
 
-// Bodies that stick (law/sticking.hpp).
+// Adhesion of the bodies (law/sticking.hpp).
 struct Adhesion {
-    double work = 0;   // w [force/length]; 0: they do not
-    double range = 0;  // z0 of the attraction [length]; 0: JKR
+    double work = 0;   // work of adhesion w [force/length]; 0: no adhesion
+    double range = 0;  // range z0 of the attraction [length]; 0: JKR
 };
 
 // Points of a measured map that asperities do not represent.
@@ -100,16 +99,16 @@ struct SolverOptions {
     Interaction interaction = Interaction::point;
     Selection selection = Selection::overlap;
     double selection_factor = 1.5;
-    double sigma = 0;         // rms height: unit of delta0 and of selection='paper' [length]
+    double sigma = 0;         // rms height [length], the unit of delta0 and of selection='paper'
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
-    double delta0 = 0.01;        // initial regularisation of the paper's method, in sigma
+    double delta0 = 0.01;        // initial regularisation of the paper's method, in units of sigma
     double delta_cut = 5.0;      // the paper's method divides delta by this each iteration (the paper: 2 to 10)
     double mean_spacing = 0;     // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
-    double points_per_wave = 0;  // of the grid that the asperities were found on, in the shortest wave; 0: not known
-    double rms_slope = 0;        // of the surface, sqrt(2 m2), which the indenter's slopes are measured by; 0: not known
-    Rectangle surface;           // the free surface, for counting contacts near its border; not known: not counted
-    std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map; null: none
+    double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
+    double rms_slope = 0;        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
+    Rectangle surface;           // the free surface, for counting contacts near its border; not counted if unknown
+    std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
 };
 
 }  // namespace rsc

@@ -1,4 +1,4 @@
-// Two directions in which everything may repeat.
+// Periods in two directions.
 #pragma once
 
 #include "std.hpp"
@@ -6,11 +6,11 @@
 namespace rsc {
 
 struct Period {
-    double x = std::numeric_limits<double>::infinity(), y = std::numeric_limits<double>::infinity();  // [length]; Infinity: repeats nowhere
+    double x = std::numeric_limits<double>::infinity(), y = std::numeric_limits<double>::infinity();  // [length]; Infinity: not periodic
 
     bool finite() const { return std::isfinite(x) && std::isfinite(y); }
     double area() const { return x * y; }
-    // The difference of two coordinates to the nearest of all images.
+    // Difference of two coordinates, to the nearest image.
     double nearest_x(double dx) const { return 2 * std::abs(dx) <= x ? dx : std::remainder(dx, x); }
     double nearest_y(double dy) const { return 2 * std::abs(dy) <= y ? dy : std::remainder(dy, y); }
 };

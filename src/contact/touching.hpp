@@ -1,4 +1,4 @@
-// The summits that an indenter touches: those of the difference between the surface and the indenter's face, not those of the surface.
+// Summits touched by an indenter: those of the difference between the surface and the indenter's face.
 #pragma once
 
 #include "contact/level.hpp"
@@ -7,7 +7,7 @@
 
 namespace rsc {
 
-// The indenter as the body above a surface, for the search for summits. The indenter must outlive it.
+// The indenter as body above a surface in the search for summits. The indenter must outlive it.
 class Face final : public BodyAbove {
 public:
     explicit Face(const Indenter& indenter) : indenter_(indenter) {}
@@ -19,27 +19,27 @@ private:
     const Indenter& indenter_;
 };
 
-// Finds the summits of the surface less the face of an indenter. Empty for asperities of a list: of those nothing more is known.
+// Finds the summits of the surface minus the face of an indenter. Empty for asperities given as a list, without a surface.
 using SummitSearch = std::function<Asperities(const Indenter&)>;
 
-// Largest slope of the indenter's face, over the surface's rms slope, at which the summits of the difference are the surface's own moved
-// to second order; from there on some appear and others vanish.
+// Largest ratio of the slope of the indenter's face to the rms slope of the surface at which moved_summits() is used; above it summits of
+// the difference appear and vanish.
 inline constexpr double kMostSlopeRatio = 0.2;
 
-// The summits of the difference from those of the surface, to second order in the slope g of the face: with H the curvatures of a summit and C
-// those of the face, H' = H + C, the summit lies H'^-1 g away from the surface's, where g points uphill, and has the curvatures H'. Those
-// where the face does not reach, or would leave no summit, stay as they are. As many as the surface's, in their order.
+// Summits of the difference from those of the surface, to second order in the gradient g of the face. With the curvatures H of a summit and
+// C of the face, H' = H + C, a summit is displaced by -H'^-1 g and has the curvatures H'. Summits outside the face, or where the difference
+// has none, are unchanged. Number and order are those of the surface.
 Asperities moved_summits(const Asperities& of_surface, const Indenter& indenter);
 
-// Adds to the summits found of the difference those of the surface that have none near: on the flanks of a steep face, where the difference has no
-// summits, they are what the contact comes to when it is pressed further. `spacing`: mean distance of the surface's summits; `period`: in which
-// the surface repeats.
+// Adds to the summits found of the difference those of the surface that have none near: on the flanks of a steep face, where the difference
+// has no summits, they are what the contact comes to when it is pressed further. `spacing`: mean distance of the surface's summits;
+// `period`: that of the surface.
 void add_flanks(Asperities& found, const Asperities& of_surface, double spacing, const Period& period);
 
-// Largest slope of the face above asperities it may touch, those with a clearance above `least`; 0 without any.
+// Largest slope of the face above asperities with a clearance above `least`; 0 if there are none.
 double steepest_above(const Asperities& asperities, const Indenter& indenter, double least);
 
-// Largest slope of the face at the contacts of a level; 0 without any.
+// Largest slope of the face at the contacts of a level; 0 if there are none.
 double steepest_contact(const Level& level, const Indenter& indenter);
 
 }  // namespace rsc

@@ -10,8 +10,8 @@ struct Fitted {
     double value = 0, error = 0;
 };
 
-// Fitted self-affine spectrum: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau (physics, section 2). Without kl_seen
-// the power law continues below kl.
+// Fitted self-affine spectrum: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau (physics, section 2). If kl_seen is
+// false, the power law continues below kl.
 struct SelfAffineFit {
     Fitted Phi0;    // [length^4]
     Fitted kl, ks;  // [1/length]
@@ -34,8 +34,8 @@ struct MeasuredSpectrum {
     std::vector<double> modes;       // number of Fourier modes in the ring, including mirror images
     double independent = 0.5;        // share of independent amplitudes among them, reduced by mirror images and by the window
     double coupled = 1;              // number of neighbouring rings coupled by the window
-    double lost = 0;                 // wavenumbers below this have lost power to the form that was removed
-    // For the first 32 rings: pairs (place, share) of the wavenumber place/kPlaces, in rings, and its share in the expected power.
+    double lost = 0;                 // below this wavenumber, power has been removed with the form
+    // For the first 32 rings: pairs (place, share) of the wavenumber place/kPlaces, in units of rings, and its share of the expected power.
     static constexpr int kPlaces = 8;
     std::vector<std::vector<std::pair<std::size_t, double>>> seen;
     std::size_t places = 0;  // number of places
@@ -54,13 +54,13 @@ struct MeasuredSpectrum {
 // Error(no_memory).
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect = 1, double direction = 0);
 
-// Fits in two steps. First ks: least squares in logarithms, each ring weighted by its number of modes, of a line of slope -2(1+hurst),
-// -0.5 <= hurst <= 1.5, that contains at least a hundredth of the mean square height, with separate lines below and beyond it; the Bayesian
-// information criterion decides the breaks. ks is where the spectrum falls to half of the power law. Then hurst, Phi0, kl and the plateau: the
-// maximum of Whittle's likelihood of the rings below ks, where the expected power of a ring includes the blur by the window. Rings that have lost
-// power to a removed form are left out. Errors are 90 % intervals of the likelihood, wider where the spectrum deviates from a power law; if the
-// interval of kl includes spectra without a break, kl_seen is false. Throws Error(bad_input) for fewer than 8 rings with psd > 0, where
-// can_fit() is false.
+// Fits in two steps. First ks, by least squares in logarithms with each ring weighted by its number of modes: a line of slope -2(1+hurst),
+// -0.5 <= hurst <= 1.5, that contains at least a hundredth of the mean square height, with separate lines below and beyond it. The Bayesian
+// information criterion determines the breaks; ks is where the spectrum falls to half of the power law. Then hurst, Phi0, kl and the
+// plateau maximise Whittle's likelihood of the rings below ks, where the expected power of a ring includes the blur by the window. Rings
+// that have lost power to a removed form are ignored. Errors are 90 % intervals of the likelihood, wider if the spectrum deviates from a
+// power law; if the interval of kl includes spectra without a break, kl_seen is false. Throws Error(bad_input) for fewer than 8 rings with
+// psd > 0, where can_fit() is false.
 SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum);
 bool can_fit(const MeasuredSpectrum& spectrum);
 

@@ -1,19 +1,18 @@
-// Loops that several threads share, and places where long work may be stopped.
+// Parallel loops, and points at which long work can be stopped.
 //
-// The threads belong to a pool of the process: they are started when they are first wanted and sleep between loops, so that other programs on
-// the machine lose nothing and a loop beside a busy program waits for nobody but its own last pieces. OpenMP's threads spin at barriers,
-// end the program where the system refuses to start one, and hang after a fork.
+// The threads belong to a pool of the process. They are started on first use and sleep between loops, so that they do not slow down other
+// programs. OpenMP threads spin at barriers, end the program if a thread cannot be started, and hang after a fork.
 #pragma once
 
 #include "std.hpp"
 
 namespace rsc {
 
-// Threads for loops and campaigns: `wanted`, or with 0 those of LoopThreads, of OMP_NUM_THREADS, or the processors of this process.
-// At most 16 + 2 times the processors.
+// Number of threads for loops and campaigns: `wanted`, or if 0 that of LoopThreads, of OMP_NUM_THREADS, or the number of processors. At
+// most 16 + 2 times the number of processors.
 std::size_t most_threads(int wanted);
 
-// While it lives, loops of this thread that say 0 use so many threads.
+// During its lifetime, loops of this thread with threads = 0 use this number of threads.
 class LoopThreads {
 public:
     explicit LoopThreads(int threads);
@@ -25,14 +24,14 @@ private:
     int before_;
 };
 
-// Runs body(piece, worker) for the pieces 0 ... count - 1 on this thread and on helpers of the pool, at most most_threads(threads) in all and
-// fewer where the system starts no more. `worker` is below the number of threads, and no two pieces run at once with the same one: it numbers
-// buffers. Which thread takes which piece is left to chance, so results must depend on the pieces alone.
-// A piece may throw: pieces not yet begun are then left out, and one of the exceptions is thrown here, this thread's own if there is one.
-// Everything runs on this thread inside a piece of another loop, inside a caller's OpenMP region, and after a fork.
+// Runs body(piece, worker) for the pieces 0 ... count - 1 on this thread and on helpers of the pool, at most most_threads(threads) in
+// total, fewer if the system cannot start them. `worker` is below the number of threads and unique among concurrent pieces, so that it can
+// index buffers. The assignment of pieces to threads is random: results must depend only on the pieces. If a piece throws, pieces not yet
+// begun are skipped, and one exception is rethrown here, preferably that of this thread. All pieces run on this thread inside a piece of
+// another loop, inside an OpenMP region of the caller, and after a fork.
 void parallel_pieces(std::size_t count, int threads, const std::function<void(std::size_t piece, std::size_t worker)>& body);
 
-// Runs body(k) or body(k, worker) for k = 0 ... n - 1, `grain` of them in a piece.
+// Runs body(k) or body(k, worker) for k = 0 ... n - 1, with `grain` values per piece.
 template <class Index, class Body>
 void parallel_for(Index n, int grain, int threads, Body&& body) {
     const auto each = static_cast<Index>(grain);
@@ -46,9 +45,9 @@ void parallel_for(Index n, int grain, int threads, Body&& body) {
     });
 }
 
-// Long loops check now and then whether they are to be stopped.
+// Long loops check regularly whether they must stop.
 
-// While it lives, stopping_point() on this thread calls `ask`, at most every 50 ms. To stop the work `ask` throws.
+// During its lifetime, stopping_point() on this thread calls `ask` at most every 50 ms; `ask` throws to stop the work.
 class Watch {
 public:
     explicit Watch(std::function<void()> ask);
@@ -62,8 +61,8 @@ private:
     friend void stopping_point();
 };
 
-// A place where work may be left by an exception: where nothing is half done. In a piece of a parallel loop it asks on the thread that has the
-// watch; the other threads then begin no further piece.
+// Point at which an exception may end the work, with all data in a consistent state. In a parallel loop only the thread that has the watch
+// checks it; the other threads then begin no further pieces.
 void stopping_point();
 
 }  // namespace rsc

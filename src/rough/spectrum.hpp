@@ -5,8 +5,7 @@
 
 namespace rsc {
 
-// A power spectral density that is known at some wavenumbers: linear in logarithms between them, zero outside, and zero between two of
-// which one has none.
+// A tabulated power spectral density: interpolated linearly in logarithms, zero outside the table and beside entries that are zero.
 class SpectrumTable {
 public:
     // wavenumber [1/length], psd [length^4], in any consistent unit. Throws Error(bad_input) with the number of the entry unless there are

@@ -29,12 +29,12 @@ public:
         std::unique_ptr<double[], HeightMap::Free> coefficients_;
     };
 
-    // A surface that is the transposed one of another is made at once: there are no rows() of it, take() hands out all of its heights.
+    // A surface that is synthesised as its transpose is computed at once: rows() is not available, take() returns all heights.
     bool whole() const { return whole_.data != nullptr; }
     HeightMap take() { return std::move(whole_); }
 
-    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows aligned to 64 bytes. The bits of a row do
-    // not depend on the other arguments.
+    // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows must be aligned to 64 bytes. The values of a row depend,
+    // bit for bit, only on j.
     void rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const;
 
     static constexpr int kBlock = 16;  // most efficient `count`

@@ -1,13 +1,13 @@
-// The product with the interaction matrix (paper, section 4) for very many points in O(N log N).
+// Products with the interaction matrix (paper, section 4) for many points in O(N log N).
 //
-// 1/d = [1/d - F(d)] + F(d), with F smooth and equal to 1/d from a cutoff on. The first part is a sum over near pairs. The second
-// is band limited: forces are spread onto a mesh, convolved with F by Fourier transforms on a mesh of twice the size (free
-// boundary: nothing is periodic), and read off again. The error is one of the band limit and of the spreading window, the same at
-// every density of points. Where everything repeats, the sum over images less 1/d to the nearest one is smooth and goes to the mesh
-// with F, which needs no doubling then. A smooth part of the kernel goes to the mesh, too, whose spacing then resolves it.
+// 1/d = [1/d - F(d)] + F(d), where F is smooth and equals 1/d beyond a cutoff. The first part is summed over near pairs. The second is band
+// limited: forces are spread onto a mesh, convolved with F by Fourier transforms on a mesh of twice the size (free boundary), and
+// interpolated. The error is due to the band limit and the spreading window and does not depend on the density of points. For periodic
+// boundaries the sum over images minus 1/d of the nearest one is smooth and is added to F, and the mesh is not doubled. A smooth part of
+// the kernel is also added to F, and the spacing resolves it.
 //
-// By hand, over FFTW: libraries for such sums (multipole methods, Ewald sums) are made for points in three dimensions or for periodic
-// boxes, and the bits they give depend on the number of threads.
+// Existing libraries (multipole methods, Ewald sums) are made for three dimensions or periodic boxes, and their results depend on the
+// number of threads.
 #pragma once
 
 #include "contact/interaction/kernel.hpp"
@@ -17,16 +17,16 @@ namespace rsc {
 class FarField;
 struct MeshDesign;
 
-// Far fields of meshes that repeat, by design and spacing: with one lattice they are the same for all points. Not for several threads.
+// Far fields of periodic meshes by design and spacing; for one lattice they do not depend on the points. Not thread-safe.
 using FarFields = std::map<std::pair<const MeshDesign*, double>, std::shared_ptr<const FarField>>;
 
 class MeshPotential {
 public:
-    // n points with finite coordinates [length]. relative_error, 1e-10 to 1e-2: wanted bound on |phi - exact| / |phi| in the
-    // 2-norm, for forces of any sign (forces of one sign do better). Points may lie as they like, twice at the same place
-    // included; clusters cost more. Throws Error(bad_input) for coordinates that are not finite or an error out of bounds.
-    // A point acts on itself through its periodic images and through a smooth part. Without a kernel: 1/d.
-    // `kept`: far fields made before with this kernel's lattice; what is missing is added, and all give way once they take much memory.
+    // n points with finite coordinates [length]. relative_error, from 1e-10 to 1e-2, is the bound of |phi - exact| / |phi| in the 2-norm
+    // for forces of any sign (smaller for forces of one sign). Any positions are allowed, including coinciding points; clusters cost more.
+    // Throws Error(bad_input) for coordinates that are not finite or an error out of range. A point acts on itself through periodic images
+    // and a smooth part. Without a kernel: 1/d. `kept`: stored far fields of the lattice of this kernel; missing ones are added, and all
+    // are removed when they take too much memory.
     MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr,
                   FarFields* kept = nullptr);
     ~MeshPotential();
@@ -39,14 +39,13 @@ public:
     // number.
     void apply(const double* f, double* phi) const;
 
-    // For reports and for choosing between methods.
-    std::size_t bytes() const;        // memory held, scratch of one product included
-    std::size_t mesh_points() const;  // of the doubled mesh; 0: so few points that they are summed directly
+    // For reports and the choice of the method.
+    std::size_t bytes() const;        // memory, including the work space of one product
+    std::size_t mesh_points() const;  // points of the doubled mesh; 0: direct sums
     double cutoff() const;            // radius of the near field [length]
     double near_pairs() const;        // estimated directed pairs of the near field
-    double cost() const;              // estimated seconds a product on one core of some 3.4 GHz with AVX2
-    // The same for n points spread evenly over a rectangle with these sides; with a smooth part that changes little within `scale` times the
-    // longer side.
+    double cost() const;              // estimated seconds per product on one core of 3.4 GHz with AVX2
+    // Cost for n points spread uniformly over a rectangle, with a smooth part that changes little within `scale` times the longer side.
     static double estimated_cost(std::size_t n, double relative_error, double aspect_ratio = 1, double scale = 1e300);
 
 private:

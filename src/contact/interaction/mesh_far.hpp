@@ -1,4 +1,4 @@
-// The far field of particle-mesh sums: the split of 1/d, the spreading window, and the convolution on the mesh.
+// Far field of particle-mesh sums: splitting of 1/d, spreading window, and convolution on the mesh.
 #pragma once
 
 #include <fftw3.h>
@@ -9,16 +9,16 @@
 
 namespace rsc {
 
-// The split of 1/d into a near part and a band-limited far part, and the window that spreads forces onto the mesh. Lengths here are
-// in mesh spacings.
+// Splitting of 1/d into a near part and a band-limited far part, and the window that spreads forces onto the mesh. Lengths are in mesh
+// spacings.
 //
-// F(d) = 1/d [int_0^{d/c} w / int_0^1 w] with the Kaiser-Bessel bell w(t) = I0(beta sqrt(1 - t^2)), c the cutoff: F = 1/d beyond
-// c, and its transform is exp(-beta) beyond the wavenumber beta / c. The spreading window is the same bell with another shape parameter. For
-// a given width of the window and cutoff, beta and the window's shape b are those of least error; aliases are weighed as by
-// Hockney and Eastwood, Computer Simulation Using Particles, section 8-3.
+// F(d) = 1/d [int_0^{d/c} w / int_0^1 w] with the Kaiser-Bessel bell w(t) = I0(beta sqrt(1 - t^2)) and the cutoff c: F = 1/d beyond c, and
+// its transform is exp(-beta) beyond the wavenumber beta / c. The spreading window is the same bell with another shape parameter b. beta
+// and b are optimal for a given window width and cutoff; aliases are treated as by Hockney and Eastwood, Computer Simulation Using
+// Particles, section 8-3.
 struct MeshDesign {
     double error;   // relative error of the product
-    int width;      // of the spreading window
+    int width;      // width of the spreading window
     double cutoff;  // c
     double shape;   // b of the window
     double beta;    // of the split
@@ -27,16 +27,16 @@ struct MeshDesign {
 // The cheapest design whose error is safely below relative_error, or the most accurate one.
 const MeshDesign& mesh_design(double relative_error);
 
-// F and with it the near kernel 1/d - F, for a cutoff of the given length. `design` is one that mesh_design gave.
+// F and with it the near kernel 1/d - F, for a cutoff of the given length. `design` must be returned by mesh_design().
 NearKernel near_kernel(const MeshDesign& design, double cutoff);
 
 MeshWindow mesh_window(const MeshDesign& design);
-// Fourier transform of the window at wavenumber k, and sum_m of its squares at k + 2 pi m.
+// Fourier transform of the window at wavenumber k, and the sum of its squares at k + 2 pi m over all m.
 double window_transform(const MeshDesign& design, double k);
 double window_alias_sum(const MeshDesign& design, double k);
 
-// A smooth function of period `period` that equals x^2 for |x| <= period/2 - bend: replaces (x_i - x_j)^2 on a periodic mesh so
-// that the kernel has no kink where it wraps around.
+// A smooth periodic function that equals x^2 for |x| <= period/2 - bend. It replaces (x_i - x_j)^2 on a periodic mesh, so that the kernel
+// has no kink where it wraps around.
 double periodic_square(const MeshDesign& design, double x, double period, double bend);
 
 // Convolution with the smooth far kernel F on a mesh with free boundary, by pruned Fourier transforms.
@@ -50,38 +50,38 @@ FftwArray fftw_array(std::size_t n);  // uninitialised; Error(no_memory)
 
 class FarField {
 public:
-    // Points within length_x times length_y mesh spacings [length]. The smooth part of the kernel, divided by near(), is added to F.
+    // For points within length_x times length_y mesh spacings [length]. The smooth part of the kernel, divided by near(), is added to F.
     FarField(const MeshDesign& design, double length_x, double length_y, double spacing, const Kernel& kernel);
-    // Everything repeats: F = far part of the split for a cutoff [length], on a mesh of at least period_x/spacing x period_y/spacing
-    // points; convolve() then gives the sum of f (F + Gamma's rest - its least value) [force/length].
+    // Periodic version: F is the far part for a cutoff [length], on a mesh of at least period_x/spacing x period_y/spacing points;
+    // convolve() computes the sum of f (F + Gamma's rest - its smallest value) [force/length].
     FarField(const MeshDesign& design, const Lattice& lattice, double spacing, double cutoff);
 
-    // The mesh that carries points: `rows` rows of `stride` doubles, room for windows included. A point at distance (x, y) from
-    // the corner of the points' box is at (u, v) = (x + width/2, y + width/2).
+    // Mesh for spreading: `rows` rows of `stride` doubles, including a margin for windows. A point at (x, y) from the corner of the
+    // bounding box of the points is at (u, v) = (x + width/2, y + width/2).
     std::size_t rows() const { return rows_; }
     std::size_t stride() const { return 2 * columns_; }
-    std::size_t columns() const { return period_x_; }  // of the mesh that repeats: points in the period
+    std::size_t columns() const { return period_x_; }  // of a periodic mesh: points per period
     std::size_t lines() const { return period_y_; }
     std::size_t points() const { return period_x_ * period_y_; }
     std::size_t bytes() const { return (multiplier_size() + rows_ * stride()) * sizeof(double); }
 
-    // Replaces forces spread on the mesh by the potential to interpolate, times the mesh spacing.
+    // Replaces forces on the mesh by the potential, times the mesh spacing.
     void convolve(double* mesh) const;
 
-    // The smallest mesh of the doubled box in points, without making it.
+    // Number of points of the smallest mesh for the doubled box.
     static double points_needed(const MeshDesign& design, double length_x, double length_y);
 
 private:
-    static constexpr std::size_t kColumns = 8;  // transformed together
+    static constexpr std::size_t kColumns = 8;  // columns transformed together
 
     std::size_t multiplier_size() const { return columns_ * (period_y_ / 2 + 1); }
     void make_plans();
     // `value(m, n)`: the kernel m columns and n rows away.
     void make_multiplier(const MeshDesign& design, const std::function<double(std::size_t, std::size_t)>& value);
-    void fold(double* mesh) const;    // adds what lies beyond a period to its images
-    void unfold(double* mesh) const;  // and gives it what they have
+    void fold(double* mesh) const;    // adds values beyond a period to their images
+    void unfold(double* mesh) const;  // copies values of images beyond a period
 
-    std::size_t period_x_, period_y_;  // of the doubled mesh
+    std::size_t period_x_, period_y_;  // sides of the doubled mesh
     bool periodic_ = false;
     std::size_t rows_, columns_;  // mesh rows in use, complex columns (padded to kColumns)
     FftwArray multiplier_;        // [column block][wavenumber 0 ... period_y/2][column]

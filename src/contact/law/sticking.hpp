@@ -1,23 +1,23 @@
-// One asperity that sticks: Johnson, Kendall and Roberts (Proc. R. Soc. A 324, 1971) for any of the laws of law.hpp.
+// Adhesive asperity (Johnson, Kendall and Roberts, Proc. R. Soc. A 324, 1971) for any law of law.hpp.
 //
-// The state of an attached asperity is named by s, the penetration at which the law without adhesion has the same contact area. With
-// that law's force f0(s), slope D = df0/ds (the stiffness of a flat punch with this area), area A(s) and work W0(s), a contact whose edge
-// is in equilibrium with the work of adhesion w has
+// The state of an attached asperity is s, the penetration at which the law without adhesion has the same contact area. With the force
+// f0(s), slope D = df0/ds (the stiffness of a flat punch with this area), area A(s) and work W0(s) of that law, a contact with an edge in
+// equilibrium with the work of adhesion w has
 //     u = s - 2 h,   f = f0 - 2 h D,   h = sqrt(w A/D),   energy W = W0 - 2 h f0 + w A.
 // For a sphere s = a^2/r and this is u = a^2/r - sqrt(2 pi w a/E*), f = 4 E* a^3/(3 r) - sqrt(8 pi w E* a^3). With l = d ln a/ds,
 //     du/ds = 1 - l h,   df/ds = D (1 - 3 l h):
-// at fixed grips the asperity lets go where l h = 1 (sphere: f = -(5/6) pi w r), its force is smallest where l h = 1/3 (-(3/2) pi w r).
-// A free one attaches at u = 0. An elliptic contact is taken for one whose edge is in equilibrium on the average over the edge.
-// Law 'fourth_order': where l h reaches 1/3 again, short of the trough around the summit, the contact would run on by itself to the trough.
-// From there on the radius stays and the stiffness with it, as without adhesion beyond the trough; such contacts count as beyond the law.
+// at a given separation the asperity detaches where l h = 1 (sphere: f = -(5/6) pi w r); its force is smallest where l h = 1/3 (-(3/2) pi w
+// r). A free asperity attaches at u = 0. The edge of an elliptic contact is in equilibrium on average. Law 'fourth_order': where l h
+// reaches 1/3 again before the trough around the summit, the contact would spread to the trough spontaneously. Beyond, radius and stiffness
+// are constant, as beyond the trough without adhesion; such contacts count as beyond the law.
 //
-// With a range z0 of the attraction (Maugis 1992; Dugdale's traction s0 = w/z0 over gaps below z0) an asperity has the contact radius a and
-// attracts up to the radius c; s = c^2/r then. Its law must be a paraboloid's, f0 ~ s^(3/2): with modulus E and radius r (an ellipse as the
-// circle of its area), e^2 = c^2 - a^2 and cos(beta) = a/c,
+// With a range z0 of the attraction (Maugis 1992; Dugdale traction s0 = w/z0 across gaps below z0) an asperity has the contact radius a and
+// attracts up to the radius c; the state is s = c^2/r. The law must be that of a paraboloid, f0 ~ s^(3/2), with modulus E and radius r
+// (ellipses are replaced by circles of the same area). With e^2 = c^2 - a^2 and cos(beta) = a/c,
 //     u = a^2/r - 2 s0 e/E,   f = 2 E (u a - a^3/(3 r)) - 4 s0 (pi c^2/4 - int_0^a sqrt(c^2 - t^2) dt),
 //     z0 = (c^2 beta + a e - 2 a^2 beta)/(pi r) + (4 s0/(pi E)) (e beta - c + a)     the gap at c
-// and before contact, a = 0, u = c^2/(2 r) - 4 s0 c/(pi E) - z0, f = -pi s0 c^2 (Kim, McMeeking and Johnson 1998): u and f and their slopes
-// go over into each other. A free one attaches at u = -z0. D = 2 E c stands for the stiffness, which may be any positive one
+// and before contact, a = 0, u = c^2/(2 r) - 4 s0 c/(pi E) - z0, f = -pi s0 c^2 (Kim, McMeeking and Johnson 1998): u, f and their slopes
+// are continuous. A free asperity attaches at u = -z0. The stiffness is set to D = 2 E c; any positive value is possible
 // (solver/attached.hpp).
 #pragma once
 
@@ -27,44 +27,44 @@ namespace rsc {
 
 class Sticking {
 public:
-    // w: work of adhesion [force/length], positive; range: z0 [length], 0 is JKR. The law must outlive this.
+    // w: work of adhesion [force/length], positive; range: z0 [length], 0: JKR. The law must outlive this object.
     Sticking(Law& law, double w, double range = 0) : law_(law), w_(w), z0_(range) {}
 
-    double touches() const { return -z0_; }  // the penetration at which a free asperity attaches
+    double touches() const { return -z0_; }  // penetration at which a free asperity attaches
 
-    // Must come before anything else is asked of these asperities.
+    // Must be called before other functions for these asperities.
     void prepare(std::span<const int> asperities);
 
-    // The attached asperity in the state s >= least().
+    // Attached asperity in the state s >= least().
     struct State {
         double u = 0, f = 0;    // penetration [length], force
-        double du = 0, df = 0;  // derivatives by s; du > 0 but for s = least()
+        double du = 0, df = 0;  // derivatives with respect to s; du > 0 except at s = least()
         double stiffness = 0;   // D: df/du at a fixed contact area
-        double energy = 0;      // elastic energy less w A; at equilibrium with its neighbours fixed its derivative by u is f
+        double energy = 0;      // elastic energy minus w A; in equilibrium its derivative with respect to u is f
         double area = 0;
-        double outer = 0;     // with what attracts around it
-        bool beyond = false;  // the radius stays
+        double outer = 0;     // area including the cohesive ring
+        bool beyond = false;  // the radius is constant
     };
     State at(int asperity, double s) const;
 
-    double least(int asperity) const { return limits_[place(asperity)].least; }      // where it lets go at fixed grips
-    double lets_go(int asperity) const { return limits_[place(asperity)].lets_go; }  // the penetration there, negative
-    double state_at(int asperity, double u) const;                                   // s of the penetration u > lets_go()
+    double least(int asperity) const { return limits_[place(asperity)].least; }      // state of detachment at a given separation
+    double lets_go(int asperity) const { return limits_[place(asperity)].lets_go; }  // penetration at detachment, negative
+    double state_at(int asperity, double u) const;                                   // state s at the penetration u > lets_go()
 
 private:
     struct Limits {
         double least = 0, lets_go = 0;
-        double last = 0;      // from here on the radius stays; Infinity: nowhere
-        double E = 0, r = 0;  // of the paraboloid, where there is a range
+        double last = 0;      // the radius is constant from here on; Infinity: never
+        double E = 0, r = 0;  // of the paraboloid, if the range is positive
     };
     State attracting(const Limits& of, double s) const;
     std::size_t place(int asperity) const { return static_cast<std::size_t>(place_[static_cast<std::size_t>(asperity)]); }
-    State bare(int asperity, double s) const;        // as if `last` were Infinity
+    State bare(int asperity, double s) const;        // without the limit `last`
     double spreading(int asperity, double s) const;  // l h
 
     Law& law_;
     double w_, z0_;
-    std::vector<int> place_;  // of an asperity in limits_; -1: not prepared
+    std::vector<int> place_;  // index of an asperity in limits_; -1: not prepared
     std::vector<Limits> limits_;
 };
 

@@ -1,5 +1,5 @@
-// The contact of elements on a free surface: BoundedSolver on the pixels that may touch, with the Z0 in their penetrations. Pixels far from
-// pressure stay outside a working set and are checked at the end; conjugate gradients are preconditioned by every spot solved alone.
+// Boundary-element contact on a free surface: BoundedSolver on the pixels that may touch, with Z0 included in their penetrations. Pixels
+// far from pressure are outside a working set and checked at the end. The preconditioner is the inverse of K on each contact spot.
 #pragma once
 
 #include "contact/interaction/pixel_products.hpp"
@@ -10,22 +10,22 @@ namespace rsc {
 
 class ElementsSolver : private BoundedSolver {
 public:
-    // Pressures are bounded by `highest` (the hardness; Infinity: none): where p = highest, w may be negative.
+    // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w may be negative.
     ElementsSolver(PixelProducts& products, double highest);
 
-    // Pixels that may touch, row by row (y, then x), their penetrations without deformation g0 > 0 [length], and pressures to start
-    // from (all zero: a start is made here), which become the answer; all in the pixels' order.
-    // With a `sum` of the pressures, g0 is known but for a constant: the answer is that for g0 - rise(). Pressures to start from are then
-    // wanted, and rise() < 0 means that pixels may be missing.
+    // Solves for the pixels that may touch, row by row (y, then x), with penetrations without deformation g0 > 0 [length]. p contains
+    // starting pressures (all zero: none) and receives the solution. All vectors are in the order of the pixels. If the `sum` of the
+    // pressures is given, g0 is known up to a constant, and the solution is that for g0 - rise(). Starting pressures are then required, and
+    // rise() < 0 means that pixels may be missing.
     ElementsOutcome solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance, int most_iterations,
                           std::vector<double>& p, std::optional<double> sum = std::nullopt);
     double rise() const { return Z0_; }
 
-    // Plastic residual of the last solution: pixels at the highest pressure with w < 0, and -w, row by row. It is subtracted from g0: the
-    // same pressures then leave no penetration anywhere.
+    // Plastic residual of the last solution: the pixels at the highest pressure with w < 0, and -w, row by row. It is subtracted from g0,
+    // so that the same pressures cause no penetration.
     void press_out(std::vector<Pixel>& pixels, std::vector<double>& depth);
 
-    // -d(sum of p)/dZ0 of the last answer, to a relative residual of `tolerance`: BoundedSolver::stiffness.
+    // -d(sum of p)/dZ0 of the last solution, to a relative residual of `tolerance` (BoundedSolver::stiffness).
     double stiffness(double tolerance, bool back);
     using BoundedSolver::energy;
 
@@ -42,17 +42,17 @@ private:
     long join();
 
     PixelProducts& products_;
-    // The pixels given, those of them that belong to the working set whatever their pressure, and whether those outside were looked at.
+    // The given pixels, the members (always in the working set), and whether pixels outside have been checked.
     const std::vector<Pixel>* pixels_ = nullptr;
     const std::vector<double>* g0_ = nullptr;
     std::vector<char> member_;
     bool looked_ = false;
     double tolerance_ = 0;
-    // The working set: positions in the pixels given, places.
+    // Working set: positions in the given pixels, and pixels.
     std::vector<int> position_;
     std::vector<Pixel> set_;
-    std::vector<double> r_, y_;            // over the free ones
-    std::vector<double> full_p_, full_w_;  // of the last full product with this set
+    std::vector<double> r_, y_;            // over the free pixels
+    std::vector<double> full_p_, full_w_;  // last full product with this set
     SpotBlocks blocks_;
 };
 

@@ -1,5 +1,5 @@
-// The contact of elements on a surface that repeats: 0 <= p, w = K p - (z - Z0) >= 0, p w = 0 on all pixels of the period, with the mean
-// pressure or the separation given. Products are those of interaction/periodic_pixels.hpp.
+// Boundary-element contact on a periodic surface: 0 <= p, w = K p - (z - Z0) >= 0, p w = 0 on all pixels of the period, for a given mean
+// pressure or separation. Products with K: interaction/periodic_pixels.hpp.
 #pragma once
 
 #include "contact/interaction/pixel_products.hpp"
@@ -7,7 +7,7 @@
 
 namespace rsc {
 
-// Heights on the pixels of a period, row by row; they must outlive who looks at them.
+// Heights on the pixels of a period, row by row; they must outlive their users.
 struct Relief {
     int nx = 0, ny = 0;
     double dx = 0, dy = 0;  // sides of a pixel [length]
@@ -15,44 +15,44 @@ struct Relief {
     std::ptrdiff_t stride = 0;  // between rows
 };
 
-// Active set as in elements.hpp: pixels whose pressure falls below 0 leave, pixels that penetrate enter, some steps of conjugate gradients
-// in between. Their preconditioner is the part of K^-1, whose modes are E* |k|/2, that reaches a few pixels far; the start is the
-// solution on half as many pixels a side, got in the same way: so neither short waves nor long ones take many steps. Products are in single
-// precision while the error is large, and the outcome is judged in double. A level depends on no other.
+// Active-set method of bounded.hpp. The conjugate gradients are preconditioned by K^-1 (modes E* |k|/2) truncated to a few pixels, and the
+// start is the solution on a grid of half as many pixels per side (recursively), so that both short and long waves converge in few steps.
+// Products are in single precision while the error is large; the final error is computed in double precision. Levels are independent of
+// each other.
 class PeriodicElements {
 public:
-    // Pressures are bounded by `highest` (the hardness; Infinity: none): where p = highest, w may be negative.
-    // Throws Error(bad_input) for heights all the same, no_memory.
+    // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w may be negative. Throws Error(bad_input)
+    // if all heights are equal, Error(no_memory).
     PeriodicElements(const Relief& relief, const Substrate& substrate, double highest);
     ~PeriodicElements();
 
-    // The solution under a mean pressure > 0, or at a separation: Z0 from z = 0 to the flat, the mean of K p being 0. Throws
-    // Error(bad_input) where the gap is closed altogether: Z0 then no longer says what the pressure is.
+    // Solves for a given mean pressure > 0, or a separation Z0 (from z = 0 to the flat; the mean of K p is 0). Throws Error(bad_input) at
+    // full contact, where Z0 does not determine the pressure.
     ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
     ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
 
-    // The separation of full contact: the mean height, to rounding. With a highest pressure there is none: what
-    // carries no more goes on penetrating.
+    // Separation of full contact: the mean height, to rounding. None with a highest pressure, because pixels at this pressure can
+    // penetrate.
     double closed() const;
 
-    // Pixels at the highest pressure, where they penetrate, are lowered by it: the last solution still holds. Returns which of pixels() they
-    // are and how far; whoever owns the heights has to lower them, and say so.
+    // Lowers the pixels at the highest pressure by their penetration, for which the last solution remains valid. Returns these pixels and
+    // depths; the owner of the heights must lower them and call heights_changed().
     std::vector<std::pair<Pixel, double>> press_out();
     void heights_changed();
 
-    // K p at every point, row by row, of pressures p on some of them; its mean is 0.
+    // K p at all points, row by row, for pressures p on some of them; its mean is 0.
     std::vector<double> deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p);
 
-    // The mean pressure of full contact: -min of K^-1 z.
+    // Mean pressure of full contact: -min of K^-1 z.
     double closing_pressure();
 
-    // Of the last solution:
+    // Results of the last solution:
     double separation() const;
     const std::vector<Pixel>& pixels() const;      // under pressure, row by row
-    const std::vector<double>& pressures() const;  // theirs
-    // -d(mean pressure)/dZ0. Pressed further, pixels at the highest pressure keep it; on the way `back` they are elastic.
+    const std::vector<double>& pressures() const;  // of these pixels
+    // -d(mean pressure)/dZ0. For further loading, pixels at the highest pressure keep it; for unloading (`back`) they are elastic.
     double stiffness(bool back);
-    // p'Kp/2 a pixel, to the square of the residual.
+    // p'Kp/2 per pixel, with an error of the order of the square of the residual.
     double energy() const;
 
 private:

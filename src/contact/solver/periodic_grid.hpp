@@ -1,5 +1,5 @@
-// One grid of the contact of elements that repeat, in numbers without units: heights z of mean 0, deflections u = K p, gaps w = u - z + Z0.
-// Building blocks of solver/periodic_elements.hpp.
+// One grid of a periodic boundary-element contact in dimensionless form: heights z of mean 0, deflections u = K p, gaps w = u - z + Z0.
+// Used by solver/periodic_elements.hpp.
 #pragma once
 
 #include "contact/interaction/periodic_pixels.hpp"
@@ -8,13 +8,13 @@
 
 namespace rsc {
 
-// The controlled quantity: the mean of p over the grid (without a highest pressure), or Z0.
+// Controlled quantity: the mean of p over the grid (only without a highest pressure), or Z0.
 struct Given {
     bool is_pressure;
     double value;
 };
 
-// Heights of a grid where they lie: z = (what is stored - mean) scale.
+// Reference to stored heights: z = (stored value - mean) scale.
 struct StoredHeights {
     const double* z = nullptr;
     std::ptrdiff_t stride = 0;
@@ -24,38 +24,38 @@ struct StoredHeights {
 
 class PeriodicGrid : private BoundedSolver {
 public:
-    // `aspect` is dy/dx; K is `unit` times PeriodicPixels' own. `share` of a wavenumber over 1/dx of the grid with unit = 1: kernel.hpp.
-    // Pressures are bounded by `highest`.
+    // `aspect` is dy/dx; K is `unit` times that of PeriodicPixels. `share` (kernel.hpp) is a function of the wavenumber times the dx of the
+    // grid with unit = 1. Pressures are limited to `highest`.
     using Share = std::function<double(double)>;
     PeriodicGrid(int nx, int ny, double aspect, double unit, double highest, StoredHeights heights, Share share);
 
-    // Half as many pixels a side, each as high as the mean of its four; `storage` takes them. Only where both sides are even.
+    // Grid of half as many pixels per side, whose heights, stored in `storage`, are means of four. Both sides must be even.
     std::unique_ptr<PeriodicGrid> coarsened(std::vector<double>& storage) const;
     bool can_be_coarsened() const;
 
-    // Pressures to start from: all the same, or like those of Hertz where z > Z0; those of the coarsened grid.
+    // Sets starting pressures: uniform, or Hertz-like where z > Z0; or those of the coarsened grid.
     void start(Given given);
     void start(const PeriodicGrid& coarse);
-    bool bare() const;  // no pressure anywhere
+    bool bare() const;  // true without any pressure
 
-    // Iterates until error() is below the tolerance: in single precision, on the finest grid with the error in double.
+    // Iterates until error() is below the tolerance, in single precision; on the finest grid the error is computed in double precision.
     ElementsOutcome solve(Given given, double tolerance, int most_iterations, bool finest);
 
-    // The answer: the set's pixels are those under pressure and some that are not.
+    // The solution. The set contains the pixels under pressure and some others.
     const std::vector<double>& pressures() const { return p_; }
     std::vector<Pixel> pixels() const;  // of the set, row by row
     double Z0() const { return Z0_; }
-    bool full() const;  // every pixel under pressure
+    bool full() const;  // true if every pixel is under pressure
     double stiffness(bool back);
     using BoundedSolver::energy, BoundedSolver::press_out;
 
-    void deflect(std::vector<double>& plane);  // pressures of all pixels become K p
+    void deflect(std::vector<double>& plane);  // replaces the pressures of all pixels by K p
 
-    double least_inverse();  // the least of K^-1 z
+    double least_inverse();  // minimum of K^-1 z
 
 private:
     PeriodicPixels<double>& fine();
-    Share share() const;  // in this grid's unit
+    Share share() const;  // for the pixel size of this grid
 
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
     template <class Real>
@@ -77,7 +77,7 @@ private:
     std::unique_ptr<PeriodicPixels<double>> fine_;
     std::vector<float> stencil_;  // of the preconditioner, (2 kReach + 1) rows of kTaps
     long products_ = 0;
-    bool exact_ = false;                // the last product with p: what fine_ holds, or inner_
+    bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
     std::vector<std::int32_t> column_;  // of the set
     std::vector<double> partial_;
 };
