@@ -1,6 +1,7 @@
 #include "rough/parallel.hpp"
 
 #include <pthread.h>
+#include <sched.h>
 
 extern "C" int omp_in_parallel() __attribute__((weak));  // defined if the program uses OpenMP
 
@@ -11,8 +12,15 @@ thread_local int loop_threads = 0;     // number set by LoopThreads
 thread_local bool in_a_piece = false;  // true in a piece of a shared loop
 std::atomic<bool> forked{false};       // true in a forked child, which has no pool threads
 
+// Number of processors that this process may use: batch systems bind jobs, and MPI its ranks, to some of those of the machine.
 int processors() {
-    static const int count = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    static const int count = [] {
+#ifdef __linux__
+        cpu_set_t allowed;
+        if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
+#endif
+        return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    }();
     return count;
 }
 

@@ -1,4 +1,5 @@
 // The library in processes that are short of threads, and in children of processes that had threads.
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -81,6 +82,28 @@ void test_stopping() {
     products->set_pixels(pixels);
     CHECK(stops([&] { products->apply(p.data(), w.data(), rsc::PixelProducts::Accuracy::inner); }));
     CHECK(stops([] { rsc::make_surface(rsc::Case{}, 1, 2); }));
+    for (const int kind : {0, 1, 2, 3}) {  // the solvers: Newton's method, dgesv, elements, adhesion
+        rsc::Case c;
+        c.surface.n = 256, c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
+        if (kind == 1) c.solver.method = rsc::Method::dgesv;
+        if (kind == 2) c.solver.model = rsc::Model::elements;
+        if (kind == 3) c.solids.adhesion = 0.01;
+        const auto model = rsc::make_surface_model(c, 1, 1);
+        const auto contact = rsc::make_contact(model, rsc::indenter_of(c, model.domain), rsc::solver_of(c, model.domain));
+        CHECK(stops([&] { contact->at_separation(0.01); }));
+    }
+}
+
+// As many threads as the processors that the process may use: a rank or a job that is bound to one does not start one for each of the machine.
+int with_one_processor() {
+    unsetenv("OMP_NUM_THREADS");
+    cpu_set_t allowed, one;
+    if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return 0;
+    int first = 0;
+    while (!CPU_ISSET(first, &allowed)) ++first;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    return sched_setaffinity(0, sizeof one, &one) != 0 || rsc::most_threads(0) == 1 ? 0 : 1;
 }
 
 double height(const rsc_case* c) {
@@ -163,6 +186,7 @@ void test_lock() {
 }  // namespace
 
 TESTS {
+    CHECK(in_child(with_one_processor) == 0);  // before this process has counted its own
     CHECK(in_child(with_little_memory) <= 1);
     test_more_threads_than_work();
     test_fork();
