@@ -119,12 +119,12 @@ static void put_text(const char* text, char* characters, size_t length) {
 static atomic_int integers_fit;
 
 /* Begins every call; refuses it before RSCINT has succeeded. */
-#define BEGIN                                                                                                       \
-    own_message[0] = '\0';                                                                                          \
-    if (!atomic_load(&integers_fit)) {                                                                              \
-        refuse(0, "call RSCINT first, with an INTEGER array of 1 and 2: it checks that INTEGER has 4 bytes");     \
-        *ierr = RSC_NO_RESULT;                                                                                      \
-        return;                                                                                                     \
+#define BEGIN                                                                                                 \
+    own_message[0] = '\0';                                                                                    \
+    if (!atomic_load(&integers_fit)) {                                                                        \
+        refuse(0, "call RSCINT first, with an INTEGER array of 1 and 2: it checks that INTEGER has 4 bytes"); \
+        *ierr = RSC_NO_RESULT;                                                                                \
+        return;                                                                                               \
     }
 /* Finds the object of a handle, or returns with the number of that argument. A case of 0 means the defaults. */
 #define FIND(type, name, handle, kind, argument)                                        \
