@@ -91,11 +91,12 @@ void threads() {
     compare("asperities by mesh, 1e5, a third in contact", [&] {
         AsperityContact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(-11.3 * options.sigma);
     });
-    const Case settings = read_case_text(
-                              "&run realizations = 16 / &surface n = 1024 / &indentation start = 4, stop = 1, steps = 20 /\n"
-                              "&output map_cells = 200, radial_bins = 1000 /\n",
-                              "bench.nml")
-                              .settings;
+    const Case settings =
+        read_case_text(
+            "&run realizations = 16 / &surface n = 1024, L_lambda_s = 256 / &indentation start = 4, stop = 1, steps = 20 /\n"
+            "&output map_cells = 200, radial_bins = 1000 /\n",
+            "bench.nml")
+            .settings;
     CampaignWork work({settings}, {});
     compare("campaign, 16 realizations of 1024^2, 20 levels, observing", [&] {
         ThreadTeam team(std::ref(work), static_cast<int>(most_threads(0)));
