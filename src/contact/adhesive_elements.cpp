@@ -28,9 +28,7 @@ struct Past {
     std::vector<std::int32_t> attracting;  // increasing
 };
 
-}  // namespace
-
-struct AdhesiveElements::Impl {
+struct State {
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
@@ -52,7 +50,7 @@ struct AdhesiveElements::Impl {
     Past accepted, now;
     double energy = 0;
 
-    Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
+    State(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
         : heights(heights_),
           indenter(indenter_),
           options(options_),
@@ -93,7 +91,7 @@ struct AdhesiveElements::Impl {
 };
 
 // Initialises for the present position of the tip, without attracting points.
-void AdhesiveElements::Impl::place() {
+void State::place() {
     const std::size_t n = at(heights.nx) * at(heights.ny);
     clearance.resize(n);
     q.assign(n, 0.0), on.assign(n, 0);
@@ -107,7 +105,7 @@ void AdhesiveElements::Impl::place() {
 }
 
 // Selects the points whose gap can be below z0 if points are raised by at most the margin; for periodic flats all points.
-void AdhesiveElements::Impl::gather(double Z) {
+void State::gather(double Z) {
     reach.clear();
     for (std::size_t k = 0; k < clearance.size(); ++k) {
         if (flats || on[k] || clearance[k] > Z - z0 - margin)
@@ -121,7 +119,7 @@ void AdhesiveElements::Impl::gather(double Z) {
 }
 
 // K p at the points within reach.
-std::vector<double> AdhesiveElements::Impl::deflections(const std::vector<double>& p) {
+std::vector<double> State::deflections(const std::vector<double>& p) {
     std::vector<double> u(p.size());
     if (p.empty()) return u;
     if (!flats) {
@@ -136,7 +134,7 @@ std::vector<double> AdhesiveElements::Impl::deflections(const std::vector<double
 }
 
 // Solves for q with fixed attracting points. Returns false if it does not converge.
-bool AdhesiveElements::Impl::press(double Z, Level& level) {
+bool State::press(double Z, Level& level) {
     ElementsOutcome outcome;
     if (flats) {
         for (std::size_t k = 0; k < reach.size(); ++k) {
@@ -167,7 +165,7 @@ bool AdhesiveElements::Impl::press(double Z, Level& level) {
 }
 
 // Finds the state at Z by renewing the attracting points, starting from the present ones. Returns false if it does not converge.
-bool AdhesiveElements::Impl::renew(double Z, Level& level) {
+bool State::renew(double Z, Level& level) {
     gather(Z);
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
@@ -196,7 +194,7 @@ bool AdhesiveElements::Impl::renew(double Z, Level& level) {
     return false;
 }
 
-Level AdhesiveElements::Impl::solve(double Z) {
+Level State::solve(double Z) {
     now = accepted;
     std::fill(on.begin(), on.end(), char(0));
     for (const std::int32_t k : accepted.attracting) on[at(k)] = 1;
@@ -250,105 +248,125 @@ Level AdhesiveElements::Impl::solve(double Z) {
     return level;
 }
 
-AdhesiveElements::AdhesiveElements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
-    : impl_(std::make_unique<Impl>(require_elements(heights, indenter, options), indenter, options)) {}
-AdhesiveElements::~AdhesiveElements() = default;
+class AdhesiveElements final : public Contact {
+public:
+    AdhesiveElements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+        : state_(heights, indenter, options) {}
 
-Level AdhesiveElements::solve(double Z0) { return impl_->solve(Z0); }
-
-std::optional<Level> AdhesiveElements::solve_under(double N) {
-    Impl& my = *impl_;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
-    Level level;
-    const auto look = [&](double Z) {
-        level = my.solve(Z);
-        iterations += level.iterations, products += level.products;
-        return level.status == LevelStatus::not_converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
-    };
-    const auto precise = [&](double miss) { return std::abs(miss) <= tolerance() * std::max(std::abs(N), 1e-3 * my.s0 * my.pixel); };
-    double Z = my.accepted.separation < kInfinity ? my.accepted.separation : my.top + my.z0, miss = look(Z);
-    const double way = miss < 0 ? -1 : 1;
-    double before = Z, before_miss = miss, least = level.force, least_at = Z, step = 0.25 * my.z0;
-    constexpr int most = 400;
-    bool found = precise(miss);
-    for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
-        if (way > 0 && my.now.attracting.empty()) break;  // no attraction is left
-        before = Z, before_miss = miss;
-        Z = std::max(Z + way * step, std::nextafter(closed(), kInfinity));
-        step *= 1.4;
-        miss = look(Z);
-        if (level.force < least) least = level.force, least_at = Z;
-        found = precise(miss);
+    double stiffness() override {
+        if (std::none_of(state_.q.begin(), state_.q.end(), [](double q) { return q > 0; })) return 0;
+        return state_.flats ? -state_.heights.Lx() * state_.heights.Ly() * state_.flats->stiffness(false)
+                            : -state_.pixel * state_.spots->stiffness(1e-9, false);
     }
-    if (!found && miss * before_miss < 0) {
-        std::uintmax_t steps = 100;
-        const auto exact = [&](double z) {
-            const double m = look(z);
-            return precise(m) ? 0.0 : m;
+    double energy() const override { return state_.energy; }
+    double first_touch() const override { return state_.top; }
+    const Indenter& indenter() const override { return state_.indenter; }
+    bool path_dependent() const override { return true; }
+    bool pulls() const override { return true; }
+
+    void move_tip(double x0, double y0) override {
+        if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
+        if (!state_.accepted.attracting.empty())
+            throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while the surface attracts, which is not available yet");
+        // On a surface that repeats whole periods do not count; the contact ends at the border.
+        const auto inside = [](double x, double first, double period) {
+            return std::isfinite(period) ? x - period * std::floor((x - first) / period) : x;
         };
-        const bool rising = Z > before;
-        const auto [low, high] =
-            boost::math::tools::toms748_solve(exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
-                                              rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
-        found = precise(look(0.5 * (low + high)));
+        Indenter& tip = state_.indenter;
+        tip.x0 = inside(x0, state_.heights.x0, tip.repeats.x), tip.y0 = inside(y0, state_.heights.y0, tip.repeats.y);
+        state_.place();
     }
-    if (!found) {
-        (void)look(least_at);
-        level.fallback = Fallback::held;
-        level.status = LevelStatus::not_converged;
+
+    std::vector<double> memory() const override {
+        const Past& past = state_.accepted;
+        if (past.separation == kInfinity) return {};
+        std::vector<double> numbers = {past.separation, past.force, past.work, past.least_force, past.lost};
+        numbers.insert(numbers.end(), past.attracting.begin(), past.attracting.end());
+        return numbers;
     }
-    level.iterations = iterations, level.products = products;
-    return level;
-}
 
-void AdhesiveElements::accept(Level&) { impl_->accepted = impl_->now; }
+    void recall(const std::vector<double>& memory, const Level* level) override {
+        Past past;
+        bool sound = memory.empty() || memory.size() >= kKept;
+        for (std::size_t k = 0; k < memory.size() && sound; ++k)
+            sound = std::isfinite(memory[k]) && (k < kKept || (memory[k] >= 0 && memory[k] < static_cast<double>(state_.clearance.size())));
+        if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
+        if (!memory.empty()) past = {memory[0], memory[1], memory[2], memory[3], memory[4], {}};
+        for (std::size_t k = kKept; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
+        forget_levels();
+        state_.accepted = std::move(past);
+        if (level) (void)solve(level->separation);
+    }
 
-double AdhesiveElements::stiffness() {
-    Impl& my = *impl_;
-    if (std::none_of(my.q.begin(), my.q.end(), [](double q) { return q > 0; })) return 0;
-    return my.flats ? -my.heights.Lx() * my.heights.Ly() * my.flats->stiffness(false) : -my.pixel * my.spots->stiffness(1e-9, false);
-}
-double AdhesiveElements::energy() const { return impl_->energy; }
-double AdhesiveElements::tolerance() const { return impl_->options.tolerance; }
-double AdhesiveElements::closed() const { return impl_->flats ? impl_->flats->closed() : -kInfinity; }
-double AdhesiveElements::first_touch() const { return impl_->top; }
-const Indenter& AdhesiveElements::indenter() const { return impl_->indenter; }
+protected:
+    void forget_levels() override {
+        state_.accepted = {};
+        std::fill(state_.q.begin(), state_.q.end(), 0.0);
+    }
+    Level solve(double Z0) override { return state_.solve(Z0); }
+    std::optional<Level> solve_under(double N) override {
+        std::int32_t iterations = 0;
+        std::int64_t products = 0;
+        Level level;
+        const auto look = [&](double Z) {
+            level = state_.solve(Z);
+            iterations += level.iterations, products += level.products;
+            return level.status == LevelStatus::not_converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
+        };
+        const auto precise = [&](double miss) {
+            return std::abs(miss) <= tolerance() * std::max(std::abs(N), 1e-3 * state_.s0 * state_.pixel);
+        };
+        double Z = state_.accepted.separation < kInfinity ? state_.accepted.separation : state_.top + state_.z0, miss = look(Z);
+        const double way = miss < 0 ? -1 : 1;
+        double before = Z, before_miss = miss, least = level.force, least_at = Z, step = 0.25 * state_.z0;
+        constexpr int most = 400;
+        bool found = precise(miss);
+        for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
+            if (way > 0 && state_.now.attracting.empty()) break;  // no attraction is left
+            before = Z, before_miss = miss;
+            Z = std::max(Z + way * step, std::nextafter(closed(), kInfinity));
+            step *= 1.4;
+            miss = look(Z);
+            if (level.force < least) least = level.force, least_at = Z;
+            found = precise(miss);
+        }
+        if (!found && miss * before_miss < 0) {
+            std::uintmax_t steps = 100;
+            const auto exact = [&](double z) {
+                const double m = look(z);
+                return precise(m) ? 0.0 : m;
+            };
+            const bool rising = Z > before;
+            const auto [low, high] =
+                boost::math::tools::toms748_solve(exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
+                                                  rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
+            found = precise(look(0.5 * (low + high)));
+        }
+        if (!found) {
+            (void)look(least_at);
+            level.fallback = Fallback::held;
+            level.status = LevelStatus::not_converged;
+        }
+        level.iterations = iterations, level.products = products;
+        return level;
+    }
+    void accept(Level&) override { state_.accepted = state_.now; }
+    double tolerance() const override { return state_.options.tolerance; }
 
-void AdhesiveElements::move_tip(double x0, double y0) {
-    if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
-    Impl& my = *impl_;
-    if (!my.accepted.attracting.empty())
-        throw Error(Failure::bad_input, "solids%adhesion: the tip is moved while the surface attracts, which is not available yet");
-    my.indenter.x0 = x0, my.indenter.y0 = y0;
-    my.place();
-}
+    double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
 
-void AdhesiveElements::forget_levels() {
-    impl_->accepted = {};
-    std::fill(impl_->q.begin(), impl_->q.end(), 0.0);
-}
+    double force_at_most(double) override { return 0; }
+    std::optional<double> likely_separation() const override { return std::nullopt; }
+    std::size_t levels_since_move() const override { return 0; }
 
-std::vector<double> AdhesiveElements::memory() const {
-    const Past& past = impl_->accepted;
-    if (past.separation == kInfinity) return {};
-    std::vector<double> numbers = {past.separation, past.force, past.work, past.least_force, past.lost};
-    numbers.insert(numbers.end(), past.attracting.begin(), past.attracting.end());
-    return numbers;
-}
+private:
+    State state_;
+};
 
-void AdhesiveElements::recall(const std::vector<double>& memory, const Level* level) {
-    Impl& my = *impl_;
-    Past past;
-    bool sound = memory.empty() || memory.size() >= kKept;
-    for (std::size_t k = 0; k < memory.size() && sound; ++k)
-        sound = std::isfinite(memory[k]) && (k < kKept || (memory[k] >= 0 && memory[k] < static_cast<double>(my.clearance.size())));
-    if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
-    if (!memory.empty()) past = {memory[0], memory[1], memory[2], memory[3], memory[4], {}};
-    for (std::size_t k = kKept; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
-    forget_levels();
-    my.accepted = std::move(past);
-    if (level) (void)solve(level->separation);
+}  // namespace
+
+std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
+    return std::make_unique<AdhesiveElements>(heights, indenter, options);
 }
 
 }  // namespace rsc

@@ -15,44 +15,17 @@
 
 namespace rsc {
 
-class AdhesiveElements final : public Contact {
-public:
-    // The heights must outlive the contact. The options used are the tolerance, the number of iterations and the adhesion with a positive
-    // range. Throws Error(bad_input) for options that are not available with adhesion, and for a range below half a pixel.
-    AdhesiveElements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
-    ~AdhesiveElements() override;
-
-    // dN/dZ0 for fixed attracting points.
-    double stiffness() override;
-    // Elastic energy minus s0 (z0 - w) integrated over the attracting points.
-    double energy() const override;
-    // Throws Error(bad_input) if any point attracts.
-    void move_tip(double x0, double y0) override;
-    double first_touch() const override;
-    const Indenter& indenter() const override;
-    bool path_dependent() const override { return true; }
-    bool pulls() const override { return true; }
-    // Separation, force, work done, smallest force, dissipated energy, then the attracting points.
-    std::vector<double> memory() const override;
-    void recall(const std::vector<double>& memory, const Level* level) override;
-
-protected:
-    void forget_levels() override;
-    // The dissipated energy is the work done since the first level (trapezoidal rule over the levels) minus the change of the energy.
-    Level solve(double Z0) override;
-    // Searches a separation with the force, towards the surface if it is larger than the present force, otherwise away. If there is none,
-    // the level is that of the smallest force found, with Fallback::held.
-    std::optional<Level> solve_under(double N) override;
-    void accept(Level& level) override;
-    double tolerance() const override;
-    double closed() const override;
-    double force_at_most(double) override { return 0; }
-    std::optional<double> likely_separation() const override { return std::nullopt; }
-    std::size_t levels_since_move() const override { return 0; }
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
-};
+// The heights, as require_elements() returns them, must outlive the contact. The options used are the tolerance, the number of iterations and
+// the adhesion with a positive range. Throws Error(bad_input) for options that are not available with adhesion, and for a range below half a
+// pixel. Of the functions of Contact:
+//   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points; energy_lost of a level is the work done since the
+//                 first level (trapezoidal rule over the levels) minus the change of the energy
+//   stiffness()   dN/dZ0 for fixed attracting points
+//   at_force(N)   searches a separation with the force, towards the surface if it is larger than the present force, otherwise away. If there
+//                 is none, the level is that of the smallest force found, with Fallback::held
+//   move_tip()    throws Error(bad_input) if any point attracts. On a surface that repeats the tip returns by whole periods, and contacts
+//                 end at the border
+//   memory()      separation, force, work done, smallest force, dissipated energy, then the attracting points
+std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
 
 }  // namespace rsc

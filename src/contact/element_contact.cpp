@@ -475,7 +475,7 @@ std::optional<double> ElementContact::likely_separation() const {
 std::size_t ElementContact::levels_since_move() const { return impl_->since_move; }
 
 std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options) {
-    if (options.adhesion.work > 0) return std::make_unique<AdhesiveElements>(heights, indenter, options);
+    if (options.adhesion.work > 0) return make_adhesive_elements(require_elements(heights, indenter, options), indenter, options);
     if (indenter.period.finite()) return std::make_unique<PeriodicElementContact>(heights, indenter, options);
     return std::make_unique<ElementContact>(heights, indenter, options);
 }

@@ -191,7 +191,8 @@ Level Contact::at_force(double N) {
         const double miss = level.force / N - 1;
         const bool found = std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged;
         if (found) return Verdict{true, false, z};
-        return Verdict{false, miss<0, level.force> 0 ? z - std::log1p(miss) * level.force / slope() : -kInfinity};
+        const bool above = miss < 0;
+        return Verdict{false, above, level.force > 0 ? z - std::log1p(miss) * level.force / slope() : -kInfinity};
     };
     const auto reach = [&](double next, double z, double highest, int i) {
         const double furthest = highest - 2 * (levels_since_move() > 1 ? highest - z : 0.0) - std::ldexp(depth, i);

@@ -49,7 +49,8 @@ void ResultTable::measured() {
     std::string meanings;
     for (const char* name : kDetrendNames) {
         values.push_back(static_cast<std::int32_t>(values.size()));
-        meanings += (meanings.empty() ? "" : " ") + std::string(name);
+        if (!meanings.empty()) meanings += ' ';
+        meanings += name;
     }
     NetcdfAttributes form{{"flag_values", values},
                           {"flag_meanings", meanings},

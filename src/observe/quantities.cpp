@@ -90,7 +90,9 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "relaxation: energy + energy_lost is the work done, int N d(-Z0); adhesion: over a cycle, the area of the hysteresis loop "
                 "of N and Z0", .always = false, .statistics = true, .plain = "energy lost"},
     {.name = "jumps", .member = &V::jumps, .meaning = "number of jumps since the previous level",
-     .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers", .always = false},
+     .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers; boundary elements: 1 if "
+                "the level dissipated more than a tenth of w times the area that began or ceased to attract, which may miss jumps of few "
+                "contacts among many", .always = false},
     {.name = "least_force", .member = &V::least_force, .force_power = 1, .meaning = "smallest force since the first level",
      .comment = "adhesion: including forces between levels; pull_off_force is its last value", .always = false},
     {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2,

@@ -98,7 +98,7 @@ public:
     }
 
     std::string title(long n) const {
-        const Component* const c = find("/" + std::to_string(n) + "/data/title");
+        const Component* const c = find(format("/%ld/data/title", n));
         if (!c || c->type != 's') return "channel " + std::to_string(n);
         return std::string(reader(*c).text("a title"));
     }
@@ -174,7 +174,7 @@ HeightMap read_gwy(const std::string& path, const std::string& channel, const st
     std::optional<long> chosen;
     for (const long n : file.channels()) {
         const std::string title = file.title(n);
-        const auto field = file.field("/" + std::to_string(n) + "/data");
+        const auto field = file.field(format("/%ld/data", n));
         names += (names.empty() ? "'" : ", '") + printable(title) + "' in '" + printable(field->unit_z) + "'";
         if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value() : title == channel)) chosen = n;
     }
@@ -182,7 +182,7 @@ HeightMap read_gwy(const std::string& path, const std::string& channel, const st
     if (!chosen)
         refuse(path + ": " + (channel.empty() ? "no channel contains heights" : "there is no channel '" + channel + "'") + "; there are " +
                names);
-    const std::string base = "/" + std::to_string(*chosen);
+    const std::string base = format("/%ld", *chosen);
     const Field field = *file.field(base + "/data");
     const std::string name = path + ": channel '" + printable(file.title(*chosen)) + "'";
     const auto factor_z = factor_of(field.unit_z, length_unit), factor_xy = factor_of(field.unit_xy, length_unit);

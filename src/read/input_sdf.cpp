@@ -135,7 +135,7 @@ std::string lower(std::string_view text) {
     return s;
 }
 
-std::string shown(std::string_view word) { return "'" + printable(word, 40) + (word.size() > 40 ? "...'" : "'"); }
+std::string shown(std::string_view word) { return format(word.size() > 40 ? "'%s...'" : "'%s'", printable(word, 40).c_str()); }
 
 template <class T>
 bool to_number(std::string_view word, T& value) {

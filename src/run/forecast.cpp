@@ -86,17 +86,10 @@ double element_level_seconds(const Job& job, double Z0, double points, bool forc
     return 2.2e-7 * under * (4 + 4.5 * std::log1p(under)) * (force ? (yields ? 9 : 2) : 1);
 }
 
-// How deep the smooth indenter is pressed by a force.
+// Penetration of the smooth indenter under a force; 0 if no closed form is known.
 double smooth_depth(const Job& job, double force) {
     const auto smooth = job.indenter.shape->smooth(job.indenter.E_star);
-    if (!smooth) return 0;
-    double low = 0, high = 1e-6 * job.sigma;
-    while (smooth->force(high) < force && high < 1e6 * job.sigma) high *= 2;
-    for (int i = 0; i < 30; ++i) {
-        const double middle = 0.5 * (low + high);
-        (smooth->force(middle) > force ? high : low) = middle;
-    }
-    return low;
+    return smooth ? smooth->depth_under(force) : 0.0;
 }
 
 // Seconds for a surface, including its summits.

@@ -173,9 +173,23 @@ void test_memory_and_force() {
     CHECK(held.status == LevelStatus::not_converged && held.fallback == Fallback::held && held.force < 0);
 }
 
+// Whole periods of a surface that repeats do not count.
+void test_wrapped() {
+    const HeightMap map = paraboloid(1.6, 24);
+    Indenter tip{1.0, 2.0, 0.8, 0.8};
+    tip.repeats = {map.Lx(), map.Ly()};
+    const auto contact = make_element_contact(map, tip, sticky(0.02, 0.15));
+    const double force = contact->at_separation(-0.1).force;
+    (void)contact->at_separation(2);  // lets go
+    contact->move_tip(0.8 - 3 * map.Lx(), 0.8 + 5 * map.Ly());
+    CHECK(force != 0);
+    CHECK_RELATIVE(contact->at_separation(-0.1).force, force, 1e-6);  // the tolerance of a level
+}
+
 }  // namespace
 
 TESTS {
+    test_wrapped();
     test_wave();
     test_refused();
     test_memory_and_force();

@@ -5,6 +5,7 @@
 
 #include "check.hpp"
 #include "rsc.h"
+#include "unit/contact_values.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
@@ -22,12 +23,6 @@ rsc_contact* contact(const char* text) {
     OK(rsc_asperities_destroy(&a));
     OK(rsc_case_destroy(&c));
     return k;
-}
-
-double value(rsc_contact* k, const char* name) {
-    double v = -12345;
-    CHECK(rsc_contact_value(k, name, &v) == RSC_SUCCESS);
-    return v;
 }
 
 constexpr const char* kRough =

@@ -182,6 +182,18 @@ TESTS {
     std::int64_t with_4 = 0;
     for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
     CHECK(failed > 0 && failed == with_4);
+    // Flats pressed deeper than asperities bear: no state, and no numbers of one.
+    rsc_case* deep = nullptr;
+    OK(rsc_case_create(&deep));
+    OK(rsc_case_read(deep,
+                     "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
+                     "&indentation boundary='periodic' levels=1,-3 /"));
+    OK(rsc_case_set(deep, "output%file", ("'" + (folder / "deep.nc") + "'").c_str()));
+    CHECK(rsc_case_run(deep, &failed) == RSC_NOT_CONVERGED && failed == 1);
+    const Reader deep_file(folder / "deep.nc");
+    const Values forces = deep_file.values("force");
+    CHECK(deep_file.values("status")[1] == 4 && forces[0] > 0 && forces[0] < 1e6 && forces[1] == NC_FILL_DOUBLE);
+    OK(rsc_case_destroy(&deep));
     OK(rsc_case_set(c, "output%file", "'/proc/no/such/folder.nc'"));
     failed = -1;
     CHECK(rsc_case_run(c, &failed) == -1);

@@ -4,6 +4,7 @@
 
 #include "check.hpp"
 #include "rsc.h"
+#include "unit/contact_values.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
@@ -12,12 +13,6 @@ double at(rsc_contact* contact, double time, double Z0) {
     double N = std::nan("");
     CHECK(rsc_contact_set_time(contact, time) == RSC_SUCCESS && rsc_contact_indent(contact, Z0, &N) == RSC_SUCCESS);
     return N;
-}
-
-double value(rsc_contact* contact, const char* name) {
-    double found = std::nan("");
-    CHECK(rsc_contact_value(contact, name, &found) == RSC_SUCCESS);
-    return found;
 }
 
 void test_states(const std::string& keys) {

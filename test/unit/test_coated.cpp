@@ -6,6 +6,7 @@
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 #include "rsc.h"
+#include "unit/contact_values.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
@@ -28,18 +29,6 @@ struct Coated {
         rsc_case_destroy(&c);
     }
 };
-
-double value(rsc_contact* contact, const char* name) {
-    double found = std::nan("");
-    CHECK(rsc_contact_value(contact, name, &found) == RSC_SUCCESS);
-    return found;
-}
-
-double force_at(rsc_contact* contact, double Z0) {
-    double N = std::nan("");
-    CHECK(rsc_contact_indent(contact, Z0, &N) == RSC_SUCCESS);
-    return N;
-}
 
 double deflection_at(rsc_contact* contact, double x, double y) {
     double found = std::nan("");

@@ -6,6 +6,7 @@
 
 #include "check.hpp"
 #include "rsc.h"
+#include "unit/contact_values.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
@@ -29,18 +30,6 @@ struct Made {
         rsc_case_destroy(&c);
     }
 };
-
-double value(rsc_contact* contact, const char* name) {
-    double found = std::nan("");
-    CHECK(rsc_contact_value(contact, name, &found) == RSC_SUCCESS);
-    return found;
-}
-
-double force_at(rsc_contact* contact, double Z0) {
-    double N = std::nan("");
-    CHECK(rsc_contact_indent(contact, Z0, &N) == RSC_SUCCESS);
-    return N;
-}
 
 // A step that was tried leaves no trace; a copy and a restored save go on as the original does.
 void test_yielding(const std::string& keys, const Folder& folder) {

@@ -6,6 +6,7 @@ namespace rsc {
 
 double SmoothContact::force(double u) const { return force_factor * std::pow(u, force_power); }
 
+double SmoothContact::depth_under(double force) const { return std::pow(force / force_factor, 1 / force_power); }
 double SmoothContact::area_under(double force) const { return area_factor * std::pow(force / force_factor, area_power / force_power); }
 
 Shape::Shape(double R) {

@@ -30,7 +30,8 @@ struct Box {
 struct SmoothContact {
     double force_factor = 0, force_power = 1, area_factor = 0, area_power = 0;
     double force(double u) const;
-    double area_under(double force) const;  // contact area at a force N >= 0
+    double depth_under(double force) const;  // u at a force N >= 0
+    double area_under(double force) const;   // contact area at a force N >= 0
 };
 
 // Parameters of all shapes (keys of &indenter). Each shape uses its own.
