@@ -7,6 +7,9 @@
 namespace rsc {
 namespace {
 
+// Filled points that change the rms height by more than this share are reported.
+constexpr double kMuchByFilled = 0.1;
+
 void refuse_missing(const HeightMap& map, long missing) {
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i)
@@ -140,6 +143,11 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     if (m.missing > 0)
         lines.push_back(format("missing points%s: %ld (%.3g %%) filled; summits closer to them than the shortest wave are ignored",
                                m.outliers.count > 0 ? " and outliers" : "", m.missing, 100 * m.missing_share));
+    if (m.missing > 0 && std::abs(m.without_form.height / m.form.rms - 1) > kMuchByFilled)
+        lines.push_back(
+            format("warning: filled points change the rms height from %.4g to %.4g %s: they continue outliers at their border, or a wide "
+                   "margin of the map is missing; surface%%outliers removes the former, surface%%window crops the map",
+                   m.form.rms, m.without_form.height, l));
     std::string form = std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
         form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);

@@ -1,4 +1,4 @@
-// Height maps, their moments, and maps on a finer grid.
+// Height maps, their moments, and maps on a coarser grid.
 #pragma once
 
 #include "rough/spectrum.hpp"
@@ -40,8 +40,7 @@ inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 // left out.
 Moments grid_moments(const HeightMap& map);
 
-// Interpolates a map to twice as many points along each side by its cosine series (the map mirrored at its borders), which adds no shorter
-// waves. Every point (a cell) becomes four. Periodicity of the map is not used. Throws Error(no_memory).
-HeightMap twice_as_fine(const HeightMap& map);
+// Every second point of a map along both sides, from the first one on: the map of a measurement half as fine.
+HeightMap every_second_point(const HeightMap& map);
 
 }  // namespace rsc

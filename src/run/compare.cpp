@@ -13,8 +13,8 @@ namespace {
 constexpr double kRefineSeconds = 60;
 // Longest expected time of compare%levels = 'auto'.
 constexpr double kAutoSeconds = 2;
-// Relative cost including the second grid for the error: a finer one (maps) has four times the points, a coarser one a quarter.
-constexpr double kWithFiner = 5, kWithCoarser = 1.25;
+// Relative cost including the second grid for the error, which has a quarter of the points.
+constexpr double kWithCoarser = 1.25;
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
 std::string itself(double error) { return std::isnan(error) ? " (error unknown)" : format(" (itself +- %.2g %%)", 100 * error); }
@@ -141,9 +141,9 @@ bool compares(const Job& job, bool automatically) {
                           !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) && !relaxes(c) && !(c.solids.adhesion > 0);
     if (!possible || (job.spectrum && !element_memory_suffices(c, *job.spectrum))) return false;
     const double once = job.settings.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
-    const double grids = job.spectrum ? kWithCoarser : kWithFiner;
     const double points = c.elements.points_per_wave;
-    return !job.levels.empty() && once * grids * element_seconds(job, likely_separation(job, job.levels.back()), points) < kAutoSeconds;
+    return !job.levels.empty() &&
+           once * kWithCoarser * element_seconds(job, likely_separation(job, job.levels.back()), points) < kAutoSeconds;
 }
 
 ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,

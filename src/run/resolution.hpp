@@ -1,9 +1,10 @@
 // Grid errors of elements.
 //
-// A synthetic surface is solved again on a grid of half as many points a side, at a quarter of the cost; a map from a file, of which a
-// coarser grid would be another surface, on twice as many, interpolated by its cosine series (rough/surface.hpp). The error of elements
-// decreases at least as the first power of the grid step. The expected error is therefore half the change of N from the coarser grid, or
-// the whole change to the finer one.
+// A surface is solved again on a grid of half as many points a side, at a quarter of the cost. The error of elements on a synthetic surface,
+// which has no waves shorter than lambda_s, decreases at least as the first power of the grid step: the expected error is half the change of
+// N from the coarser grid. A map from a file may have waves shorter than its grid; every second point of it is solved, and the expected
+// error, that of a measurement twice as fine, is fitted to such changes and to the size of contacts in pixels. (Its interpolation to a finer
+// grid has no new waves: changes of N on it are several times smaller than those of a finer measurement.)
 #pragma once
 
 #include "contact/contact.hpp"
@@ -17,7 +18,7 @@ namespace rsc {
 // A level is out_of_validity if N of elements changes by more than this with the grid.
 inline constexpr double kUnresolved = 0.01;
 
-// Expected relative errors of N and A, both bounds by the argument above.
+// Expected relative errors of N and A.
 struct GridError {
     double force = 0, area = 0;
 };
@@ -25,11 +26,11 @@ struct GridError {
 // A contact of elements on a second grid.
 class OtherGrid {
 public:
-    // `map`: the heights of the contact, at points_per_wave if synthetic. If there is no second grid (a map that is too large, two flats
-    // of a map), error() returns nothing.
+    // `map`: the heights of the contact, at points_per_wave if synthetic. If there is no second grid (a map of few points, a periodic one of
+    // an odd number of them, adhesion), error() returns nothing.
     OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave);
     // Uses an existing contact: `coarse` has half the points a side of the contact to be checked.
-    explicit OtherGrid(std::unique_ptr<Contact> coarse) : contact_(std::move(coarse)), coarser_(true) {}
+    explicit OtherGrid(std::unique_ptr<Contact> coarse) : contact_(std::move(coarse)) {}
     ~OtherGrid();
 
     bool exists() const { return contact_ != nullptr; }
@@ -41,7 +42,7 @@ public:
 private:
     std::optional<HeightMap> map_;
     std::unique_ptr<Contact> contact_;
-    bool coarser_ = false;
+    bool coarser_ = true, read_ = false;
 };
 
 // Checks the levels of a run one after the other: each gets the error of the last level that was solved on the second grid. The check is

@@ -141,16 +141,12 @@ void borders() {
     CHECK(level.pixels_per_contact == 320);
 }
 
-// A cosine of the map's own series is known between its points.
-void finer() {
-    const auto wave = [](double x, double y) { return 1.5 + std::cos(3 * pi * x) * std::cos(5 * pi * y); };
-    const HeightMap map = map_of(16, 12, 1.0, [&](int i, int j) { return wave((i + 0.5) / 16, (j + 0.5) / 12); });
-    const HeightMap fine = twice_as_fine(map);
-    double worst = 0;
-    for (int j = 0; j < 24; ++j)
-        for (int i = 0; i < 32; ++i) worst = check::worse(worst, std::abs(fine(i, j) - wave((i + 0.5) / 32, (j + 0.5) / 24)));
-    CHECK_CLOSE(worst, 0, 1e-12);
-    CHECK(fine.dx == 0.5 && fine.x0 == -0.25);
+// Points of the coarser map lie on those of the finer one.
+void coarser() {
+    const HeightMap map = map_of(17, 12, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
+    const HeightMap half = every_second_point(map);
+    CHECK(half.nx == 9 && half.ny == 6 && half.dx == 2);
+    CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
 }
 
 void filled() {
@@ -170,7 +166,8 @@ void filled() {
     CHECK(level.filled_share == 0 && level.status == LevelStatus::converged);
 }
 
-// A smooth sphere on coarse pixels of a map that is read: N is Hertz's, and the error told is at least the one there is.
+// A smooth sphere on coarse pixels of a map that is read: N is Hertz's, and the error told, which holds in nine of ten cases, is nowhere less than nine tenths of
+// the one there is.
 void resolution() {
     const Folder folder;
     const std::string path = folder / "flat.txt";
@@ -192,7 +189,7 @@ void resolution() {
     for (const Level& level : r.levels) {
         const double N = 4.0 / 3 * job.indenter.E_star * std::sqrt(200.0) * std::pow(-level.separation, 1.5);
         const double error = std::abs(level.force / N - 1);
-        CHECK(level.force_error_expected >= 0.5 * error);
+        CHECK(level.force_error_expected >= 0.9 * error);
         CHECK((level.status == LevelStatus::out_of_validity) == (level.force_error_expected > 0.01));
     }
     CHECK(r.levels[0].status == LevelStatus::out_of_validity);
@@ -236,7 +233,7 @@ TESTS {
     cells();
     own_areas();
     borders();
-    finer();
+    coarser();
     filled();
     resolution();
     bounds();
