@@ -51,6 +51,16 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             indenter.period.finite() ? 1.0 : 0.0};
 }
 
+// Additional errors of N and A on layers for contacts as wide as the top layer is thick.
+constexpr double kLayersForce = 0.5, kLayersArea = 0.4;
+
+// Mean contact radius, weighted by the forces.
+double mean_radius(const Level& level) {
+    double sum = 0, force = 0;
+    for (std::size_t k = 0; k < level.a.size(); ++k) sum += level.f[k] * level.a[k], force += level.f[k];
+    return sum / force;
+}
+
 // Share of the force on spikes, whose load is unreliable.
 double spike_share(const Level& level, const MapMarks& marks) {
     double force = 0;
@@ -77,8 +87,12 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
         return std::clamp(std::exp(sum), kLeastError, kMostError);
     };
     const auto& [of_force, of_area] = kErrorTable[static_cast<std::size_t>(options.law)];
-    level.force_error_expected = bound(of_force);
-    level.area_error_expected = bound(of_area);
+    const auto& [files_force, files_area] = kErrorOfFiles[static_cast<std::size_t>(options.law)];
+    // The laws are those of half-spaces: with layers, the additional error increases with the share a/h of the top layer's thickness that
+    // contacts have as radius (test/README, asperities against elements on coated surfaces).
+    const double deep = indenter.layers.count > 0 ? mean_radius(level) / indenter.layers.layer[0].thickness : 0;
+    level.force_error_expected = bound(of_force) * (options.measured ? files_force : 1.0) + kLayersForce * deep * deep * deep;
+    level.area_error_expected = bound(of_area) * (options.measured ? files_area : 1.0) + kLayersArea * std::pow(deep, 1.5);
     const double spikes = options.marks ? spike_share(level, *options.marks) : 0;
     level.force_error_expected += spikes, level.area_error_expected += spikes;
     // The cause is the predictor with the largest contribution above that of its most favourable value.

@@ -462,6 +462,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.points_per_wave = domain.points_per_wave;
     options.rms_slope = domain.rms_slope;
     const bool free = settings.indentation.boundary == Boundary::free;
+    options.measured = settings.surface.source == Source::heights;
     if (free) options.marks = domain.marks;
     if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {

@@ -215,6 +215,14 @@ void bounds() {
         expect_error(level, a, indenter, options);
         CHECK(level.force_error_expected >= least);
     }
+    options.measured = true;  // heights from a file
+    expect_error(level, a, indenter, options);
+    CHECK(level.force_error_expected > 1.5 * least);
+    Indenter coated = indenter;
+    coated.layers.count = 1, coated.layers.layer[0] = {0.01, 1e3, 0.3};
+    const double bare = level.force_error_expected;
+    expect_error(level, a, coated, options);
+    CHECK(level.force_error_expected > bare + 0.5);  // the spot is twice as wide as the layer is thick
     Level untouched;
     expect_error(untouched, a, indenter, options);
     CHECK(std::isnan(untouched.force_error_expected));
