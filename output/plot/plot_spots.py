@@ -86,6 +86,7 @@ def spots(results, options):
     half = 0.54 * (high - low).max()
     page = Page(options, 2, aspect=0.86)
     pixels = pixels_of(result, step)
+    most = pixels[1].max() if pixels else 1.0  # cells much larger than spots would be pale
     near = half / 4 if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
     rim = bool(pixels) and a[big] > near  # the inside of the largest would have one colour
     image = None
@@ -98,7 +99,7 @@ def spots(results, options):
         drawn = heights(result, axis, window, bright=0.8)
         image = image or drawn
         if pixels:
-            axis.imshow(np.dstack([np.broadcast_to(c, pixels[1].shape) for c in to_rgb(ELASTIC)] + [pixels[1]]), extent=pixels[0], interpolation="nearest", gid="pixels")
+            axis.imshow(np.dstack([np.broadcast_to(c, pixels[1].shape) for c in to_rgb(ELASTIC)] + [pixels[1] / (most or 1.0)]), extent=pixels[0], interpolation="nearest", gid="pixels")
         else:
             draw_spots(axis, found, least=0.006 * h if axis is page.axes[0] else 0.0, edge=0.0 if axis is page.axes[0] else 0.3)
         if axis is page.axes[1] and "asperity_x" in result:
@@ -120,7 +121,7 @@ def spots(results, options):
         page.entry("elastic" if "contact_yields" in result and not pixels else "contact", marker="o", color=ELASTIC, ls="none", ms=5)
     if yields.any() and not pixels:
         page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
-    what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else "share of each cell in contact" if pixels else "true to size"
+    what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else f"share of each cell in contact, at most {most:.2g}" if pixels else "true to size"
     page.axes[0].set_title(f"{x.size} spot{'s' if x.size > 1 else ''}" + (f", {yields.sum()} yield" if "contact_yields" in result else "") + ("" if pixels else "; the smallest are drawn larger"))
     page.axes[1].set_title(f"{'at the rim of' if rim else 'in' if pixels else 'around'} the largest: {what}")
     force = "" if result.control() == "force" else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"

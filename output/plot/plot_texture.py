@@ -53,7 +53,8 @@ def _autocorrelation(page, axis, result):
     words = [f"Sal {amount(float(result['sal']), result.dimension('sal'))}"] if "sal" in result else []
     words += [f"Str {float(result['str']):.2f}"] if "str" in result else []
     axis.set_title(", ".join(words + [f"lay {float(result['std']):.0f}°"]))
-    axis.locator_params(nbins=5)
+    axis.locator_params(axis="x", nbins=5 if x[-1] > 0.6 * y[-1] else 2)  # a narrow map has no room for more labels
+    axis.locator_params(axis="y", nbins=5 if y[-1] > 0.3 * x[-1] else 2)
     label(axis, "x", "lag $x$", result.dimension("lag_x"))
     label(axis, "y", "lag $y$", result.dimension("lag_y"))
 
