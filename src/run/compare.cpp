@@ -133,6 +133,15 @@ private:
 
 }  // namespace
 
+double comparison_seconds(const Job& job) {
+    const Case& c = job.settings;
+    const double once = c.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
+    double seconds = 0;
+    for (std::size_t k = 0; k < (c.compare.listed() ? c.compare.levels.size() : 1) && !job.levels.empty(); ++k)
+        seconds += once * kWithCoarser * element_seconds(job, likely_separation(job, job.levels.back()), c.elements.points_per_wave);
+    return seconds;
+}
+
 bool compares(const Job& job, bool automatically) {
     const Case& c = job.settings;
     if (c.compare.listed()) return true;
@@ -140,10 +149,7 @@ bool compares(const Job& job, bool automatically) {
     const bool possible = c.surface.source != Source::asperities && c.solver.interaction == Interaction::point &&
                           !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) && !relaxes(c) && !(c.solids.adhesion > 0);
     if (!possible || (job.spectrum && !element_memory_suffices(c, *job.spectrum))) return false;
-    const double once = job.settings.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
-    const double points = c.elements.points_per_wave;
-    return !job.levels.empty() &&
-           once * kWithCoarser * element_seconds(job, likely_separation(job, job.levels.back()), points) < kAutoSeconds;
+    return !job.levels.empty() && comparison_seconds(job) < kAutoSeconds;
 }
 
 ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,

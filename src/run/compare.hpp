@@ -10,6 +10,9 @@ namespace rsc {
 // time is short.
 bool compares(const Job& job, bool automatically);
 
+// Expected time of the comparison, as if every level were the last one.
+double comparison_seconds(const Job& job);
+
 // `levels` are those of realization `number`; the one nearest to each entry of compare%levels is used. A line for each is written to
 // `table`, if not null; the remaining levels are skipped once `stop` returns true. Errors are NaN if elements do not converge. Under force
 // control both models have the same force. The grid of a synthetic surface is refined until N changes by less than 1 %, for at most about

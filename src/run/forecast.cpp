@@ -2,6 +2,7 @@
 
 #include "contact/interaction/mesh.hpp"
 #include "error.hpp"
+#include "run/compare.hpp"
 
 namespace rsc {
 namespace {
@@ -77,13 +78,27 @@ double points_of_elements(const Job& job, double points_per_wave) {
     return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
 }
 
-// Seconds for a level by elements, from trials on one core: the points of the period of two flats; otherwise those under the indenter times the
-// number of products, which grows with the logarithm. A force takes twice the products of a separation, and more where points yield.
-double element_level_seconds(const Job& job, double Z0, double points, bool force) {
-    if (job.indenter.period.finite()) return 1.3e-6 * points;
-    const double under = points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);
+// Share of two flats in contact: under a force 2.1 p/(E* h'), or all; at a separation 0.4 of what is higher.
+double share_in_contact(const Job& job, double level, bool is_force) {
+    const double area = job.domain.Lx * job.domain.Ly;
+    if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
+    const double slope = job.theory ? job.theory->rms_slope() : job.solver.rms_slope;
+    return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
+}
+
+// Number of grid points of elements that are higher than the indenter at Z0.
+double points_under(const Job& job, double Z0, double points) { return points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly); }
+
+// Seconds for a level by elements, a separation or a force, from trials on one core. Two flats: transforms of all points, and steps on those
+// in contact. Otherwise the time is that of the points under the indenter. A force takes some more products than a separation, and many
+// more where points yield.
+double element_level_seconds(const Job& job, double level, double points, bool is_force) {
+    if (job.indenter.period.finite()) return points * (4e-7 + 5e-6 * share_in_contact(job, level, is_force));
+    const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = std::pow(under / points, 6);
     const bool yields = std::isfinite(job.settings.solids.hardness);
-    return 2.2e-7 * under * (4 + 4.5 * std::log1p(under)) * (force ? (yields ? 9 : 2) : 1);
+    // An indenter over the whole surface is a punch, with high pressures at the border.
+    const double force = is_force ? (yields ? 12 : 2.5) * (1 + 2 * share) : 1;
+    return 3.2e-6 * under * (1 + 2.5 * share) * force * (job.settings.solids.layer_thickness.empty() ? 1 : 4);
 }
 
 // Penetration of the smooth indenter under a force; 0 if no closed form is known.
@@ -126,11 +141,13 @@ double expected_candidates(const Job& job, double Z0) {
 
 double likely_separation(const Job& job, double level) {
     if (job.settings.indentation.control == Control::separation) return level;
-    return (job.given ? 0.0 : separation_at(job, level)) - smooth_depth(job, level);
+    // Roughness spreads the load, so that the body deflects less than under a smooth contact.
+    constexpr double spread = 0.6;
+    return (job.given ? 0.0 : separation_at(job, level)) - spread * smooth_depth(job, level);
 }
 
 double element_seconds(const Job& job, double Z0, double points_per_wave) {
-    constexpr double making = 1.2e-7;  // for each point of a synthetic surface
+    constexpr double making = 4e-8;  // for each point of a synthetic surface
     const double points = points_of_elements(job, points_per_wave);
     return (job.spectrum ? making * points : 0) + element_level_seconds(job, Z0, points, false);
 }
@@ -139,19 +156,37 @@ double expected_seconds(const Job& job, double workers) {
     const bool force = job.settings.indentation.control != Control::separation;
     const bool elements = by_elements(job.settings);
     const double points = elements ? points_of_elements(job, job.settings.elements.points_per_wave) : 0;
-    double one = elements    ? (job.given_heights ? 0.15 : 0.05) + (job.settings.run.realizations > 1 ? 1.5e-7 : 3e-7) * points
-                 : job.given ? 0
-                             : surface_seconds(job.settings);
+    const bool layers = !job.settings.solids.layer_thickness.empty();
+    constexpr double program = 0.1;
+    double one = elements ? 4e-8 * points : job.given ? 0 : surface_seconds(job.settings);
+    if (compares(job, true)) one += comparison_seconds(job);
     for (const double level : job.levels) {
-        const double Z0 = likely_separation(job, level);
-        const double once = elements ? element_level_seconds(job, Z0, points, force) : level_seconds(job, expected_candidates(job, Z0));
-        one += !force || elements ? once : 6 * once;  // about six separations for each force
+        if (elements)
+            one += element_level_seconds(job, level, points, force);
+        else
+            one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 3.5 : 1) * (job.indenter.period.finite() ? 8 : 1) *
+                   level_seconds(job, expected_candidates(job, likely_separation(job, level)));
     }
     constexpr double circles = 1e-6;  // for the weights of the radial means
     const auto& output = job.settings.output;
     one += circles * output.map_cells * output.radial_bins;
     const double realizations = job.settings.run.realizations;
-    return one * std::ceil(realizations / std::max(1.0, std::min(workers, realizations)));
+    return program + one * std::ceil(realizations / std::max(1.0, std::min(workers, realizations)));
+}
+
+double expected_megabytes(const Job& job, double workers) {
+    if (!by_elements(job.settings)) return 0;
+    // Bytes for each point of the surface (heights, those of a coarser grid, modes; transforms of two flats), and for each point under the
+    // indenter or in contact, from the peaks of a dozen runs.
+    constexpr double program = 32e6, tables = 15e6, free = 10, under = 170, flats = 33, touching = 150;
+    const double points = points_of_elements(job, job.settings.elements.points_per_wave);
+    const bool force = job.settings.indentation.control != Control::separation;
+    double most = 0;
+    for (const double level : job.levels)
+        most = std::max(most, job.indenter.period.finite()
+                                  ? points * (flats + touching * share_in_contact(job, level, force))
+                                  : tables + free * points + under * points_under(job, likely_separation(job, level), points));
+    return 1e-6 * (program + most * std::max(1.0, std::min(workers, static_cast<double>(job.settings.run.realizations))));
 }
 
 }  // namespace rsc

@@ -16,7 +16,11 @@ double likely_separation(const Job& job, double level);
 double element_seconds(const Job& job, double Z0, double points_per_wave);
 
 // Time of all realizations of the case [s], `workers` of them in parallel. The time of a surface is measured on a smaller one (about ten
-// milliseconds), that of the levels follows from their numbers of candidates and typical rates, within a factor of about three.
+// milliseconds), that of the levels follows from their numbers of candidates and typical rates, mostly within a factor of two.
 double expected_seconds(const Job& job, double workers);
+
+// Largest memory [MB] of a run by elements with `workers` realizations in parallel, from the sizes of the surface and of the contact. 0 for
+// asperities, which need little.
+double expected_megabytes(const Job& job, double workers);
 
 }  // namespace rsc

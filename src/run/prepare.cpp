@@ -170,9 +170,9 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
         throw Error(Failure::bad_input, text);
     }
     const int n = element_points(settings, spectrum);
-    // Memory for two flats: heights, transforms in single and double precision, coarser grids.
+    // Memory for two flats: heights, the pressures on some pixels, transforms in single and double precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
-    const double bytes = (periodic ? 24.0 : 8.0) * n * n,
+    const double bytes = (periodic ? 28.0 : 8.0) * n * n,
                  memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
     if (!(memory > 0) || beside * bytes <= memory) return;

@@ -314,11 +314,11 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
     return {std::move(cases), options};
 }
 
-double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads) {
+Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
     constexpr std::size_t samples = 20;  // members whose time is estimated; the others are assumed similar
-    double seconds = 0;
+    Forecast all_members;
     std::size_t timed = 0;
     ReadOnce prepare_once;
     look_at_all(read, wanted, options, [&](const Member& member, bool) {
@@ -327,9 +327,12 @@ double check_members(const ReadCase& read, std::optional<int> only, const RunOpt
         ++timed;
         // Members of one realization run in parallel.
         const double side_by_side = campaign || wanted.size() == 1 ? 1.0 : static_cast<double>(std::min(threads, wanted.size()));
-        seconds += expected_seconds(prepare(member.settings), static_cast<double>(threads)) / side_by_side;
+        const Job job = prepare(member.settings);
+        all_members.seconds += expected_seconds(job, static_cast<double>(threads)) / side_by_side;
+        all_members.megabytes = std::max(all_members.megabytes, expected_megabytes(job, static_cast<double>(threads)) * side_by_side);
     });
-    return seconds * static_cast<double>(wanted.size()) / static_cast<double>(timed);
+    all_members.seconds *= static_cast<double>(wanted.size()) / static_cast<double>(timed);
+    return all_members;
 }
 
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team) {

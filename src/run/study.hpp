@@ -26,8 +26,12 @@ std::vector<Member> members_of(const ReadCase& read);
 CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options, std::size_t threads);
 
 // Checks all members, or the one numbered `only`, without solving a level: reads every input and checks the path of every result.
-// Returns the expected time of the run with `threads` threads [s]. Error(bad_input) names the member.
-double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads);
+// Returns what the run is expected to take with `threads` threads. Error(bad_input) names the member.
+struct Forecast {
+    double seconds = 0;
+    double megabytes = 0;  // of elements at their peak; 0: not estimated
+};
+Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads);
 
 // Runs all members, or the one numbered `only` (from 1), and writes the manifest. With options.resume finished members are kept. All
 // members are checked before anything runs: Error(bad_input) names the member. Returns the sums of levels. An interrupted study leaves

@@ -265,6 +265,7 @@ const Part kParts[] = {
     {"elements", bench::elements},
     {"elements_growth", bench::elements_growth},
     {"elements_finest", bench::elements_finest, true},
+    {"element_flats", bench::element_flats, true},
     {"observe", bench::observe},
     {"flats", bench::flats},
     {"threads", bench::threads, true},

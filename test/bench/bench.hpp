@@ -60,6 +60,7 @@ void threads();
 void elements();
 void elements_finest();
 void elements_growth();
+void element_flats();
 // bench_made.cpp
 void made();
 void layers();

@@ -104,4 +104,26 @@ void elements_growth() {
     std::printf("  time ~ (pixels in contact)^%.2f (wanted: 1.2); peak memory so far %.0f MB\n", exponent(number, times), peak_memory_mb());
 }
 
+void element_flats() {
+    std::printf("\nelement_flats: two flats, L/lambda_l = 8, 8 points in the shortest wave, tolerance 1e-6, one thread\n");
+    for (const int n : {1024, 2048, 4096}) {
+        Spectrum spectrum;
+        spectrum.L_lambda_l = 8, spectrum.L_lambda_s = n / 8.0;
+        const HeightMap map = synthesize(spectrum, n, Normalise::sample, 1, 1);
+        const Indenter flat{kGold.E_star, HUGE_VAL, 0, 0, {map.Lx(), map.Ly()}};
+        const auto contact = make_element_contact(map, flat, options());
+        const double highest = 0.02 * kGold.E_star * theoretical_moments(spectrum).rms_slope();
+        Level level;
+        const double one = shortest(n < 4096 ? 3 : 1, [&] { level = contact->at_force(highest); });
+        const double stiffness = shortest(1, [&] { contact->stiffness(); });
+        std::printf("  %d^2: p/(E* h') = 0.02: %zu pixels, %d rounds, %.2f s (wanted at 4096^2, with the stiffness: 6), stiffness %.2f s\n",
+                    n, level.pixels.index.size(), level.iterations, one, stiffness);
+        if (n < 4096) continue;
+        const double series = shortest(1, [&] {
+            for (int k = 0; k < 30; ++k) contact->at_force(highest * std::pow(40.0, (k - 29) / 29.0));
+        });
+        std::printf("  30 pressures from 0.0005 to 0.02: %.1f s (wanted: 60)\n", series);
+    }
+}
+
 }  // namespace bench

@@ -77,7 +77,7 @@ void BoundedSolver::descend(int most_steps, double reduction) {
             precondition(residual, one_);
         whole = sum([&](std::size_t k) { return one_[k]; });
         if (!wanted_ && !plain) {
-            multiply(one_, image_, false);
+            multiply_roughly(one_, image_);
             const double energy = sum([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
             punch = energy > 0 ? 1 / energy : 0;
         }
@@ -100,7 +100,7 @@ void BoundedSolver::descend(int most_steps, double reduction) {
         last = ry;
         for (std::size_t k = 0; k < n; ++k) direction_[k] = y_[k] + beta * direction_[k];
         stopping_point();
-        multiply(direction_, image_, false);
+        multiply_roughly(direction_, image_);
         const double curvature = product(direction_, image_);
         if (!(curvature > 0)) return;
         const double alpha = ry / curvature;
@@ -207,7 +207,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     for (int round = 0; round < most_rounds && count > 0; ++round) {
         descend(most_steps, reduction);
         if (most_rounds == 1) break;
-        multiply(p_, w_, true);
+        multiply(p_, w_, !manner_.repeats);
         for (double& v : w_) v -= 1;
         if (std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count) <= tolerance) break;
     }

@@ -39,6 +39,8 @@ protected:
 
     // Kx = K x over the set: approximate for iterations, or exact for the final error.
     virtual void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) = 0;
+    // The same to some per cent, for steps inside a round if every round starts from a better product.
+    virtual void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) { multiply(x, Kx, false); }
     // Preconditioner: y approximates K^-1 r over the free pixels and is 0 elsewhere.
     virtual void precondition(const std::vector<double>& r, std::vector<double>& y) = 0;
     // Sum of the squared penetrations of pixels outside the set, from the last multiply() with p.

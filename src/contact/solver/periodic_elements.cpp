@@ -14,7 +14,7 @@ constexpr double kRounding = 1e-12;  // rounding error of separations, in rms he
 // Solves on the coarsened grid (recursively) and starts from its solution.
 ElementsOutcome solve_from_coarse(PeriodicGrid& grid, Given given, double tolerance, int most_iterations, bool finest) {
     bool started = false;
-    if (grid.can_be_coarsened()) {
+    if (grid.can_be_coarsened()) {  // its memory is free again before the finer grid is solved
         std::vector<double> heights;
         const auto coarse = grid.coarsened(heights);
         solve_from_coarse(*coarse, given, kCoarseError, most_iterations, false);

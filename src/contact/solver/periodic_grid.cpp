@@ -8,15 +8,15 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr int kThreads = 400000;  // number of pixels above which threads are used
 constexpr int kRows = 8;          // that a thread takes at a time
-// Reach of the preconditioner in pixels, and row length of its table, padded with zeros.
-constexpr int kReach = 4, kTaps = 12;
+constexpr int kReach = 6;         // of the preconditioner in pixels
+constexpr std::size_t kFew = 8;   // products are split if one of this many pixels is in the set
 // Largest number of conjugate-gradient steps in a round, and the reduction of the preconditioned residual that ends a round earlier.
 constexpr int kSteps = 8;
-constexpr double kReduction = 0.05;
+constexpr double kReduction = 0.1;
 // Rounds after which the energy is monitored in every round; most sets converge in about ten.
 constexpr int kQuick = 15;
 // Error below which the residual of a round is computed in double precision.
-constexpr double kSingle = 1e-4;
+constexpr double kSingle = 1e-5;
 // Shortest side for which a coarser grid is used.
 constexpr int kShortest = 32;
 
@@ -30,31 +30,19 @@ PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double hi
       unit_(unit),
       heights_(heights),
       share_(std::move(share_of)),
-      inner_(nx, ny, 1, aspect, share()) {
+      inner_(nx, ny, 1, aspect, share()),
+      plane_(nx, ny) {
     rows_.assign(at(ny) + 1, 0);
-    // K^-1 by offset: |k|/2/(1 + share) summed over the modes of a large period, multiplied by a window with a non-negative transform, so
-    // that the result is positive semidefinite as well.
-    constexpr int modes = 64;
-    stencil_.assign(at((2 * kReach + 1) * kTaps), 0.0f);
-    const auto window = [](int a) { return 1 - std::abs(a) / (kReach + 1.0); };
-    std::vector<double> inverse(at(modes * modes));
-    for (int j = 0; j < modes; ++j)
-        for (int i = 0; i < modes; ++i) {
-            const double k = std::numbers::pi / modes * std::hypot(i + 0.5, (j + 0.5) / aspect);
-            inverse[at(j * modes + i)] = 0.5 * k / (share_ ? 1 + share()(k) : 1);
-        }
-    for (int b = 0; b <= kReach; ++b)
-        for (int a = 0; a <= kReach; ++a) {
-            double sum = 0;
-            for (int j = 0; j < modes; ++j)
-                for (int i = 0; i < modes; ++i) {
-                    const double kx = std::numbers::pi * (i + 0.5) / modes, ky = std::numbers::pi * (j + 0.5) / modes;
-                    sum += inverse[at(j * modes + i)] * std::cos(a * kx) * std::cos(b * ky);
-                }
-            const double value = sum / (modes * modes) * window(a) * window(b);
-            for (int v : {-b, b})
-                for (int u : {-a, a}) stencil_[at((v + kReach) * kTaps + u + kReach)] = static_cast<float>(value);
-        }
+    // K^-1 by offset: |k|/2/(1 + share), multiplied by a window with a non-negative transform, so that the result is positive semidefinite as
+    // well.
+    inverse_ = Stencil(
+        kReach,
+        [&](double kx, double ky) {
+            const double k = std::hypot(kx, ky / aspect);
+            return 0.5 * k / (share_ ? 1 + share()(k) : 1);
+        },
+        [](int a) { return 1 - std::abs(a) / (kReach + 1.0); });
+    if (SplitPixels::suits(nx, ny, aspect, share())) split_ = std::make_unique<SplitPixels>(nx, ny, aspect, share());
 }
 
 int PeriodicGrid::threads() const { return nx_ >= kThreads / ny_ ? 0 : 1; }
@@ -208,39 +196,20 @@ void PeriodicGrid::renew() {
     p_ = std::move(p), w_ = std::move(w), z_ = std::move(z);
 }
 
+// Products inside a round need not be accurate, because the next round starts from an accurate one.
+void PeriodicGrid::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
+    if (!split_ || x.size() > at(nx_) * at(ny_) / kFew) return multiply(x, Kx, false);
+    split_->multiply(plane_, {rows_, column_}, x, Kx, threads());
+    for (double& v : Kx) v *= unit_;
+}
+
 // y = K^-1, truncated to kReach pixels, times r over the free pixels.
 void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    y.resize(r.size());
-    parallel_for(ny_, kRows, threads(), [&](int j) {
-        float* const row = inner_.row(j);
-        std::fill_n(row, nx_, 0.0f);
-        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) row[column_[k]] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
-    });
-    const auto around = [](int v, int n) { return ((v % n) + n) % n; };
-    parallel_for(ny_, kRows, threads(), [&](int j) {
-        const float* rows[2 * kReach + 1];
-        for (int b = -kReach; b <= kReach; ++b) rows[b + kReach] = inner_.row(around(j + b, ny_));
-        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) {
-            if (!free_[k]) {
-                y[k] = 0;
-                continue;
-            }
-            const int i = column_[k];
-            float sum[kTaps] = {};
-            if (i >= kReach && i + kTaps - kReach <= nx_) {
-                for (int b = 0; b <= 2 * kReach; ++b) {
-                    const float *from = rows[b] + i - kReach, *weight = stencil_.data() + b * kTaps;
-                    for (int a = 0; a < kTaps; ++a) sum[a] += weight[a] * from[a];
-                }
-            } else {
-                for (int b = 0; b <= 2 * kReach; ++b)
-                    for (int a = 0; a <= 2 * kReach; ++a) sum[a] += stencil_[at(b * kTaps + a)] * rows[b][around(i + a - kReach, nx_)];
-            }
-            float total = 0;
-            for (float v : sum) total += v;
-            y[k] = static_cast<double>(total);
-        }
-    });
+    const std::size_t n = r.size();
+    from_.resize(n), to_.resize(n), y.resize(n);
+    for (std::size_t k = 0; k < n; ++k) from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
+    plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
+    for (std::size_t k = 0; k < n; ++k) y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0;
 }
 
 bool PeriodicGrid::judge_exactly(bool exact, double residual, int) { return exact || residual < kSingle; }
@@ -258,9 +227,10 @@ ElementsOutcome PeriodicGrid::solve(Given given, double tolerance, int most_iter
 }
 
 double PeriodicGrid::stiffness(bool back) {
-    constexpr double reduction = 1e-5;
-    constexpr int most = 400;
-    return BoundedSolver::stiffness(back, 0, 1, most, reduction);
+    // The answer's error is of second order in these.
+    constexpr double tolerance = 5e-4, reduction = 5e-3;
+    constexpr int rounds = 20, steps = 60;
+    return BoundedSolver::stiffness(back, tolerance, rounds, steps, reduction);
 }
 
 void PeriodicGrid::deflect(std::vector<double>& plane) {

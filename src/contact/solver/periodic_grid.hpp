@@ -4,6 +4,7 @@
 
 #include "contact/interaction/periodic_pixels.hpp"
 #include "contact/interaction/pixel_products.hpp"
+#include "contact/interaction/sparse_plane.hpp"
 #include "contact/solver/bounded.hpp"
 
 namespace rsc {
@@ -58,6 +59,7 @@ private:
     Share share() const;  // for the pixel size of this grid
 
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
+    void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
     template <class Real>
     void multiply_by(PeriodicPixels<Real>& pixels, const std::vector<double>& x, std::vector<double>& Kx);
     template <class F>
@@ -75,7 +77,10 @@ private:
     Share share_;
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
-    std::vector<float> stencil_;  // of the preconditioner, (2 kReach + 1) rows of kTaps
+    SparsePlane plane_;
+    Stencil inverse_;                     // preconditioner
+    std::unique_ptr<SplitPixels> split_;  // null: not for this grid
+    std::vector<float> from_, to_;
     long products_ = 0;
     bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
     std::vector<std::int32_t> column_;  // of the set
