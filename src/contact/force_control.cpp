@@ -209,7 +209,7 @@ Level Contact::at_force(double N) {
         const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
         const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
         if (std::abs(level.force - N) > resolved)
-            level.status = LevelStatus::not_converged;
+            level.status = LevelStatus::not_converged, level.fallback = Fallback::jump;
         else if (std::abs(level.force / N - 1) > kUnresolved)  // N is proportional to depth^(3/2)
             throw Error(Failure::bad_input,
                         format("a force of %.9g is too small for the resolution of the separation: near %.9g the smallest possible "

@@ -22,8 +22,10 @@ enum class Fallback : std::int32_t {
     dgesv_singular = 3,       // its matrix was singular
     not_unique = 4,           // it converged, but the solution is not proved unique, and the default method was used
     held = 5,                 // adhesion: no state has the requested force; the level is the last stable state, of the smallest force
+    jump = 6,                 // the force jumps over the requested one at a separation; the level is the state at one side of the jump
 };
-inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique", "held"};
+inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique", "held",
+                                              "jump"};
 // No metal is elastic at mean pressures above this share of E*.
 inline constexpr double kExtreme = 0.1, kExtremeShare = 0.01;  // reported above this share of the contact area
 

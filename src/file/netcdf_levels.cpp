@@ -204,7 +204,7 @@ void ResultTable::theory() {
     scalar("m4_theory", unit(-2), "fourth profile moment of the continuous spectrum", m.m4, "");
     scalar("nayak_theory", "1", "Nayak's bandwidth parameter of the continuous spectrum", known ? m.nayak() : kAbsent, "m0 m4/m2^2");
     scalar("density_theory", unit(-2), "density of summits of the continuous spectrum", known ? m.summit_density() : kAbsent,
-           "sqrt(3) m4/(18 pi m2)");
+           "sqrt(3) m4/(18 pi m2), with a lay of the isotropic surface before it is stretched");
     const double R = r_.indenter.shape->hertz_radius();
     add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
@@ -297,7 +297,7 @@ void ResultTable::two_flats(const Moments& m) {
     add_absent("area_persson", {"step"}, "1", "area fraction at force_mean by Persson's theory", persson,
                "erf(sqrt(2) p/(E* sqrt(2 m2))), with " + which);
     add_absent("area_bgt", {"step"}, "1", "area fraction at force_mean by the asymptote of Bush, Gibson and Thomas", bush,
-               "sqrt(2 pi) p/(E* sqrt(2 m2)), with " + which);
+               "sqrt(2 pi) p/(E* sqrt(2 m2)), derived for isotropic surfaces, with " + which);
     add_absent("area_gw", {"step"}, "1", "area fraction at force_mean by Greenwood and Williamson", greenwood,
                "summits of the surface's own density and radius 1/mean_kappa_g, Gaussian heights of variance m0 - 0.8968 m2^2/m4 (Nayak)");
 }

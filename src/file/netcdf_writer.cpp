@@ -116,7 +116,7 @@ void ResultTable::measured() {
     add_absent("str", {}, "1", "texture aspect ratio Str (ISO 25178-2)", {t.str},
                t.str_bounded ? "upper bound, because along the lay the autocorrelation does not fall to 0.2 within half the map" : "");
     scalar("std", "degree", "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO 25178-2)",
-           m.spectrum.lay(), "at right angles to the direction with the most power");
+           m.spectrum.lay(), "at right angles to the mean direction of the power around the direction with the most");
     scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);
     scalar("spk", unit(1), "reduced peak height Spk (ISO 25178-2)", t.spk);
     scalar("svk", unit(1), "reduced valley height Svk (ISO 25178-2)", t.svk);

@@ -43,7 +43,8 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "fallback", .member = &V::fallback, .meaning = "reason why the requested solver was not used",
      .comment = "solver%method = 'dgesv': 2: the paper's iteration did not reach the tolerance; 3: its matrix was singular; 4: it "
                 "converged, but its solution could not be proved to be unique; 'mesh': 1: there is no interaction; adhesion: 5: no "
-                "state has the requested force, and the level is the last stable state, that of the smallest force"},
+                "state has the requested force, and the level is the last stable state, that of the smallest force; 6: at this separation the force jumps over the requested one, because "
+                "contacts so close that they have several solutions change together; the level is the state at one side of the jump"},
     {.name = "products", .member = &V::products,
      .meaning = "matrix-vector products with the interaction matrix B (direct, mesh), or linear systems solved (dgesv)"},
     {.name = "overlapping_pairs", .member = &V::overlapping_pairs,

@@ -51,10 +51,11 @@ double lay_share(const Asperities& summits) {
         directed += std::polar(elongation, 2 * summits.angle[i]);
         all += elongation;
     }
-    // Ten summits of an isotropic surface may reach `none` by chance; surfaces with correlation lengths in the ratio 1:1.6 reach `whole`.
-    constexpr double none = 0.3, whole = 0.75;
-    constexpr std::size_t fewest = 10;
-    return all > 0 && summits.size() >= fewest ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
+    // Ten summits of an isotropic surface may reach `none` by chance, fewer reach more; surfaces with correlation lengths in the ratio 1:1.6
+    // reach `whole`. One summit alone is a lay of its own: there the quartic around its ellipse is right.
+    constexpr double whole = 0.75;
+    const double none = std::clamp(0.3 * std::sqrt(10 / static_cast<double>(summits.size())), 0.3, 0.7);
+    return all > 0 ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
 }
 
 Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic, SummitCount* count) {
@@ -105,6 +106,27 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
     }
 }
 
+// Exchanges x and y of summits of a square of side L, and orders them by the rows of n that are their y now.
+Asperities mirrored(const Asperities& found, double L, int n) {
+    std::vector<std::size_t> row, first(static_cast<std::size_t>(n) + 1), order(found.size());
+    for (const double x : found.x) {
+        row.push_back(static_cast<std::size_t>(std::clamp(static_cast<int>(x / L * n + 0.5), 0, n - 1)));
+        ++first[row.back() + 1];
+    }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (std::size_t i = 0; i < found.size(); ++i) order[first[row[i]]++] = i;
+    Asperities all;
+    for (const AsperityColumn& column : kAsperityColumns) {
+        const std::vector<double>& from = found.*column.values;
+        std::vector<double>& to = all.*column.values;
+        to.resize(from.size());
+        for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[order[k]];
+    }
+    std::swap(all.x, all.y);
+    for (double& angle : all.angle) angle = angle < 0 ? -std::numbers::pi / 2 - angle : std::numbers::pi / 2 - angle;
+    return all;
+}
+
 }  // namespace
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
@@ -137,6 +159,12 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences,
                            const BodyAbove* above) {
+    if (!above && made_as_transpose(spectrum)) {  // no need to store the surface
+        const Asperities found =
+            make_asperities(transposed(spectrum), n, normalise, seed, realization, curvature, count, sampled, threads, detail, differences);
+        if (sampled) sampled->tensor = sampled->tensor.transposed();
+        return mirrored(found, spectrum.L, n);
+    }
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     int fine = n;

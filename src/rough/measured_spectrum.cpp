@@ -65,14 +65,29 @@ private:
 }  // namespace
 
 double MeasuredSpectrum::lay() const {
-    double best = -1, angle = 0;
+    double power[kAngles] = {};
+    for (std::size_t g = 1; g < plane_wavenumber.size(); ++g)
+        for (std::size_t a = 0; a < kAngles; ++a)
+            power[a] += plane_psd[g * kAngles + a] * plane_wavenumber[g] * (plane_wavenumber[g] - plane_wavenumber[g - 1]);
+    // The power of single angles scatters: the angle with the most power within 15 degrees of it, then the mean angle of the power within 45.
+    constexpr std::size_t near = kAngles / 12, far = kAngles / 4;
+    const auto around = [&](std::size_t a, std::size_t reach, auto visit) {
+        for (std::size_t t = 0; t <= 2 * reach; ++t) {
+            const double c = std::cos(std::numbers::pi / 2 * (static_cast<double>(t) / static_cast<double>(reach) - 1));
+            visit(static_cast<double>(t) - static_cast<double>(reach), c * c * power[(a + kAngles + t - reach) % kAngles]);
+        }
+    };
+    std::size_t best = 0;
+    double most = -1;
     for (std::size_t a = 0; a < kAngles; ++a) {
-        double power = 0;
-        for (std::size_t g = 1; g < plane_wavenumber.size(); ++g)
-            power += plane_psd[g * kAngles + a] * plane_wavenumber[g] * (plane_wavenumber[g] - plane_wavenumber[g - 1]);
-        if (power > best) best = power, angle = 180.0 * static_cast<double>(a) / kAngles;
+        double sum = 0;
+        around(a, near, [&](double, double weight) { sum += weight; });
+        if (sum > most) most = sum, best = a;
     }
-    return angle < 90 ? angle + 90 : angle - 90;
+    double all = 0, offset = 0;
+    around(best, far, [&](double t, double weight) { all += weight, offset += t * weight; });
+    const double angle = 180 * (static_cast<double>(best) + (all > 0 ? offset / all : 0)) / kAngles + 90;
+    return angle - 180 * std::floor(angle / 180);
 }
 
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {

@@ -45,7 +45,7 @@ struct MeasuredSpectrum {
     static constexpr std::size_t kAngles = 72;
     std::vector<double> plane_wavenumber;  // [1/length]
     std::vector<double> plane_psd;         // [ring][angle], [length^4]
-    // Direction of the lay from the x axis, 0 to 180 [degree]: perpendicular to the direction of the largest power.
+    // Direction of the lay from the x axis, 0 to 180 [degree]: perpendicular to the mean direction of the power around the largest.
     double lay() const;
 };
 

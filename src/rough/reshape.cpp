@@ -25,9 +25,10 @@ HeightShape usable(HeightShape shape) {
     return shape;
 }
 
-// Modes of the half plane within a band, stored in the columns of the caller.
+// Modes of the half plane within an ellipse (and the band of the surface), stored in the columns of the caller.
 struct Modes {
-    Band band;
+    Band whole;  // of the surface
+    Band band;   // the ellipse
     std::complex<double>* columns;
     std::ptrdiff_t stride;
     int n;
@@ -36,7 +37,8 @@ struct Modes {
     template <class Visit>
     void runs(Visit visit) const {
         for (int kx = 0; kx <= band.highest_kx; ++kx) {
-            const auto [first, last] = band.column(kx);
+            const Band::Run in = band.column(kx), all = whole.column(kx);
+            const int first = std::max(in.first, all.first), last = std::min(in.last, all.last);
             std::complex<double>* const column = columns + kx * stride;
             if (const int from = std::max(first, kx > 0 ? 0 : 1); from <= last) visit(kx, from, last - from + 1, column + from);
             if (const int to = std::min(last, -1); kx > 0 && first <= to) visit(kx, first, to - first + 1, column + first + n);
@@ -71,14 +73,18 @@ public:
     // from the moments reached so far; `measured` (optional) is the distribution for `wish`. The best phases are stored in the columns of
     // the caller.
     HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
+        // Twins of a map come nearer, since all of them stop on the same, more Gaussian side of it.
+        const double near_enough = measured ? 0.3 : 1;
         take();
         transform(up_);
         HeightShape now, best, lost{0, 0};
         double nearest = HUGE_VAL;
         now = shape(std::max(1, m_ / 128));  // enough to choose the first distribution
         for (int round = 0; round <= rounds; ++round) {
-            // Share of a change of the distribution that remains after the amplitudes are restored; it is smaller in the first round.
-            const double skewed = gaussian ? (round == 0 ? 0.42 : 0.55) : 0.8, peaked = gaussian ? (round == 0 ? 0.3 : 0.5) : 0.8;
+            // Share of a change of the distribution that remains after the amplitudes are restored; smaller in the first round from a
+            // Gaussian surface.
+            const bool first = gaussian && round == 0;
+            const double skewed = first ? 0.42 : kRemains, peaked = first ? 0.3 : kRemains;
             const HeightShape ask = usable({now.skewness + (wish.skewness - now.skewness + lost.skewness) / skewed,
                                             now.kurtosis + (wish.kurtosis - now.kurtosis + lost.kurtosis) / peaked});
             change(ask, wish, measured);
@@ -91,11 +97,11 @@ public:
                 nearest = off, best = got;
                 kept_.assign(unit_.begin(), unit_.end());
             }
-            if (off <= 1) break;
-            // The loss of the first round need not be that of the next ones.
-            const double share = round == 0 ? 1.0 : 0.6, s = gaussian ? 0.55 : 0.8, k = gaussian ? 0.5 : 0.8;
-            lost.skewness += share * (now.skewness + s * (ask.skewness - now.skewness) - got.skewness - lost.skewness);
-            lost.kurtosis += share * (now.kurtosis + k * (ask.kurtosis - now.kurtosis) - got.kurtosis - lost.kurtosis);
+            if (off <= near_enough) break;
+            if (!first) {  // what is lost of a large first change says nothing about the next ones
+                lost.skewness += kRemains * (now.skewness + skewed * (ask.skewness - now.skewness) - got.skewness - lost.skewness);
+                lost.kurtosis += kRemains * (now.kurtosis + peaked * (ask.kurtosis - now.kurtosis) - got.kurtosis - lost.kurtosis);
+            }
             now = got;
         }
         give();
@@ -112,6 +118,7 @@ private:
     }
     static constexpr int kBlock = 16;  // rows at a time
     static constexpr int kBins = 1024;
+    static constexpr double kRemains = 0.6;
 
     Complex* place(int kx, int ky) const { return store_.get() + kx * stride_ + (ky < 0 ? ky + m_ : ky); }
     void transform(const FftwfPlan& plan) {
@@ -290,7 +297,25 @@ int points(const Band& band) {
     return fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 160.0)));
 }
 
-// Band of the long waves that contain `share` of the mean square height, and their actual share.
+Band ellipse(const Band& whole, const Stretch& stretched, double q2) {
+    Band b{stretched, 0, q2, 0, 0};
+    b.highest_kx = std::min(whole.highest_kx, static_cast<int>(std::sqrt(stretched.yy * q2)));
+    b.highest_ky = std::min(whole.highest_ky, static_cast<int>(std::sqrt(stretched.xx * q2)));
+    return b;
+}
+
+// The ellipses of equal power of a spectrum by direction are those of its second moments: k = A k' with k' isotropic has the moments A A^T.
+// They are exact if the spectrum is an isotropic one that is stretched.
+Stretch power_ellipse(const Spectrum& spectrum) {
+    if (!spectrum.plane) return stretch(spectrum);
+    const double xx = spectrum.plane->integral(2, 0), xy = spectrum.plane->integral(1, 1), yy = spectrum.plane->integral(0, 2);
+    const double determinant = xx * yy - xy * xy;
+    if (!(determinant > 1e-6 * xx * yy)) return {};  // all waves have one direction
+    const double scale = 1 / std::sqrt(determinant);
+    return {scale * yy, -scale * xy, scale * xx};
+}
+
+// The smallest ellipse of the shape of modes.band with at least `share` of the mean square height, and its actual share.
 std::pair<Band, double> long_waves(const Modes& modes, double share) {
     constexpr int bins = 1024;
     std::vector<double> energy(bins + 1);
@@ -305,12 +330,8 @@ std::pair<Band, double> long_waves(const Modes& modes, double share) {
     });
     std::size_t b = 0;
     while (b < bins && found < share * total) found += energy[b++];
-    Band band = modes.band;
     const double q = static_cast<double>(b) / bins;
-    band.highest_q2 *= q * q;
-    band.highest_kx = std::min(band.highest_kx, static_cast<int>(std::sqrt(band.stretched.yy * band.highest_q2)));
-    band.highest_ky = std::min(band.highest_ky, static_cast<int>(std::sqrt(band.stretched.xx * band.highest_q2)));
-    return {band, found / total};
+    return {ellipse(modes.whole, modes.band.stretched, modes.band.highest_q2 * q * q), found / total};
 }
 
 }  // namespace
@@ -326,22 +347,30 @@ int fast_size(double least) {
 }
 
 HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* columns, std::ptrdiff_t stride, int n) {
-    const Modes all{band(spectrum), columns, stride, n};
+    const Band whole = band(spectrum);
+    Modes all{whole, whole, columns, stride, n};
+    if (spectrum.plane) {
+        // The table of a measured map ends with its grid, and its spectrum often before that.
+        const Stretch form = power_ellipse(spectrum);
+        all.band = ellipse(whole, form, whole.highest_q2 * (form.xx + form.yy));
+        constexpr double all_of_it = 1 - 1e-12;
+        all.band = long_waves(all, all_of_it).first;
+    }
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
     const int m = points(all.band);
     // Long waves are reshaped first, on a coarse grid. The short waves are still Gaussian and uncorrelated with them, so the moments of the
     // sum are those of the long waves times powers of their share.
     constexpr double most_of_it = 0.9, nearly_all = 0.95, flat = 2.8;
-    constexpr int many_rounds = 40, few_rounds = 8;
+    constexpr int many_rounds = 40, coarse_rounds = 7, fine_rounds = 20;
     const auto [band, share] = long_waves(all, wish.kurtosis < flat ? nearly_all : most_of_it);
-    const Modes longest{band, columns, stride, n};
+    const Modes longest{whole, band, columns, stride, n};
     const bool in_turn = 2 * points(band) <= m;
     if (in_turn)
         Field(longest, points(band))
             .run(usable({wish.skewness / (share * std::sqrt(share)), 3 + (wish.kurtosis - 3) / (share * share)}), nullptr, true,
-                 many_rounds);
-    const HeightShape got = Field(all, m).run(wish, spectrum.heights.get(), !in_turn, in_turn ? few_rounds : many_rounds);
-    for (int ky = 1; ky <= all.band.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0
+                 coarse_rounds);
+    const HeightShape got = Field(all, m).run(wish, spectrum.heights.get(), !in_turn, in_turn ? fine_rounds : many_rounds);
+    for (int ky = 1; ky <= whole.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0
     return got;
 }
 

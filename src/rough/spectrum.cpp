@@ -146,7 +146,21 @@ Spectrum tabulated_spectrum(std::shared_ptr<const PlaneSpectrum> plane, double L
 }
 
 double Moments::rms_slope() const { return std::sqrt(2.0 * m2); }
-double Moments::summit_density() const { return std::sqrt(3.0) * m4 / (18.0 * std::numbers::pi * m2); }
+double Moments::summit_density() const {
+    double second = m2, fourth = m4;
+    // Stretching at constant area leaves the number of summits. With the inverse of the second moments as the metric a stretched isotropic
+    // surface is isotropic again, and k.k has the moment 8/3 m4.
+    const MomentTensor& t = tensor;
+    const double determinant = t.m20 * t.m02 - t.m11 * t.m11;
+    const bool waves_of_all_directions = determinant > 1e-6 * t.m20 * t.m02;
+    if (waves_of_all_directions && (t.m20 != t.m02 || t.m11 != 0)) {
+        second = std::sqrt(determinant);
+        fourth = 3.0 / 8.0 / determinant *
+                 (t.m02 * t.m02 * t.m40 + t.m20 * t.m20 * t.m04 + (4 * t.m11 * t.m11 + 2 * t.m02 * t.m20) * t.m22 -
+                  4 * t.m11 * (t.m02 * t.m31 + t.m20 * t.m13));
+    }
+    return std::sqrt(3.0) * fourth / (18.0 * std::numbers::pi * second);
+}
 double Moments::mean_spacing() const { return 1.0 / std::sqrt(summit_density()); }
 double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
 

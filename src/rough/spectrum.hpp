@@ -95,9 +95,11 @@ struct Moments {
     HeightShape heights = {};                             // of a non-Gaussian surface
     double nayak() const { return m0 * m4 / (m2 * m2); }  // Nayak's alpha
     double rms_slope() const;                             // rms gradient sqrt(2 m2)
-    double summit_density() const;                        // D = sqrt(3) m4 / (18 pi m2) [1/length^2]
-    double mean_spacing() const;                          // <d> = 1/sqrt(D) [length]
-    double mean_radius() const;                           // the paper's r_g = 1/<kappa_g> = 0.737/sqrt(m4) [length]
+    // D = sqrt(3) m4 / (18 pi m2) [1/length^2] with the moments of the isotropic surface that was stretched; exact for those, an estimate
+    // for other directional spectra.
+    double summit_density() const;
+    double mean_spacing() const;  // <d> = 1/sqrt(D) [length]
+    double mean_radius() const;   // the paper's r_g = 1/<kappa_g> = 0.737/sqrt(m4) [length]
 };
 
 // Moments by direction of an isotropic surface with moments m2, m4 after stretching and rotation.

@@ -23,6 +23,17 @@ HeightMap empty_map(double L, int n) {
 
 }  // namespace
 
+bool made_as_transpose(const Spectrum& spectrum) {
+    const double angle = spectrum.direction - 180 * std::floor(spectrum.direction / 180);
+    return spectrum.aspect != 1 && angle > 45 && angle <= 135;
+}
+
+Spectrum transposed(const Spectrum& spectrum) {
+    Spectrum mirrored = spectrum;
+    mirrored.direction = 90 - spectrum.direction;
+    return mirrored;
+}
+
 RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
                      double difference_step) {
     validate(spectrum);
@@ -30,8 +41,7 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
     n_ = n;
     if (!(difference_step > 0)) difference_step = spectrum.L / n;
     threads = std::max(threads, 1);
-    const double angle = spectrum.direction - 180 * std::floor(spectrum.direction / 180);
-    if (spectrum.aspect != 1 && angle > 45 && angle <= 135) {
+    if (made_as_transpose(spectrum)) {
         transpose(spectrum, normalise, seed, realization, threads, difference_step);
         return;
     }
@@ -51,9 +61,7 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
 
 void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
                           double difference_step) {
-    Spectrum mirrored = spectrum;
-    mirrored.direction = 90 - spectrum.direction;
-    RowSource other(mirrored, n_, normalise, seed, realization, threads, difference_step);
+    RowSource other(transposed(spectrum), n_, normalise, seed, realization, threads, difference_step);
     sampled_ = other.sampled_;
     differences_ = other.differences_;
     sampled_.tensor = other.sampled_.tensor.transposed();

@@ -7,6 +7,11 @@
 
 namespace rsc {
 
+// True if the lay is nearer to the y axis than to the x axis. Such a surface is synthesised as that of transposed(), with x and y exchanged,
+// so that a direction of 90 degrees gives the same bits as 0 degrees.
+bool made_as_transpose(const Spectrum& spectrum);
+Spectrum transposed(const Spectrum& spectrum);
+
 class RowSource {
 public:
     // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is valid, n is even and shortest_wave() <=
@@ -40,8 +45,6 @@ public:
     static constexpr int kBlock = 16;  // most efficient `count`
 
 private:
-    // A surface with its lay nearer to the y axis than to the x axis is synthesised as its transpose, so that a direction of 90 degrees
-    // gives the same bits as 0 degrees.
     void transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
                    double difference_step);
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,

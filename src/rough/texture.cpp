@@ -143,13 +143,12 @@ void measure_heights(const HeightMap& map, Texture& t) {
     const double slope = (at(first) - at(first + secant)) / secant;  // per quantile step
     const double upper = at(first) + slope * first, lower = upper - slope * steps;
     t.sk = upper - lower;
-    double above = 0, below = 0, wide_above = 0, wide_below = 0;
-    for (const double z : curve) {
-        if (z > upper) above += z - upper, ++wide_above;
-        if (z < lower) below += lower - z, ++wide_below;
-    }
-    t.spk = wide_above > 0 ? 2 * above / wide_above : 0;
-    t.svk = wide_below > 0 ? 2 * below / wide_below : 0;
+    double above = 0, below = 0;
+    std::size_t i = 0, k = heights.size();
+    for (; i < heights.size() && heights[i] > upper; ++i) above += heights[i] - upper;
+    for (; k > 0 && heights[k - 1] < lower; --k) below += lower - heights[k - 1];
+    t.spk = i > 0 ? 2 * above / static_cast<double>(i) : 0;
+    t.svk = k < heights.size() ? 2 * below / static_cast<double>(heights.size() - k) : 0;
     for (int i = 0; i < Texture::kScores; ++i) t.score.push_back(-5 + 10.0 * i / (Texture::kScores - 1));
     t.height = quantiles(std::move(heights), t.score);
 }

@@ -114,7 +114,8 @@ static std::string write_twins(const Job& job, const std::string& result) {
     const std::string path = stem(result) + "_twins.nml";
     if (const std::string why = reason_to_leave(path, kTwins); !why.empty()) return "twins: " + path + ": " + why;
     write_whole(path, kTwins, twins_text(job, result));
-    return "twins: " + path + " (surfaces with this spectrum: rsc < " + path + ")";
+    const char* const kept = job.measured->gaussian() ? "" : " and these heights; not kept: which waves carry the skewness, some 10 % of N";
+    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")";
 }
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {

@@ -20,6 +20,7 @@ const char* fallback_text(Fallback fallback) {
         case Fallback::dgesv_not_converged: return "dgesv did not converge";
         case Fallback::dgesv_singular: return "dgesv's matrix was singular";
         case Fallback::not_unique: return "dgesv's solution is not proved unique";
+        case Fallback::jump: return "the force jumps over this one";
         case Fallback::held: return "no state has this force; level of the smallest force";
     }
     return "";
@@ -210,7 +211,12 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         "spots that overlap so much that other solutions may exist: this one is a local minimum of the energy, selected by a fixed rule.");
     const auto held = [](const LevelValues& l) { return l.fallback == Fallback::held; };
     tell(count(held), "no state has the force asked for: the level is the last stable one, that of the smallest force.");
-    tell(count([&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l); }),
+    const auto jump = [](const LevelValues& l) { return l.fallback == Fallback::jump; };
+    tell(count(jump), status_text(LevelStatus::not_converged) +
+                          " - the force asked for is inside a jump of N(Z0): close contacts have several solutions and change together, so "
+                          "that no separation has this force. The level is a state at one side of the jump; prescribe separations there, "
+                          "another force, or use solver%model = 'elements'.");
+    tell(count([&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l) && !jump(l); }),
          status_text(LevelStatus::not_converged) +
              " - the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }

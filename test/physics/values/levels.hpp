@@ -245,7 +245,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("method", t.rows([&](std::size_t k, std::size_t s) { return static_cast<double>(level(k, s).method); }));
     f.same("fallback", t.rows([&](std::size_t k, std::size_t s) { return static_cast<double>(level(k, s).fallback); }));
     f.attribute("method", "flag_values", {1, 2, 3});
-    f.attribute("fallback", "flag_values", {0, 1, 2, 3, 4, 5});
+    f.attribute("fallback", "flag_values", {0, 1, 2, 3, 4, 5, 6});
     f.attribute("status", "flag_values", {0, 1, 2, 3, 4});
     const Vector residual = t.rows([&](std::size_t k, std::size_t s) { return level(k, s).residual; });
     f.same("residual", residual);
