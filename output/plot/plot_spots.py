@@ -6,7 +6,7 @@ from matplotlib.colors import to_rgb
 
 from plot_style import Page, amount, colour_bar, label
 
-ELASTIC, YIELDING = "#d62728", "#f2b400"
+ELASTIC, YIELDING, PULLING = "#d62728", "#f2b400", "#1f6fd0"
 
 
 def heights(result, axis, window=None, bright=0.0, most=900):
@@ -60,9 +60,9 @@ def pixels_of(result, step):
 
 
 def draw_spots(axis, spots, least=0.0, edge=0.0):
-    """Spots as discs, elastic and yielding ones in different colours; least: the smallest radius drawn."""
-    x, y, a, _, yields = spots
-    for some, colour, name in ((~yields, ELASTIC, "spots"), (yields, YIELDING, "yielding spots")):
+    """Spots as discs, elastic ones, those that yield and those under tension in different colours; least: the smallest radius drawn."""
+    x, y, a, f, yields = spots
+    for some, colour, name in ((~yields & (f >= 0), ELASTIC, "spots"), (yields, YIELDING, "yielding spots"), (~yields & (f < 0), PULLING, "pulling spots")):
         if some.any():  # matplotlib 3.6 draws an empty EllipseCollection as one big ellipse
             wide = 2 * np.maximum(a[some], least)
             axis.add_collection(EllipseCollection(wide, wide, 0 * wide, units="xy", offsets=np.column_stack([x[some], y[some]]), transOffset=axis.transData, facecolors=colour, edgecolors="k",
@@ -70,17 +70,21 @@ def draw_spots(axis, spots, least=0.0, edge=0.0):
 
 
 def spots(results, options):
-    """The contact spots of a level over the heights: all of them, and those around the largest at true size."""
+    """The contact spots of a level over the heights: all of them, and those around the largest at true size. The level is the deepest one, with
+    adhesion the one with the force nearest to zero on the way up, where some spots push and others pull."""
     result = results[0]
     if len(results) > 1 or "contact_count" not in result or not (result["contact_count"] > 0).any():
         return None
     touching = np.flatnonzero(result["contact_count"] > 0)
     depth = -result.mean("separation")[touching] if "separation" in result else touching
     step = options.step - 1 if options.step is not None else int(touching[np.flatnonzero(depth >= depth.max())[-1]])  # deepest penetration
+    if options.step is None and "pull_off_force" in result and touching[-1] > step:
+        after = touching[touching >= step]
+        step = int(after[np.argmin(abs(result.mean("force")[after]))])
     found = spots_of(result, step)
     if found is None:
         return None
-    x, y, a, _, yields = found
+    x, y, a, f, yields = found
     big = int(np.argmax(a))
     low, high = np.array([(x - a).min(), (y - a).min()]), np.array([(x + a).max(), (y + a).max()])
     half = 0.54 * (high - low).max()
@@ -117,8 +121,10 @@ def spots(results, options):
         bar.ax.set_ylim(low, high)  # the darker half of the greys is for the spots
     if result.has_sphere() and max(abs(float(result["tip_x"]) - sum(page.axes[0].get_xlim()) / 2), abs(float(result["tip_y"]) - sum(page.axes[0].get_ylim()) / 2)) < half:
         page.axes[0].plot(float(result["tip_x"]), float(result["tip_y"]), "kx", ms=6, label="tip", ls="none", zorder=4)
-    if pixels or (~yields).any():
+    if pixels or (~yields & (f >= 0)).any():
         page.entry("elastic" if "contact_yields" in result and not pixels else "contact", marker="o", color=ELASTIC, ls="none", ms=5)
+    if (f < 0).any() and not pixels:
+        page.entry("contact under tension", marker="o", color=PULLING, ls="none", ms=5)
     if yields.any() and not pixels:
         page.entry("yielding", marker="o", color=YIELDING, ls="none", ms=5)
     what = "discs of their area" if result.by_elements() and not pixels else "points in contact" if pixels and "field_pressure" in result else f"share of each cell in contact, at most {most:.2g}" if pixels else "true to size"

@@ -1,4 +1,4 @@
-// Contact of adhesive asperities (JKR): the deterministic multi-asperity model with forces of either sign.
+// Contact of adhesive asperities (JKR, or with a range of the attraction): the deterministic multi-asperity model with forces of either sign.
 //
 // A level is the end of a path on which the separation changes quasi-statically from the last accepted level to the requested one. On this
 // path asperities attach when they touch, and detach where the equilibrium of the attached ones becomes unstable; this may cause others to
@@ -22,7 +22,8 @@ public:
     double stiffness() override;
     // Elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached.
     double energy() const override;
-    // Throws Error(bad_input) if any asperity is attached.
+    // Throws Error(bad_input) if any asperity is attached: the path under a moving tip, with its attachments and detachments between the two
+    // positions, is not implemented.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;

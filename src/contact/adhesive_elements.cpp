@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCoarsest = 0.5;     // smallest ratio of z0 to the side of a pixel
+constexpr double kResolved = 2;       // smallest ratio of a level within the range of validity
+constexpr double kJump = 0.1;         // least dissipated energy of a jump, relative to w times its area
+constexpr double kFewest = 8;         // and least number of its points
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 // Number of renewals after which pixels no longer leave the attracting set, so that the iteration ends; and largest number.
 constexpr int kQuick = 200, kMost = 2000;
@@ -42,6 +45,8 @@ struct State {
     std::vector<double> clearance, q;
     std::vector<char> on;
     double top = -kInfinity;
+    // Of the accepted level: gaps and pressures of all points; gaps of points out of reach are those without deformation.
+    std::vector<double> gap_before, p_before;
     // Points within reach, row by row, with their elevation by the attraction and their gaps.
     std::vector<std::int32_t> reach;
     std::vector<double> lift, gap;
@@ -86,6 +91,8 @@ struct State {
     void gather(double Z);
     bool renew(double Z, Level& level);
     bool press(double Z, Level& level);
+    std::int32_t count_jumps(const std::vector<double>& p) const;
+    void keep();
     std::vector<double> deflections(const std::vector<double>& p);
     Level solve(double Z);
 };
@@ -206,14 +213,14 @@ Level State::solve(double Z) {
     now.separation = Z;
     now.attracting.clear();
     std::vector<Pixel> touching;
-    std::vector<double> pressures;
+    std::vector<double> pressures, p(reach.size());
     double twice = 0, attraction = 0, tension = 0;
     long cohesive = 0;
     for (std::size_t k = 0; k < reach.size() && converged; ++k) {
         const std::int32_t i = reach[k];
-        const double p = q[at(i)] - (on[at(i)] ? s0 : 0.0);
-        twice += p * (gap[k] + clearance[at(i)] - Z);
-        if (q[at(i)] > 0) touching.push_back(at_point(i)), pressures.push_back(p);
+        p[k] = q[at(i)] - (on[at(i)] ? s0 : 0.0);
+        twice += p[k] * (gap[k] + clearance[at(i)] - Z);
+        if (q[at(i)] > 0) touching.push_back(at_point(i)), pressures.push_back(p[k]);
         if (!on[at(i)]) continue;
         now.attracting.push_back(i);
         attraction += s0 * (z0 - gap[k]);
@@ -232,20 +239,57 @@ Level State::solve(double Z) {
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
     level.energy_lost = now.lost = now.work - energy;
-    // A jump dissipates at least a tenth of the work of adhesion of the changed area; the error of the trapezoidal rule is small compared
-    // with it.
-    std::vector<std::int32_t> changed;
-    std::set_symmetric_difference(accepted.attracting.begin(), accepted.attracting.end(), now.attracting.begin(), now.attracting.end(),
-                                  std::back_inserter(changed));
-    constexpr double good = 0.1;
-    const double gone = good * options.adhesion.work * pixel * static_cast<double>(changed.size());
-    level.jumps = accepted.separation < kInfinity && !changed.empty() && now.lost - accepted.lost > gone;
+    if (converged) level.jumps = count_jumps(p);
     if (flats)
         level.nominal_area = heights.Lx() * heights.Ly();
     else
         judge_edges(level, indenter, options);
+    if (resolution() < kResolved && !now.attracting.empty()) level.status = graver(level.status, LevelStatus::out_of_validity);
     if (!converged) level.status = LevelStatus::not_converged;
     return level;
+}
+
+// Number of connected sets of points that began or ceased to attract since the accepted level and dissipated energy by it. Between two states
+// point k dissipates -(p + p')(w' - w)/2 - (psi' - psi) a unit area, where psi = -s0 (z0 - w) if it attracts and 0 otherwise: with
+// trapezoidal work these add up exactly to energy_lost, because deflections are linear in the pressures. A point that crosses z0 smoothly
+// dissipates at most half of s0 times the change of its gap, in the middle of a step nothing. Sets of fewer points, or of less dissipation per
+// area than kJump w, are not counted: edges advance and recede from pixel to pixel in small jumps.
+std::int32_t State::count_jumps(const std::vector<double>& p) const {
+    if (!(accepted.separation < kInfinity)) return 0;
+    std::vector<std::int32_t> changed;
+    std::set_symmetric_difference(accepted.attracting.begin(), accepted.attracting.end(), now.attracting.begin(), now.attracting.end(),
+                                  std::back_inserter(changed));
+    if (changed.empty() || reach.empty()) return 0;
+    std::vector<Pixel> where;
+    std::vector<double> dissipated;
+    std::size_t k = 0;
+    const auto psi = [&](double w) { return -s0 * std::max(z0 - w, 0.0); };
+    for (const std::int32_t i : changed) {
+        while (k + 1 < reach.size() && reach[k] < i) ++k;
+        const bool reached = reach[k] == i;
+        const double w = gap_before[at(i)], w_now = reached ? gap[k] : now.separation - clearance[at(i)];
+        where.push_back(at_point(i));
+        dissipated.push_back(-0.5 * (p_before[at(i)] + (reached ? p[k] : 0.0)) * (w_now - w) - (psi(w_now) - psi(w)));
+    }
+    std::vector<int> set;
+    const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
+    std::vector<double> sum(at(sets)), points(at(sets));
+    for (std::size_t c = 0; c < where.size(); ++c) sum[at(set[c])] += dissipated[c], points[at(set[c])] += 1;
+    const double least = kJump * options.adhesion.work;
+    std::int32_t jumps = 0;
+    for (std::size_t c = 0; c < sum.size(); ++c) jumps += points[c] >= kFewest && sum[c] > least * points[c];
+    return jumps;
+}
+
+// Stores gaps and pressures of the last level, the accepted one.
+void State::keep() {
+    gap_before.resize(clearance.size()), p_before.assign(clearance.size(), 0.0);
+    for (std::size_t k = 0; k < clearance.size(); ++k) gap_before[k] = now.separation - clearance[k];
+    for (std::size_t k = 0; k < reach.size(); ++k) {
+        const std::size_t i = at(reach[k]);
+        gap_before[i] = gap[k];
+        p_before[i] = q[i] - (on[i] ? s0 : 0.0);
+    }
 }
 
 class AdhesiveElements final : public Contact {
@@ -295,7 +339,8 @@ public:
         for (std::size_t k = kKept; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
         forget_levels();
         state_.accepted = std::move(past);
-        if (level) (void)solve(level->separation);
+        if (level || state_.accepted.separation < kInfinity) (void)solve(level ? level->separation : state_.accepted.separation);
+        state_.keep();
     }
 
 protected:
@@ -350,7 +395,10 @@ protected:
         level.iterations = iterations, level.products = products;
         return level;
     }
-    void accept(Level&) override { state_.accepted = state_.now; }
+    void accept(Level&) override {
+        state_.accepted = state_.now;
+        state_.keep();
+    }
     double tolerance() const override { return state_.options.tolerance; }
 
     double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }

@@ -34,7 +34,7 @@ constexpr LevelQuantity kQuantities[] = {
                 "remaining penetrations, relative to the mean overlap under pressure", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "outcome of the level",
      .comment = "1: force_error_expected above 10 % (if unknown: large_contacts or beyond_law; boundary elements: above 1 %), contacts at "
-                "the border (edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, wide_contacts, or filled_share above 1 %; 2: "
+                "the border (edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, wide_contacts, cohesive_resolution below 2, or filled_share above 1 %; 2: "
                 "contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, possibly not unique; 4: not converged, do not use. "
                 "4 overrides all others, 1 overrides 2 and 3, 3 overrides 2",
      .heading = "status", .width = 0},
@@ -89,11 +89,11 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "energy_lost", .member = &V::energy_lost, .length_power = 1, .force_power = 1,
      .meaning = "energy dissipated since the first level, by relaxation or in jumps",
      .comment = "relaxation: energy + energy_lost is the work done, int N d(-Z0); adhesion: over a cycle, the area of the hysteresis loop "
-                "of N and Z0", .always = false, .statistics = true, .plain = "energy lost"},
+                "of N and Z0 (boundary elements: by the trapezoidal rule over the levels)", .always = false, .statistics = true, .plain = "energy lost"},
     {.name = "jumps", .member = &V::jumps, .meaning = "number of jumps since the previous level",
-     .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers; boundary elements: 1 if "
-                "the level dissipated more than a tenth of w times the area that began or ceased to attract, which may miss jumps of few "
-                "contacts among many", .always = false},
+     .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers; boundary "
+                "elements: connected sets of at least 8 points that began or ceased to attract and dissipated more than a tenth of w times their area "
+                "between the two levels; steps short beside adhesion_range tell jumps from smooth changes", .always = false},
     {.name = "least_force", .member = &V::least_force, .force_power = 1, .meaning = "smallest force since the first level",
      .comment = "adhesion: including forces between levels; pull_off_force is its last value", .always = false},
     {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2,
@@ -111,7 +111,7 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "contacts_outside_map", .member = &V::outside_map,
      .meaning = "contacts outside the map, included in force and contact_area but in no cell"},
     {.name = "stiffness", .member = &V::stiffness, .length_power = -1, .force_power = 1,
-     .meaning = "derivative of the force with respect to the separation, dN/dZ0", .always = false, .statistics = true, .plain = "stiffness"},
+     .meaning = "derivative of the force with respect to the separation, dN/dZ0", .comment = "boundary elements with adhesion: at fixed attracting points, as in small oscillations", .always = false, .statistics = true, .plain = "stiffness"},
     {.name = "energy", .member = &V::energy, .length_power = 1, .force_power = 1, .meaning = "elastic energy of the contact, W",
      .comment = "dW/dZ0 = -N", .always = false, .statistics = true, .plain = "elastic energy"},
     {.name = "lateral_force", .member = &V::lateral_x, .y = &V::lateral_y, .force_power = 1,

@@ -210,13 +210,21 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         LevelStatus::not_unique,
         "spots that overlap so much that other solutions may exist: this one is a local minimum of the energy, selected by a fixed rule.");
     const auto held = [](const LevelValues& l) { return l.fallback == Fallback::held; };
-    tell(count(held), "no state has the force asked for: the level is the last stable one, that of the smallest force.");
+    tell(
+        count(held),
+        "no state has the force asked for: the level is the last stable one, that of the smallest force, where the bodies part under a dead "
+        "load; give separations (indentation%control = 'separation') to go beyond.");
     const auto jump = [](const LevelValues& l) { return l.fallback == Fallback::jump; };
     tell(count(jump), status_text(LevelStatus::not_converged) +
                           " - the force asked for is inside a jump of N(Z0): close contacts have several solutions and change together, so "
                           "that no separation has this force. The level is a state at one side of the jump; prescribe separations there, "
                           "another force, or use solver%model = 'elements'.");
-    tell(count([&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l) && !jump(l); }),
+    const auto failed = [&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l) && !jump(l); };
+    const auto lost = [&](const LevelValues& l) { return failed(l) && !elements && job.settings.solids.adhesion > 0; };
+    tell(count(lost), status_text(LevelStatus::not_converged) +
+                          " - the path of the attached asperities could not be followed to these levels, mostly because contacts overlap: "
+                          "that is beyond the asperity model; use model = 'elements'.");
+    tell(count([&](const LevelValues& l) { return failed(l) && !lost(l); }),
          status_text(LevelStatus::not_converged) +
              " - the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
 }
@@ -288,6 +296,13 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
         out << (range > 0 ? format("; %.3g for a smooth sphere", reach(R) / range)
                           : format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l));
     if (summit > 0) out << ".\n";
+    if (!(job.theory && range > 0)) return;
+    // Pastewka and Robbins, PNAS 111, 3298 (2014), with kappa_rep = 2, d_rep = 4 h'/h'': h' range/(2 l_a) (h'^2/(h'' range))^(2/3) <
+    // pi (3/16)^(2/3), l_a = w/E*, rms slope h', rms curvature h'' (rms of the sum of both second derivatives).
+    const double slope = std::sqrt(2 * job.theory->m2), curvature = std::sqrt(8.0 / 3 * job.theory->m4);
+    const double needed = 1 / (2 * 1.03) * job.indenter.E_star * slope * range * std::pow(slope * slope / (curvature * range), 2.0 / 3);
+    out << format("  two flats with this surface %s (Pastewka and Robbins 2014): it needs w above about %.2g %s/%s.\n",
+                  c.solids.adhesion > needed ? "would stick" : "would not stick", needed, f, l);
 }
 
 // Dundurs' second parameter, which couples the normal and the tangential problem; 0 for equal bodies.

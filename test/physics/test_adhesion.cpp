@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "error.hpp"
@@ -124,134 +125,30 @@ void test_groups() {
     }
 }
 
-struct Random {
-    Asperities a;
+// Contact of radius c at a penetration u: the force, its slope at a given radius, and how fast the energy grows with the area.
+struct JkrEdge {
+    const Asperities& a;
     double w;
-};
-Random random_system(int n, unsigned seed) {
-    std::mt19937 generator(seed);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    std::vector<double> x, y, z, r;
-    while (static_cast<int>(x.size()) < n) {
-        const double px = uniform(generator), py = uniform(generator);
-        bool close = false;
-        for (std::size_t k = 0; k < x.size(); ++k) close = close || std::hypot(px - x[k], py - y[k]) < 0.2;
-        if (close) continue;
-        x.push_back(px), y.push_back(py), z.push_back(0.02 * uniform(generator)), r.push_back(0.1 + 0.3 * uniform(generator));
+    double force(std::size_t i, double c, double u, double& slope) const {
+        slope = 2 * kE * c;
+        return slope * (u - c * c / (3 * a.radius[i]));
     }
-    return {of(x, y, z, r), std::pow(10.0, -3.5 + 1.5 * uniform(generator))};
-}
-
-// Follows the path by the energy alone: at every small step of the separation, one radius after the other goes downhill in the energy,
-// the elastic part of which is minimised over the forces by elimination, until none moves.
-class Minimiser {
-public:
-    Minimiser(const Random& system) : a_(system.a), w_(system.w), radius_(a_.size(), 0.0) {}
-
-    void go_to(double Z, double step) {
-        const int steps = static_cast<int>(std::ceil(std::abs(Z - Z_) / step));
-        const double from = Z_;
-        for (int k = 1; k <= steps; ++k) Z_ = from + (Z - from) * k / steps, relax();
+    double growth(std::size_t i, double c, double u) const {
+        const double s = u - c * c / a.radius[i];
+        return w - kE * s * s / (2 * pi * c);
     }
-    double force() {
-        solve();
-        double sum = 0;
-        for (double f : f_) sum += f;
-        return sum;
-    }
-    int attached() const {
-        return static_cast<int>(std::count_if(radius_.begin(), radius_.end(), [](double a) { return a > 0; }));
-    }
-    double Z_ = 1;
-
-private:
-    // f = 2 E* a (u - a^2/(3 r)), u = g0 - B f.
-    void solve() {
-        const std::size_t n = radius_.size();
-        std::vector<double> m(n * n);
-        f_.assign(n, 0.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double D = 2 * kE * radius_[i];
-            for (std::size_t j = 0; j < n; ++j)
-                m[i * n + j] = i == j ? 1 : D / (pi * kE * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
-            f_[i] = D * (a_.z[i] - Z_ - radius_[i] * radius_[i] / (3 * a_.radius[i]));
-        }
-        for (std::size_t c = 0; c < n; ++c)
-            for (std::size_t i = c + 1; i < n; ++i) {
-                const double factor = m[i * n + c] / m[c * n + c];
-                for (std::size_t j = c; j < n; ++j) m[i * n + j] -= factor * m[c * n + j];
-                f_[i] -= factor * f_[c];
-            }
-        for (std::size_t i = n; i-- > 0;) {
-            for (std::size_t j = i + 1; j < n; ++j) f_[i] -= m[i * n + j] * f_[j];
-            f_[i] /= m[i * n + i];
-        }
-    }
-    double field(std::size_t i) const {
-        double u = a_.z[i] - Z_;
-        for (std::size_t j = 0; j < f_.size(); ++j)
-            if (j != i) u -= f_[j] / (pi * kE * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
-        return u;
-    }
-    // dU/da / (2 pi a): what the edge gains less w.
-    double pull(std::size_t i) {
-        solve();
-        const double s = field(i) - radius_[i] * radius_[i] / a_.radius[i];
-        return kE * s * s / (2 * pi * radius_[i]) - w_;
-    }
-    // The edge of contact i goes where the energy falls, to the nearest minimum.
-    double move(std::size_t i) {
-        const double begin = radius_[i], seed = 1e-3 * std::cbrt(pi * w_ * a_.radius[i] * a_.radius[i] / kE);
-        solve();
-        if (begin == 0) {
-            if (!(field(i) > 0)) return 0;
-            radius_[i] = std::max(seed, std::sqrt(a_.radius[i] * field(i)));  // as without adhesion
-        }
-        double here = pull(i), step = 0.01 * radius_[i];
-        const double way = here > 0 ? -1 : 1;
-        for (;; step *= 1.2) {  // a step too long for the minimum would pass it and the next maximum
-            const double before = radius_[i];
-            radius_[i] = before + way * step;
-            if (radius_[i] < seed && way < 0) return radius_[i] = 0, begin;
-            double next = pull(i), other = before;
-            if ((next > 0) == (here > 0)) {
-                here = next;
-                continue;
-            }
-            for (int k = 0; k < 60 && std::abs(other - radius_[i]) > 1e-14 * begin; ++k) {  // Illinois
-                const double end = radius_[i], middle = (end * here - other * next) / (here - next);
-                radius_[i] = middle;
-                const double value = pull(i);
-                if (value == 0) break;
-                if ((value > 0) != (next > 0))
-                    other = end, here = next;
-                else
-                    here *= 0.5;
-                next = value;
-            }
-            break;
-        }
-        return std::abs(radius_[i] - begin);
-    }
-    void relax() {
-        for (int sweep = 0; sweep < 10000; ++sweep) {
-            double moved = 0;
-            for (std::size_t i = 0; i < radius_.size(); ++i) moved = std::max(moved, move(i) / std::max(radius_[i], 1e-6));
-            if (moved < 1e-11) return;
-        }
-    }
-    Asperities a_;
-    double w_;
-    std::vector<double> radius_, f_;
+    double touches() const { return 0; }
+    double start(std::size_t i, double u) const { return std::sqrt(a.radius[i] * u); }  // as without adhesion
+    double seed(std::size_t i) const { return 1e-3 * std::cbrt(pi * w * a.radius[i] * a.radius[i] / kE); }
 };
 
 void test_minimiser() {
     for (unsigned seed = 1; seed <= 14; ++seed) {
-        const Random system = random_system(2 + static_cast<int>(seed % 7), seed);
-        Minimiser slow(system);
-        const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+        const RandomAsperities system = random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
+        PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
+        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
         const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
-        slow.Z_ = 0.02;
+        slow.Z = 0.02;
         for (int k = 0; k <= 60; ++k) {
             const double depth = 0.02 + length, down = k <= 30 ? k / 30.0 : 2 - k / 30.0;  // down and up
             const double Z = k <= 30 ? 0.0201 - depth * down : 0.02 + 2.5 * length - (depth + 2.5 * length) * down;
@@ -266,10 +163,10 @@ void test_minimiser() {
 // However the way down and up is cut, it ends in the same state, with the same loss.
 void test_cutting() {
     for (unsigned seed : {21u, 22u, 23u}) {
-        const Random system = random_system(12, seed);
+        const RandomAsperities system = random_asperities(12, seed, 0.2);
         double force = 0, lost = 0;
         for (int cuts : {1, 10, 100, 1000}) {
-            const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
             Level level;
             for (int k = 1; k <= cuts; ++k) level = contact->at_separation(0.02 - 0.03 * k / cuts);
             const double pressed = level.force;
@@ -282,47 +179,48 @@ void test_cutting() {
     }
 }
 
-// The work of a closed cycle is the energy lost: int N dZ0 between the jumps, which are found by going back and halving the way.
+// The work of a closed cycle is the energy lost.
 void test_work() {
     for (unsigned seed : {31u, 32u}) {
-        const Random system = random_system(5, seed);
-        const auto contact = make_asperity_contact(system.a, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
-        Level level = contact->at_separation(0.05);
-        double work = 0;
-        const double least = 1e-9;
-        const std::function<void(double, int)> go = [&](double Z, int depth) {
-            const std::vector<double> memory = contact->memory();
-            const Level before = level;
-            const double slope = contact->stiffness(), width = before.separation - Z;
-            level = contact->at_separation(Z);
-            const double mean = 0.5 * (before.force + level.force);
-            // int N dZ between the ends by the trapezoidal rule and the slopes; where that is not fine enough, half the way twice.
-            const double whole = width * mean + width * width / 12 * (slope - contact->stiffness());
-            const Level end = level;
-            contact->recall(memory, &before);
-            level = contact->at_separation(before.separation - 0.5 * width);
-            const double better = width * (before.force + 4 * level.force + end.force) / 6;
-            const bool jumps = end.energy_lost != before.energy_lost;
-            if ((jumps && std::abs(width) > least) || (!jumps && std::abs(whole - better) > 1e-12 && depth < 40)) {
-                contact->recall(memory, &before);
-                level = before;
-                go(before.separation - 0.5 * width, depth + 1);
-                go(Z, depth + 1);
-                return;
-            }
-            level = contact->at_separation(Z);
-            work += jumps ? width * mean : better;
-        };
-        const auto lead = [&](double to) {
-            while (level.separation != to) {
-                const double rest = to - level.separation;
-                go(std::abs(rest) < 2e-4 ? to : level.separation + std::copysign(2e-4, rest), 0);
-            }
-        };
-        lead(-0.01);
-        lead(0.05);
-        CHECK(level.contacts == 0);
-        CHECK_RELATIVE(work, level.energy_lost, 1e-6);
+        const RandomAsperities system = random_asperities(5, seed, 0.2);
+        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+        check_work_of_cycle(*contact, 0.05, -0.01);
+    }
+}
+
+// Without interaction the loss of a cycle is the sum of the asperities' own, also where forces are so large beside the attraction that the
+// default tolerance is coarse for it: the energy's error is of second order in the residual.
+void test_loss_under_load() {
+    const RandomAsperities system = random_asperities(12, 61, 0.1);
+    SolverOptions options = sticky(1e-8);
+    options.tolerance = 1e-6;
+    for (Interaction interaction : {Interaction::none, Interaction::point}) {
+        options.interaction = interaction;
+        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
+        double expected = 0;
+        for (double r : system.asperities.radius) {
+            const Jkr jkr{r, 1e-8};
+            expected += jkr.energy(jkr.least()) - jkr.energy(jkr.touching());
+        }
+        (void)contact->at_separation(0.02);
+        (void)contact->at_separation(-0.03);
+        const double lost = contact->at_separation(0.03).energy_lost;
+        // An asperity's own residual is at most 1e-6 and enters its energy near the fold with a large factor. The neighbours make each asperity's surroundings stiffer or softer by the order of a/d, here some per cent.
+        CHECK_RELATIVE(lost, expected, interaction == Interaction::none ? 1e-4 : 0.3);
+    }
+}
+
+// Spots that overlap so much that no stable state can be found: the level has no values, and the path goes on from the last accepted state.
+void test_lost() {
+    for (double range : {0.0, 0.003}) {
+        const RandomAsperities system = random_asperities(8, 9, 0.03);
+        SolverOptions options = sticky(system.w);
+        options.adhesion.range = range;
+        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
+        const Level lost = contact->at_separation(0);
+        CHECK(lost.status == LevelStatus::not_converged && std::isnan(lost.force) && std::isnan(contact->energy()));
+        const Level away = contact->at_separation(0.05);
+        CHECK(away.status == LevelStatus::converged && away.force == 0 && away.energy_lost == 0);
     }
 }
 
@@ -363,9 +261,10 @@ void test_force() {
 
 // A contact goes on from its memory as if nothing had been in between; trials leave no trace.
 void test_memory() {
-    const Random system = random_system(8, 41);
+    const RandomAsperities system = random_asperities(8, 41, 0.2);
     const Indenter tip{kE, kFlat, 0.5, 0.5};
-    const auto one = make_asperity_contact(system.a, tip, sticky(system.w)), other = make_asperity_contact(system.a, tip, sticky(system.w));
+    const auto one = make_asperity_contact(system.asperities, tip, sticky(system.w)),
+               other = make_asperity_contact(system.asperities, tip, sticky(system.w));
     (void)one->at_separation(0.0);
     const Level kept = one->at_separation(0.012);
     other->recall(one->memory(), &kept);
@@ -381,18 +280,20 @@ void test_memory() {
 
 // With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
 void test_elastic_limit() {
-    Random system = random_system(12, 51);
-    system.a.kappa1.clear(), system.a.kappa2.clear(), system.a.angle.clear(), system.a.biharmonic.clear();
-    for (double r : system.a.radius) {
-        system.a.kappa1.push_back(1.4 / r), system.a.kappa2.push_back(1 / (1.4 * r)), system.a.angle.push_back(0.3);
-        system.a.biharmonic.push_back(40 / (r * r));
+    RandomAsperities system = random_asperities(12, 51, 0.2);
+    system.asperities.kappa1.clear(), system.asperities.kappa2.clear(), system.asperities.angle.clear(),
+        system.asperities.biharmonic.clear();
+    for (double r : system.asperities.radius) {
+        system.asperities.kappa1.push_back(1.4 / r), system.asperities.kappa2.push_back(1 / (1.4 * r)),
+            system.asperities.angle.push_back(0.3);
+        system.asperities.biharmonic.push_back(40 / (r * r));
     }
     for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
         double before = 1;
         for (double w : {1e-6, 1e-8, 1e-10, 1e-12}) {
             const Indenter tip{kE, kFlat, 0.5, 0.5};
-            const Level e = make_asperity_contact(system.a, tip, sticky(0, law))->at_separation(0.004);
-            const auto contact = make_asperity_contact(system.a, tip, sticky(w, law));
+            const Level e = make_asperity_contact(system.asperities, tip, sticky(0, law))->at_separation(0.004);
+            const auto contact = make_asperity_contact(system.asperities, tip, sticky(w, law));
             const Level s = contact->at_separation(0.004);
             CHECK(s.contacts >= e.contacts);
             const double apart = std::abs(s.force / e.force - 1);
@@ -462,6 +363,8 @@ void test_refused() {
 
 TESTS {
     test_work();
+    test_loss_under_load();
+    test_lost();
     test_periodic();
     test_force();
     test_memory();

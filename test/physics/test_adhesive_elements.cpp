@@ -93,12 +93,14 @@ double pull_off_error(double lambda, double resolution) {
         least = level.least_force;
         jumps += level.jumps;
         if (u > 0.8 * end) {
+            // First order in h/z0: an edge may rest anywhere within a pixel, where the traction s0 acts or not.
             CHECK_CLOSE(level.force, truth.pressed(u).f, 0.35 / resolution * unit);
             CHECK_CLOSE(level.a.at(0), truth.pressed(u).a, h);
         }
     }
     level = contact->at_separation(2 * reach);
-    if (lambda >= 1) CHECK(jumps + level.jumps == 1);  // weaker attraction lets go more smoothly
+    jumps += level.jumps;
+    CHECK(jumps == 1);
     CHECK(level.contacts == 0 && level.force == 0 && level.energy_lost > 0);
     CHECK_CLOSE(contact->energy(), 0.0, 0.0);
     return least / truth.pull_off() - 1;
@@ -107,9 +109,39 @@ double pull_off_error(double lambda, double resolution) {
 void test_sphere() {
     for (double lambda : {0.3, 1.0}) {
         const double coarse = pull_off_error(lambda, 2), fine = pull_off_error(lambda, 4);
-        CHECK(std::abs(coarse) < 0.08);
+        // First order in h/z0 (0.15 h/z0 measured): half the pixels, half the error, but for where the edge happens to rest.
+        CHECK(std::abs(coarse) < 0.16 / 2);
         CHECK(std::abs(fine) < 0.7 * std::abs(coarse) + 0.005);
     }
+}
+
+// Two bumps of different height let go one after the other: two jumps on the way up. Over the cycle the work of the levels, by the trapezoidal
+// rule, is the energy lost.
+void test_two() {
+    constexpr int n = 64;
+    constexpr double h = 0.02, w = 0.01, range = 0.05;
+    HeightMap map;
+    map.allocate(n, 2 * n, n);
+    map.dx = map.dy = h;
+    for (int j = 0; j < 2 * n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const double x = (i + 0.5 - n / 2) * h, y = (j % n + 0.5 - n / 2) * h;
+            map.row(j)[i] = -0.5 * (x * x + y * y) - (j < n ? 0 : 0.04);
+        }
+    const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0}, sticky(w, range));
+    Level before = contact->at_separation(0.07);
+    double work = 0;
+    int jumps = 0;
+    for (int k = 0; k <= 52; ++k) {
+        const Level level = contact->at_separation(k <= 20 ? 0.07 - 0.006 * k : -0.05 + 0.006 * (k - 20));
+        work += 0.5 * (before.force + level.force) * (before.separation - level.separation);
+        if (k > 20) jumps += level.jumps;
+        CHECK_CLOSE(work - contact->energy(), level.energy_lost, 1e-6 * w * range);
+        before = level;
+    }
+    CHECK(jumps == 2);
+    CHECK(before.force == 0);
+    CHECK_RELATIVE(work, before.energy_lost, 1e-6);
 }
 
 // One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength in contact, phi = pi a/lambda, the mean
@@ -129,7 +161,8 @@ void test_wave() {
         CHECK(level.status != LevelStatus::not_converged);
         const double share = (level.area_pixels + 0.4 * level.cohesive_area) / (rows * h), phi = pi / 2 * share;
         const double expected = pi * height * std::pow(std::sin(phi), 2) - std::sqrt(2 * w * std::tan(phi));
-        CHECK_CLOSE(level.pressure, expected, 0.04 * pi * height);  // edges stay where they are for some of a pixel
+        // The edge of JKR lies in the cohesive zone, about E* z0^2/w = 7 pixels wide, and a pixel changes the pressure by up to 0.6 % of pi E* D.
+        CHECK_CLOSE(level.pressure, expected, 0.04 * pi * height);
         wide = std::max(wide, share), narrow = std::min(narrow, share);
     }
     CHECK(wide > narrow + 0.2);
@@ -190,6 +223,7 @@ void test_wrapped() {
 
 TESTS {
     test_wrapped();
+    test_two();
     test_wave();
     test_refused();
     test_memory_and_force();

@@ -12,11 +12,9 @@ constexpr std::size_t kWide = 8;  // pixels computed together
 
 using Eight = float __attribute__((vector_size(4 * kWide)));
 
-RSC_ALWAYS_INLINE Eight load(const float* from) {
-    Eight v;
-    __builtin_memcpy(&v, from, sizeof v);
-    return v;
-}
+using Unaligned = float __attribute__((vector_size(4 * kWide), aligned(4), may_alias));
+
+RSC_ALWAYS_INLINE const Unaligned& load(const float* from) { return *reinterpret_cast<const Unaligned*>(from); }
 
 // Values at kWide pixels from the pixel of the middle row at from[0]. A tap multiplies the sum of the four pixels at its offsets.
 RSC_ALWAYS_INLINE void convolve_body(int reach, const float* taps, const float* const* rows, std::ptrdiff_t at, float* y) {
@@ -83,7 +81,7 @@ Stencil::Stencil(int reach, const std::function<double(double, double)>& mode, c
 double Stencil::sum() const {
     double all = 0;
     for (int b = 0; b <= reach_; ++b)
-        for (int a = 0; a <= reach_; ++a) all += (a > 0 ? 2 : 1) * (b > 0 ? 2 : 1) * taps_[at(b * (reach_ + 1) + a)];
+        for (int a = 0; a <= reach_; ++a) all += (a > 0 ? 2.0F : 1.0F) * (b > 0 ? 2.0F : 1.0F) * taps_[at(b * (reach_ + 1) + a)];
     return all;
 }
 

@@ -6,6 +6,7 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSoftest = 0.1;  // least stiffness of an asperity with a range, relative to 2 E c
 
 // Bisection between two positive numbers for the limit of a property that holds at `yes` and not at `no`.
 template <class Property>
@@ -121,7 +122,7 @@ Sticking::State Sticking::attracting(const Limits& of, double s) const {
     const double to_s = 0.5 * r / c, slope = apart ? c / r - 4 * s0 / (pi * E) : u_c + G_c * 0.5 * pi / beta;
     state.du = to_s * slope;
     state.df = to_s * (2 * E * a * slope - 4 * s0 * c * beta);
-    state.stiffness = 2 * E * c;
+    state.stiffness = 2 * E * std::max(a, kSoftest * c);
     state.area = pi * a * a;
     state.outer = pi * c * c;
     // Elastic energy E int_0^c chi^2 dt with chi = u - t^2/r in the contact and -(2 s0/E) sqrt(c^2 - t^2) outside, minus the adhesive

@@ -8,6 +8,9 @@ namespace {
 using Vector = std::vector<double>;
 
 constexpr int kMostSteps = 30, kMostProducts = 400;
+// The residual is that of all asperities together, or this share of the largest relative to an asperity's own force and penetration of
+// detachment: beside large forces small contacts would otherwise be inaccurate.
+constexpr double kOwn = 1e-3, kRounding = 1e-9;
 constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
 double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
@@ -60,22 +63,28 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s) {
     const double shift = products_->kernel().shift() * force_;
     for (double& phi : phi_) phi -= shift;
     energy_ = 0;
-    double error2 = 0, size2 = 0;
+    double error2 = 0, size2 = 0, own = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const auto i = static_cast<std::size_t>(active[k]);
         const Sticking::State& now = state_[k];
         res_[k] = set.g0[i] - phi_[i] - now.u;
-        energy_ += now.energy + 0.5 * now.f * phi_[i];
-        error2 += std::pow(now.stiffness * res_[k], 2);
-        size2 += std::pow(now.stiffness * law_.lets_go(set.asperity[i]), 2) + now.f * now.f;
+        energy_ += now.energy + now.f * (0.5 * phi_[i] + res_[k]);  // an error of second order in the residual
+        const double miss = now.stiffness * res_[k], gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
+        const double size = std::hypot(now.stiffness * law_.lets_go(set.asperity[i]), now.f);
+        error2 += miss * miss, size2 += size * size;
+        own = std::max(own, std::abs(miss) / (size + kRounding * now.stiffness * gap));
     }
-    residual_ = n > 0 ? std::sqrt(error2 / size2) : 0.0;
-    // Coefficients of the symmetric systems.
+    residual_ = n > 0 ? std::max(std::sqrt(error2 / size2), kOwn * own) : 0.0;
+    weigh(0);
+}
+
+void AttachedSolver::weigh(double mu) {
+    const std::size_t n = state_.size();
     diagonal_.resize(n), p_.resize(n), to_s_.resize(n), in_.resize(n), out_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Sticking::State& now = state_[k];
-        const double q = now.stiffness * now.du - now.df, sign = now.df < 0 ? -1.0 : 1.0;
-        const double slope = std::max(std::abs(now.df), 1e-13 * now.stiffness);
+        const double df = now.df + mu * now.stiffness, q = now.stiffness * now.du - now.df, sign = df < 0 ? -1.0 : 1.0;
+        const double slope = std::max(std::abs(df), 1e-13 * now.stiffness);
         diagonal_[k] = sign * (sign * slope + q) / (slope + q);
         p_[k] = sign * std::sqrt(now.stiffness * slope / (slope + q));
         to_s_[k] = p_[k] / (sign * slope);
@@ -99,19 +108,23 @@ void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& 
 
 bool AttachedSolver::stable() {
     const std::size_t n = state_.size();
-    if (std::none_of(state_.begin(), state_.end(), [](const Sticking::State& now) { return now.df < 0; })) return true;
+    Vector right(n, -1.0), x;
+    solve_linear(right, 1e-5, change_);
+    const auto positive = [&](const Vector& ds, double sign) {
+        weakest_ = 0;
+        double lowest = 1;
+        for (std::size_t k = 0; k < n; ++k)
+            if (state_[k].df < 0 && !(sign * ds[k] >= lowest)) lowest = sign * ds[k], weakest_ = k;
+        return lowest > 0;
+    };
+    if (positive(change_, -1)) return true;
     const double shift = products_->kernel().shift();
-    Vector right(n), x;
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += in_[k] = state_[k].stiffness;
     products_->inner(in_.data(), right.data());
     for (double& value : right) value += 1 - shift * sum;
     solve_linear(right, 1e-3, x);
-    weakest_ = 0;
-    double lowest = 1;
-    for (std::size_t k = 0; k < n; ++k)
-        if (state_[k].df < 0 && x[k] < lowest) lowest = x[k], weakest_ = k;
-    return lowest > 0;
+    return positive(x, 1);
 }
 
 bool AttachedSolver::solve(const WorkingSet& set, double tolerance, Vector& s) {
@@ -142,9 +155,45 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, Vector& s) {
     return false;
 }
 
+std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& set, double tolerance, Vector& s) {
+    constexpr int most = 300;
+    constexpr double near = 1e-3, longest = 0.3, stalled = 1e-9, shrunk = 0.05;  // steps relative to s; s relative to its least value
+    Vector ds;
+    double mu = 1;
+    for (int step = 0; step < most; ++step) {
+        evaluate(set, s);
+        double change = 2 * longest;
+        for (int k = 0; k < 60 && change > longest; ++k) {
+            weigh(mu);
+            if (!stable()) {
+                mu *= 2;
+                continue;
+            }
+            solve_linear(res_, 1e-3, ds);
+            change = 0;
+            for (std::size_t i = 0; i < s.size(); ++i) change = std::max(change, std::abs(ds[i]) / s[i]);
+            if (change > longest) mu *= 2;
+        }
+        if (!(change <= longest) || change < stalled) break;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            s[i] += ds[i];
+            if (s[i] < shrunk * law_.least(set.asperity[static_cast<std::size_t>(products_->active()[i])])) return Relaxed{i};
+        }
+        if (change < near * std::min(1.0, 1 / mu)) {
+            Vector end = s;
+            if (solve(set, tolerance, end)) {
+                s = std::move(end);
+                return Relaxed{};
+            }
+        }
+        mu *= change < 0.5 * longest ? 0.5 : 1;
+    }
+    return std::nullopt;
+}
+
 AttachedSolver::Change AttachedSolver::change() {
     Change c;
-    solve_linear(Vector(state_.size(), -1.0), 1e-6, c.s);
+    c.s = change_;
     const double shift = products_->kernel().shift();
     Vector df(state_.size());
     for (std::size_t k = 0; k < df.size(); ++k) c.force += df[k] = state_[k].df * c.s[k];

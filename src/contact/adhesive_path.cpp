@@ -1,0 +1,402 @@
+#include "contact/adhesive_path.hpp"
+
+#include "error.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Tolerances relative to the detachment penetration of an asperity: for touching, for the detachment point, and the shortest step.
+constexpr double kTouching = 1e-8, kFold = 1e-4, kShortest = 1e-9;
+// Distance from touching, relative to the difference of the penetrations at attachment and detachment, from which a free asperity attaches
+// within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
+constexpr double kNearTouching = 1e-4;
+constexpr double kOnTheWay = 1e-7;  // residual of states between levels
+// Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
+// (far and near).
+constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
+    : of_surface(asperities_),
+      search(std::move(search_)),
+      of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
+      asperities(of_difference ? *of_difference : of_surface),
+      indenter(indenter_),
+      options(options_),
+      kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
+      law(make_law(options_.law, asperities, indenter_.E_star)),
+      sticking(*law, options_.adhesion.work, options_.adhesion.range),
+      direct(make_direct_products(kernel)),
+      solver(sticking),
+      place(asperities.size(), -1) {
+    const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what); };
+    if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
+    if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
+    if (options.method == Method::dgesv) refuse("not available with solver%method = 'dgesv': the paper's method excludes tension");
+    if (options.selection == Selection::paper)
+        refuse("not available with indentation%selection = 'paper': other asperities are attracted as well");
+    if (options.adhesion.range > 0 && options.law == LawKind::fourth_order)
+        refuse("not available yet with solids%adhesion_range > 0 and asperities%law = 'fourth_order'");
+    margin = options.adhesion.range;
+    ranking.assign(asperities, indenter);
+}
+
+// Includes all asperities in the set that may attach at separations down to `lowest`; attached ones are kept.
+void AdhesivePath::cover(double lowest) {
+    std::vector<int> attached;
+    for (int p : active) attached.push_back(set.asperity[at(p)]);
+    const Vector s = here.s;
+    for (int i : set.asperity) place[at(i)] = -1;
+    set = {}, clearance.clear();
+    covered = lowest - margin;
+    std::vector<int> fresh;
+    const std::size_t last = ranking.above(covered, fresh);
+    sticking.prepare(fresh);
+    const auto add = [&](int i, double height) {
+        place[at(i)] = set.size();
+        set.asperity.push_back(i);
+        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        set.x.push_back(image.x), set.y.push_back(image.y);
+        clearance.push_back(height);
+    };
+    for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
+    for (int i : attached)
+        if (place[at(i)] < 0) add(i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
+    set.g0.resize(clearance.size());
+    choose_products();
+    attach(attached, s);
+}
+
+void AdhesivePath::choose_products() {
+    const bool on_mesh = choose_method(options, *kernel, set) == Method::mesh;
+    if (on_mesh && !mesh) mesh = make_mesh_products(kernel, std::min(1e-6, 0.1 * options.tolerance), 1e-3);
+    products = on_mesh ? mesh.get() : direct.get();
+    goal = std::min(on_mesh ? 1e-8 : 1e-9, options.tolerance);  // full products are reproducible, whatever their error
+    products->set_points(set.size(), set.x.data(), set.y.data());
+    solver.use(*products);
+}
+
+// Sets the attached asperities and their states.
+void AdhesivePath::attach(const std::vector<int>& attached, const Vector& s) {
+    std::vector<std::pair<int, double>> order;
+    for (std::size_t k = 0; k < attached.size(); ++k) order.emplace_back(place[at(attached[k])], s[k]);
+    std::sort(order.begin(), order.end());
+    active.clear(), here.s.clear();
+    for (const auto& [position, state] : order) active.push_back(position), here.s.push_back(state);
+    products->set_active(active);
+}
+
+// Finds the equilibrium of the attached asperities at Z near s.
+bool AdhesivePath::find(double Z, Vector s, Point& point, double accuracy) {
+    ++steps;
+    for (std::size_t k = 0; k < clearance.size(); ++k) set.g0[k] = clearance[k] - Z;
+    if (!solver.solve(set, std::max(goal, accuracy), s)) return false;
+    point.Z = Z;
+    point.s = std::move(s);
+    point.states = solver.states();
+    point.force = solver.force(), point.energy = solver.energy(), point.residual = solver.residual();
+    point.u.clear();
+    for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)] - sticking.touches());
+    return true;
+}
+
+// Required margin: twice the largest height by which the forces of the last state raise any asperity, or 0 if the present margin is
+// sufficient.
+double AdhesivePath::raised() const {
+    double most = 0;
+    for (double phi : solver.phi()) most = std::max(most, -phi);
+    for (std::size_t k = 0; k < solver.states().size(); ++k) {  // near contacts under tension
+        const Sticking::State& state = solver.states()[k];
+        most = std::max(most, -solver.phi()[at(active[k])] - state.f * kernel->near() / std::sqrt(state.outer / std::numbers::pi));
+    }
+    const double range = options.adhesion.range;
+    return 1.2 * most > margin - range ? 2 * most + range : 0.0;
+}
+
+double AdhesivePath::near(int position) const {
+    const double width = sticking.touches() + scale(position);
+    return std::max(kTouching * scale(position), kNearTouching * width);
+}
+
+// Computes the derivatives of the last state with respect to Z.
+void AdhesivePath::complete(Point& point) { point.change = solver.change(); }
+
+// Finds an equilibrium at Z from states that are not in equilibrium: one by one, touching asperities are attached and those that shrink to
+// nothing are detached, or, where that cannot be followed, the one nearest to its own detachment.
+bool AdhesivePath::settle(double Z, Vector s) {
+    const std::size_t most = 100 + 4 * clearance.size();
+    bool stalled = false;
+    for (std::size_t k = 0; k < most; ++k) {
+        if (!find(Z, s, here)) {
+            std::size_t weakest = solver.weakest();
+            Vector calm = s;
+            const auto relaxed = stalled ? std::nullopt : solver.relax(set, goal, calm);
+            stalled = !relaxed;
+            if (relaxed) {
+                s = std::move(calm);
+                if (!relaxed->gone) continue;
+                weakest = *relaxed->gone;
+            }
+            active.erase(active.begin() + static_cast<std::ptrdiff_t>(weakest));
+            s.erase(s.begin() + static_cast<std::ptrdiff_t>(weakest));
+            products->set_active(active);
+            continue;
+        }
+        if (const double more = raised(); more > margin) {
+            margin = more;
+            cover(Z);
+            s = here.s;
+            continue;
+        }
+        s = here.s;
+        int touching = -1;
+        double deepest = 0;
+        for (std::size_t p = 0; p < here.u.size(); ++p) {
+            const int position = products->passive()[p];
+            if (const double u = here.u[p] / scale(position); u > deepest) deepest = u, touching = position;
+        }
+        if (touching < 0) {
+            complete(here);
+            return true;
+        }
+        const auto before = std::lower_bound(active.begin(), active.end(), touching) - active.begin();
+        active.insert(active.begin() + before, touching);
+        s.insert(s.begin() + before, sticking.state_at(set.asperity[at(touching)], sticking.touches() + deepest * scale(touching)));
+        products->set_active(active);
+    }
+    return false;
+}
+
+// From the energy before the jump, which takes place at Z + ahead and is computed at Z.
+void AdhesivePath::jump(double Z, double energy_before, Vector s, double ahead) {
+    if (!settle(Z, std::move(s))) lost_way = true;
+    ++jumps;
+    now.lost += energy_before - (here.energy - ahead * here.force);
+    now.least_force = std::min(now.least_force, here.force);
+}
+
+void AdhesivePath::let_go(std::size_t weakest, double Z, double energy_before) {
+    Vector s = here.s;
+    active.erase(active.begin() + static_cast<std::ptrdiff_t>(weakest));
+    s.erase(s.begin() + static_cast<std::ptrdiff_t>(weakest));
+    products->set_active(active);
+    jump(Z, energy_before, std::move(s));
+}
+
+// Restores the accepted state. Returns false if nothing is attached and nothing touches before the target.
+bool AdhesivePath::begin(double target) {
+    now = accepted;
+    jumps = steps = 0;
+    products_before = direct->count() + (mesh ? mesh->count() : 0);
+    lost_way = false;
+    active.clear();
+    here = {};
+    const double highest = ranking.highest() - sticking.touches();
+    if (now.asperity.empty()) {
+        if (!(target < highest)) {
+            for (int i : set.asperity) place[at(i)] = -1;
+            set = {}, clearance.clear(), covered = kInfinity;
+            return false;
+        }
+        here.Z = highest;
+        cover(std::nextafter(highest, -kInfinity));
+        find(here.Z, {}, here);
+        complete(here);
+        return true;
+    }
+    for (int i : set.asperity) place[at(i)] = -1;
+    set = {}, clearance.clear();
+    // cover() keeps attached asperities, so they are put into the set first.
+    for (int i : now.asperity) active.push_back(set.size()), set.asperity.push_back(i);
+    here.s = now.s;
+    cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
+    for (int k = 0; k < 2; ++k) {
+        if (!find(now.separation, here.s, here)) lost_way = true;
+        const double more = raised();
+        if (!(more > margin)) break;
+        margin = more;
+        cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
+    }
+    complete(here);
+    return true;
+}
+
+// Follows the path from `here` to a separation, or to the first state with the wanted force. Returns false if everything detached before.
+bool AdhesivePath::go(double target, std::optional<double> wanted) {
+    const double direction = target > here.Z ? 1 : -1;
+    Point before;  // previous state with the same attached asperities
+    bool known = false;
+    double shorter = 1;  // reduction of the step after a failure
+    double unstable_at = kInfinity;
+    long left_there = 0;  // number of asperities detached at this separation because no step was short enough
+    for (long guard = 0; here.Z != target; ++guard) {
+        if (lost_way || guard > 1000000) return lost_way = true;
+        if (active.empty() && direction > 0) return false;
+        // Attaches an asperity that touches.
+        const auto& passive = products->passive();
+        std::optional<int> touching;
+        double step = std::abs(target - here.Z), ahead = 0;
+        for (std::size_t p = 0; p < passive.size() && !touching; ++p) {
+            const double rate = direction * here.change.u[p];
+            if (rate <= 0) continue;
+            if (here.u[p] >= -kTouching * scale(passive[p]) || (here.u[p] >= -near(passive[p]) && -here.u[p] < rate * step))
+                touching = passive[p], ahead = -direction * here.u[p] / rate;
+            step = std::min(step, -here.u[p] / rate);
+        }
+        if (touching) {
+            Vector s = here.s;
+            const auto k = std::lower_bound(active.begin(), active.end(), *touching) - active.begin();
+            active.insert(active.begin() + k, *touching);
+            s.insert(s.begin() + k, sticking.state_at(set.asperity[at(*touching)], sticking.touches()));
+            products->set_active(active);
+            jump(here.Z, here.energy - ahead * here.force, std::move(s), ahead);
+            known = false, shorter = 1;
+            continue;
+        }
+        // Limits the step to a part of the distance to the next detachment; very close to it, the asperity is detached.
+        double way = kInfinity;
+        std::size_t weakest = 0;
+        for (std::size_t k = 0; k < active.size(); ++k) {
+            const Sticking::State& state = here.states[k];
+            const double rate = direction * here.change.s[k];
+            if (!(rate < 0)) continue;
+            const double own = (state.u - sticking.lets_go(set.asperity[at(active[k])])) / (state.du * -rate);
+            if (state.df >= 0) {
+                step = std::min(step, kNearWay * own);
+                continue;
+            }
+            double left = kInfinity, share = kFarWay;
+            if (known) {  // 1/rate^2 decreases linearly to 0
+                const double g = 1 / (rate * rate), g_before = 1 / std::pow(before.change.s[k], 2);
+                if (g < g_before) left = g * std::abs(here.Z - before.Z) / (g_before - g);
+                if (g < 0.3 * g_before) share = kNearWay;
+            }
+            const double mine = std::min(kOwnWay * own, share * left);
+            if (const double end = std::min(own, left); end < kFold * scale(active[k])) {
+                if (end < way) way = end, weakest = k;
+                continue;
+            }
+            step = std::min(step, mine);
+        }
+        if (way <= step) {
+            const double Z = here.Z + direction * way;
+            const double energy_there = here.energy - direction * here.force * way - 2.0 / 3 * here.change.force * way * way;
+            now.least_force = std::min(now.least_force, here.force);
+            let_go(weakest, Z, energy_there);
+            known = false, shorter = 1;
+            continue;
+        }
+        if (wanted) {
+            const double toward = (*wanted - here.force) / here.change.force * direction;
+            const double reach = 0.5 * std::abs(ranking.highest() - here.Z) + (active.empty() ? 0.0 : scale(active[0]));
+            step = std::min(step, toward > 0 ? std::min(1.01 * toward, 4 * reach) : reach);
+        }
+        step *= shorter;
+        double smallest = kInfinity;
+        for (int p : active) smallest = std::min(smallest, scale(p));
+        if (step < kShortest * smallest && shorter < 1 && !active.empty()) {
+            std::size_t fastest = 0;
+            double most = -1;
+            for (std::size_t k = 0; k < active.size(); ++k) {
+                const double rate = std::abs(here.change.s[k]) / here.s[k];
+                if (here.states[k].df < 0 && rate > most) most = rate, fastest = k;
+            }
+            // The same asperities attach again and detach again where stability cannot be decided, because contacts overlap.
+            if (std::abs(here.Z - unstable_at) > kShortest * smallest) unstable_at = here.Z, left_there = 0;
+            if (++left_there > 10 + static_cast<long>(active.size())) return lost_way = true;
+            let_go(fastest, here.Z, here.energy);
+            known = false, shorter = 1;
+            continue;
+        }
+        const double Z = step >= std::abs(target - here.Z) ? target : here.Z + direction * step;
+        if (Z == here.Z) return lost_way = true;
+        if (Z - margin < covered) {
+            cover(std::min(Z, wanted ? Z - 0.1 * std::abs(ranking.highest() - Z) : target));
+            if (!find(here.Z, here.s, here)) return lost_way = true;
+            complete(here);
+            known = false;
+            continue;
+        }
+        Vector start(here.s.size());
+        for (std::size_t k = 0; k < start.size(); ++k) {
+            const double least = sticking.least(set.asperity[at(active[k])]);
+            start[k] = std::max(here.s[k] + (Z - here.Z) * here.change.s[k], 0.5 * (here.s[k] + least));
+        }
+        Point there;
+        if (!find(Z, std::move(start), there, Z == target ? 0.0 : kOnTheWay)) {
+            shorter *= 0.3;
+            continue;
+        }
+        if (const double more = raised(); more > margin) {
+            margin = more;
+            covered = kInfinity;
+            continue;
+        }
+        // If an asperity penetrates too deeply, the step is reduced to where it touched.
+        const double length = std::abs(Z - here.Z);
+        double share = 1;
+        for (std::size_t p = 0; p < there.u.size(); ++p) {
+            if (!(there.u[p] > (Z == target ? kTouching * scale(passive[p]) : near(passive[p])))) continue;
+            const double slope = direction * here.change.u[p] * length, bend = there.u[p] - here.u[p] - slope;
+            const double root = std::sqrt(std::max(slope * slope - 4 * bend * here.u[p], 0.0));
+            const double x = -2 * here.u[p] / (slope + root);
+            share = std::min(share, x > 0 && x < 1 ? x : -here.u[p] / (there.u[p] - here.u[p]));
+        }
+        if (share < 1) {
+            shorter *= std::max(share, 1e-3) * length / step;
+            continue;
+        }
+        complete(there);
+        // An asperity that approaches and retreats within the step may have touched.
+        bool between = false;
+        for (std::size_t p = 0; p < there.u.size() && !between; ++p) {
+            const double up = direction * here.change.u[p] * length, down = -direction * there.change.u[p] * length;
+            if (up <= 0 || down <= 0) continue;
+            const double x = up / (up + down), rest = 1 - x;  // near the maximum of the cubic through both ends
+            const double value =
+                here.u[p] * rest * rest * (1 + 2 * x) + up * x * rest * rest + there.u[p] * x * x * (1 + 2 * rest) + down * x * x * rest;
+            between = value > near(passive[p]);
+        }
+        if (between && shorter > 1e-3) {
+            shorter *= 0.5;
+            continue;
+        }
+        shorter = 1;
+        const Point &low = direction > 0 ? here : there, &high = direction > 0 ? there : here;
+        if (low.change.force < 0 && high.change.force > 0) {
+            // The smallest force is between both ends and at most `most` below them.
+            const double most = std::max(std::abs(low.change.force), high.change.force) * length;
+            const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
+            if (std::min(low.force, high.force) - most < bound) {
+                const Point least = least_between(low, high);
+                now.least_force = std::min(now.least_force, least.force);
+                if (wanted && here.force > *wanted && least.force <= *wanted && find_force(here, least, *wanted)) return true;
+            }
+        }
+        const bool crossed = wanted && (here.force - *wanted) * (there.force - *wanted) <= 0;
+        if (crossed && find_force(here, there, *wanted)) return true;
+        now.least_force = std::min(now.least_force, there.force);
+        before = std::move(here);
+        here = std::move(there);
+        known = true;
+    }
+    return true;
+}
+
+AdhesivePath::Past AdhesivePath::past() const {
+    Past p = now;
+    p.separation = here.Z;
+    std::vector<std::pair<int, double>> order;
+    for (std::size_t k = 0; k < active.size(); ++k) order.emplace_back(set.asperity[at(active[k])], here.s[k]);
+    std::sort(order.begin(), order.end());
+    p.asperity.clear(), p.s.clear();
+    for (const auto& [asperity, s] : order) p.asperity.push_back(asperity), p.s.push_back(s);
+    return p;
+}
+
+}  // namespace rsc

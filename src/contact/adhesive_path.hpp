@@ -1,0 +1,88 @@
+// The path of adhesive asperities under a changing separation (adhesive_contact.hpp): attachments, detachments, avalanches, and states of a
+// given force on the way.
+#pragma once
+
+#include "contact/asperity_level.hpp"
+#include "contact/contact.hpp"
+#include "contact/interaction/products.hpp"
+#include "contact/law/sticking.hpp"
+#include "contact/ranking.hpp"
+#include "contact/solver/attached.hpp"
+#include "contact/touching.hpp"
+
+namespace rsc {
+
+struct AdhesivePath {
+    using Vector = std::vector<double>;
+
+    // State left by accepted levels.
+    struct Past {
+        double separation = std::numeric_limits<double>::infinity();
+        std::vector<int> asperity;  // attached asperities, increasing
+        Vector s;
+        double lost = 0;         // energy dissipated since the beginning
+        double least_force = 0;  // smallest force since the beginning
+    };
+
+    const Asperities& of_surface;
+    SummitSearch search;
+    std::optional<Asperities> of_difference;
+    mutable FlankTouch flanks;
+    const Asperities& asperities;  // refers to one of the two above
+    Indenter indenter;
+    SolverOptions options;
+    std::shared_ptr<const Kernel> kernel;
+    std::unique_ptr<Law> law;
+    Sticking sticking;
+    Ranking ranking;
+    std::unique_ptr<Products> direct, mesh;
+    Products* products = nullptr;
+    AttachedSolver solver;
+    double goal = 1e-9;  // tolerance of the relative residual
+
+    Past accepted, now;
+    int jumps = 0, steps = 0;
+    long products_before = 0;
+    bool lost_way = false;  // the path could not be followed, e.g. an avalanche did not end
+
+    // Working set: asperities that may attach, and the attached ones.
+    WorkingSet set;
+    Vector clearance;
+    std::vector<int> place;                                    // position of an asperity in the set; -1: not in the set
+    double covered = std::numeric_limits<double>::infinity();  // asperities with a clearance above this are in the set
+    double margin = 0;        // height by which forces may raise an asperity, and the range of the attraction
+    std::vector<int> active;  // positions of the attached in the set
+
+    // A state on the path.
+    struct Point {
+        double Z = 0;
+        Vector s;  // states of the attached
+        Vector u;  // penetrations of the others, relative to attachment
+        std::vector<Sticking::State> states;
+        double force = 0, energy = 0, residual = 0;
+        AttachedSolver::Change change;
+    };
+    Point here;
+
+    // As AdhesiveContact.
+    AdhesivePath(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_);
+
+    void cover(double lowest);
+    void choose_products();
+    void attach(const std::vector<int>& attached, const Vector& s);
+    bool find(double Z, Vector s, Point& point, double accuracy = 0);
+    void complete(Point& point);
+    double raised() const;
+    bool settle(double Z, Vector s);
+    void jump(double Z, double energy_before, Vector s, double ahead = 0);
+    void let_go(std::size_t weakest, double Z, double energy_before);
+    bool go(double target, std::optional<double> wanted);
+    bool begin(double target);
+    Point least_between(const Point& a, const Point& b);
+    bool find_force(const Point& a, const Point& b, double wanted);
+    double scale(int position) const { return -sticking.lets_go(set.asperity[static_cast<std::size_t>(position)]); }
+    double near(int position) const;
+    Past past() const;
+};
+
+}  // namespace rsc
