@@ -84,6 +84,7 @@ void tell_convergence(const rsc_contact& contact) {
             throw Outcome{RSC_NOT_CONVERGED, "no state has this force: the result is the level of smallest force"};
         if (contact.known.level->fallback == rsc::Fallback::jump)
             throw Outcome{RSC_NOT_CONVERGED, "the force jumps over this one: the result is a state at one side of the jump"};
+        if (std::isnan(contact.known.level->force)) throw Outcome{RSC_NOT_CONVERGED, "the solver found no state: there are no results"};
         throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
 }

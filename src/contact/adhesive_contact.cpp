@@ -108,7 +108,7 @@ AdhesiveContact::~AdhesiveContact() = default;
 
 Level AdhesiveContact::solve(double Z0) {
     Impl& my = *impl_;
-    if (my.begin(Z0)) my.go(Z0, std::nullopt);
+    if (my.begin(Z0) && !my.lost_way) my.go(Z0, std::nullopt);
     my.here.Z = Z0;
     return my.report();
 }
@@ -116,15 +116,18 @@ Level AdhesiveContact::solve(double Z0) {
 std::optional<Level> AdhesiveContact::solve_under(double N) {
     Impl& my = *impl_;
     const bool anything = my.begin(-kInfinity);
+    if (my.lost_way) return my.report();
     if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
         const bool down = my.here.force < N && !(my.active.empty() && N < 0);
         if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
+            if (my.lost_way) return my.report();
             // No state has this force: returns to the state with the smallest force.
             const double least = my.now.least_force;
             for (const double above : {1e-7, 1e-5, 1e-3}) {
                 my.begin(-kInfinity);
                 if (my.active.empty() || (my.go(1e300, least * (1 - above)) && !my.lost_way)) break;
             }
+            if (my.lost_way) return my.report();
             Level level = my.report();
             level.fallback = Fallback::held;
             level.status = LevelStatus::not_converged;

@@ -209,6 +209,7 @@ Level State::solve(double Z) {
     level.separation = Z;
     level.method = Method::automatic;
     const bool converged = renew(Z, level);
+    if (!converged) gap.assign(reach.size(), 0.0);
     level.candidates = static_cast<std::int32_t>(reach.size());
     now.separation = Z;
     now.attracting.clear();
@@ -339,7 +340,9 @@ public:
         for (std::size_t k = kKept; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
         forget_levels();
         state_.accepted = std::move(past);
-        if (level || state_.accepted.separation < kInfinity) (void)solve(level ? level->separation : state_.accepted.separation);
+        if ((level || state_.accepted.separation < kInfinity) &&
+            solve(level ? level->separation : state_.accepted.separation).status == LevelStatus::not_converged)
+            throw Error(Failure::bad_input, "the state of the contact cannot be reached again: the solver does not converge");
         state_.keep();
     }
 
@@ -372,7 +375,7 @@ protected:
             Z = std::max(Z + way * step, std::nextafter(closed(), kInfinity));
             step *= 1.4;
             miss = look(Z);
-            if (level.force < least) least = level.force, least_at = Z;
+            if (level.status != LevelStatus::not_converged && level.force < least) least = level.force, least_at = Z;
             found = precise(miss);
         }
         if (!found && miss * before_miss < 0) {
@@ -389,7 +392,7 @@ protected:
         }
         if (!found) {
             (void)look(least_at);
-            level.fallback = Fallback::held;
+            if (level.status != LevelStatus::not_converged) level.fallback = Fallback::held;
             level.status = LevelStatus::not_converged;
         }
         level.iterations = iterations, level.products = products;

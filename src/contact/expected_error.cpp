@@ -8,7 +8,7 @@ namespace {
 using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is the constant 1
 
 // Descriptions of the predictors in the order of the table, as in input/trust/trust.py.
-constexpr const char* kCauses[kErrorPredictors + 2] = {
+constexpr const char* kCauses[kErrorPredictors + 3] = {
     "",
     "the slope of the indenter at the contacts, which touches points beside summits (slope_ratio)",
     "contacts as wide as the waves of the surface: the law describes a summit, not its surroundings",
@@ -20,6 +20,7 @@ constexpr const char* kCauses[kErrorPredictors + 2] = {
     "yielding contacts",
     "two flats",
     "spikes one point wide, of unknown shape",
+    "contacts not much smaller than the top layer is thick",
 };
 
 Predictors predictors(const Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
@@ -91,7 +92,8 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
     // The laws are those of half-spaces: with layers, the additional error increases with the share a/h of the top layer's thickness that
     // contacts have as radius (test/README, asperities against elements on coated surfaces).
     const double deep = indenter.layers.count > 0 ? mean_radius(level) / indenter.layers.layer[0].thickness : 0;
-    level.force_error_expected = bound(of_force) * (options.measured ? files_force : 1.0) + kLayersForce * deep * deep * deep;
+    const double by_layers = kLayersForce * deep * deep * deep;
+    level.force_error_expected = bound(of_force) * (options.measured ? files_force : 1.0) + by_layers;
     level.area_error_expected = bound(of_area) * (options.measured ? files_area : 1.0) + kLayersArea * std::pow(deep, 1.5);
     const double spikes = options.marks ? spike_share(level, *options.marks) : 0;
     level.force_error_expected += spikes, level.area_error_expected += spikes;
@@ -102,6 +104,7 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
         if (const double part = of_force[k] * (x[k] - least); part > most) most = part, level.error_cause = static_cast<std::int32_t>(k);
     }
     if (spikes > kMuchError) level.error_cause = kErrorPredictors + 1;
+    if (by_layers > kMuchError) level.error_cause = kErrorPredictors + 2;
 }
 
 }  // namespace rsc

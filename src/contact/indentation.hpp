@@ -108,7 +108,7 @@ struct SolverOptions {
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double rms_slope = 0;        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
     Rectangle surface;           // the free surface, for counting contacts near its border; not counted if unknown
-    bool measured = false;       // heights from a file, for which expected errors are larger
+    bool measured = false;       // heights of either body from a file or a caller, for which expected errors are larger
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
 };
 

@@ -25,7 +25,7 @@ HeightMap empty_map(double L, int n) {
 
 bool made_as_transpose(const Spectrum& spectrum) {
     const double angle = spectrum.direction - 180 * std::floor(spectrum.direction / 180);
-    return spectrum.aspect != 1 && angle > 45 && angle <= 135;
+    return spectrum.aspect != 1 && angle > 45 && angle < 135;
 }
 
 Spectrum transposed(const Spectrum& spectrum) {

@@ -290,6 +290,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     SurfaceModel model;
     model.measured = surface.origin.measured;
     model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
+    model.domain.measured = !surface.origin.theory;
     if (!surface.origin.theory) model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
     model.domain.repeats = map.periodic;
     model.domain.sigma = surface.origin.sigma;
@@ -462,7 +463,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.points_per_wave = domain.points_per_wave;
     options.rms_slope = domain.rms_slope;
     const bool free = settings.indentation.boundary == Boundary::free;
-    options.measured = settings.surface.source == Source::heights;
+    options.measured = domain.measured || !settings.indenter.file.empty();
     if (free) options.marks = domain.marks;
     if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {

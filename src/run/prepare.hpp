@@ -59,6 +59,7 @@ struct SurfaceDomain : Domain {
     double rms_slope = 0;                             // 0: not known (a list)
     bool repeats = false;                             // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
+    bool measured = false;                            // heights from a file or from the caller of the library
 };
 
 // The surface for contacts: asperities, or with solver%model = 'elements' the points of the surface.

@@ -168,7 +168,9 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         double worst = 0;
         for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // ignores NaN
         tell(count([](const LevelValues& l) { return l.force_error_expected > kUnresolved; }),
-             format("a finer grid may change N by more than 1 %%, at most by %.2g %% (force_error_expected); ", 100 * worst) + remedy);
+             format("a finer grid may change N by more than 1 %%, in nine of ten cases by less than %.2g %% (force_error_expected); ",
+                    100 * worst) +
+                 remedy);
     }
     if (!elements) {
         tell(

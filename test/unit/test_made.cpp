@@ -78,7 +78,7 @@ void summits() {
 
 // The closed forms of the moments against sums over the modes drawn, whose mean over surfaces they are, and against finite differences.
 void moments() {
-    for (const auto& [aspect, direction] : {std::pair{3.0, 0.0}, {3.0, 30.0}, {6.0, 115.0}}) {
+    for (const auto& [aspect, direction] : {std::pair{3.0, 0.0}, {3.0, 30.0}, {6.0, 115.0}, {2.0, 135.0}, {2.0, -45.0}}) {
         const Spectrum s = model(aspect, direction);
         const MomentTensor theory = theoretical_moments(s).tensor;
         MomentTensor mean;

@@ -38,8 +38,7 @@ Spots spots(int nx, int ny) {
 void stencil(int nx, int ny) {
     const Spots set = spots(nx, ny);
     constexpr int reach = 3;
-    //
-    const Stencil taps(
+    const PixelStencil taps(
         reach, [](double kx, double ky) { return kx + 2 * ky; }, [](int a) { return 1 - std::abs(a) / 4.0; });
     SparsePlane plane(nx, ny);
     std::vector<float> x(set.p.begin(), set.p.end()), y(x.size()), unit(x.size(), 0.0f), response(x.size());
@@ -51,12 +50,20 @@ void stencil(int nx, int ny) {
         full.rows.push_back(full.p.size());
     }
     const std::size_t width = 2 * reach + 1;
-    std::vector<float> one(width * width, 0.0f), tap(width * width);
+    std::vector<float> one(width * width, 0.0f), tap(width * width), response_of_one(width * width);
     one[reach * width + reach] = 1;
     SparsePlane(2 * reach + 1, 2 * reach + 1).convolve(taps, {full.rows, full.column}, one.data(), tap.data(), 1);
     double sum = 0, worst = 0;
     for (float t : tap) sum += static_cast<double>(t);
     CHECK_CLOSE(sum, taps.sum(), 1e-5);
+    // Second differences along x.
+    const PixelStencil second(
+        reach, [](double kx, double) { return 2 - 2 * std::cos(kx); }, [](int) { return 1.0; });
+    SparsePlane(2 * reach + 1, 2 * reach + 1).convolve(second, {full.rows, full.column}, one.data(), response_of_one.data(), 1);
+    for (std::size_t k = 0; k < response_of_one.size(); ++k) {
+        const auto from_middle = static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(reach * width + reach);
+        CHECK_CLOSE(response_of_one[k], from_middle == 0 ? 2.0 : std::abs(from_middle) == 1 ? -1.0 : 0.0, 1e-5);
+    }
     const auto around = [](int d, int n) { return (d % n + n + n / 2) % n - n / 2; };
     for (int j = 0; j < ny; ++j)
         for (std::size_t k = set.rows[static_cast<std::size_t>(j)]; k < set.rows[static_cast<std::size_t>(j) + 1]; ++k) {

@@ -1,5 +1,6 @@
 #include "contact/interaction/sparse_plane.hpp"
 
+#include "error.hpp"
 #include "rough/dispatch.hpp"
 #include "rough/parallel.hpp"
 #include "rough/surface.hpp"
@@ -58,8 +59,10 @@ double sharpened(double k) {
 
 }  // namespace
 
-Stencil::Stencil(int reach, const std::function<double(double, double)>& mode, const std::function<double(int)>& window) : reach_(reach) {
-    // Sums over the modes of a period of 64 pixels, separable in the two directions.
+PixelStencil::PixelStencil(int reach, const std::function<double(double, double)>& mode, const std::function<double(int)>& window)
+    : reach_(reach) {
+    if (reach > SparsePlane::kMostReach) throw Error(Failure::internal, "stencil: reach");
+    // Sums over the modes of a period of 128 pixels, separable in the two directions.
     constexpr int modes = 64;
     taps_.assign(at((reach + 1) * (reach + 1)), 0.0f);
     std::vector<double> cosine(at((reach + 1) * modes)), half(at((reach + 1) * modes), 0.0);
@@ -78,7 +81,7 @@ Stencil::Stencil(int reach, const std::function<double(double, double)>& mode, c
         }
 }
 
-double Stencil::sum() const {
+double PixelStencil::sum() const {
     double all = 0;
     for (int b = 0; b <= reach_; ++b)
         for (int a = 0; a <= reach_; ++a) all += (a > 0 ? 2.0F : 1.0F) * (b > 0 ? 2.0F : 1.0F) * taps_[at(b * (reach_ + 1) + a)];
@@ -102,7 +105,7 @@ void SparsePlane::place(int j, const PixelSet& set, F&& value) {
     }
 }
 
-void SparsePlane::convolve(const Stencil& stencil, const PixelSet& set, const float* x, float* y, int threads) {
+void SparsePlane::convolve(const PixelStencil& stencil, const PixelSet& set, const float* x, float* y, int threads) {
     if (!plane_) {
         const std::size_t n = stride_ * at(ny_) / 2;
         plane_.reset(reinterpret_cast<float*>(allocate_doubles(n, "the pressures on some pixels")));

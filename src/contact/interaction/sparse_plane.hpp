@@ -13,11 +13,11 @@ struct PixelSet {
 };
 
 // A function of the offset (a, b) with |a|, |b| <= reach, even in a and in b, without unit.
-class Stencil {
+class PixelStencil {
 public:
-    Stencil() = default;
+    PixelStencil() = default;
     // The function with the transform `mode`(kx, ky), kx and ky in (0, pi), multiplied by `window`(a) window(b).
-    Stencil(int reach, const std::function<double(double, double)>& mode, const std::function<double(int)>& window);
+    PixelStencil(int reach, const std::function<double(double, double)>& mode, const std::function<double(int)>& window);
     int reach() const { return reach_; }
     double sum() const;
 
@@ -33,7 +33,7 @@ public:
     SparsePlane(int nx, int ny);
     // y = stencil * x for x on the pixels of the set and y on the same pixels. Results do not depend on the number of threads. The memory is
     // allocated by the first call, which may throw Error(no_memory).
-    void convolve(const Stencil& stencil, const PixelSet& set, const float* x, float* y, int threads);
+    void convolve(const PixelStencil& stencil, const PixelSet& set, const float* x, float* y, int threads);
 
 private:
     static constexpr int kMargin = kMostReach + 8;
@@ -59,7 +59,7 @@ public:
 private:
     int nx_, ny_;
     PeriodicPixels<float> coarse_;
-    Stencil near_;
+    PixelStencil near_;
     std::vector<float> x_, y_, lines_;
 };
 

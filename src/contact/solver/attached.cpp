@@ -109,20 +109,23 @@ void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& 
 bool AttachedSolver::stable() {
     const std::size_t n = state_.size();
     Vector right(n, -1.0), x;
-    solve_linear(right, 1e-5, change_);
-    const auto positive = [&](const Vector& ds, double sign) {
-        weakest_ = 0;
-        double lowest = 1;
-        for (std::size_t k = 0; k < n; ++k)
-            if (state_[k].df < 0 && !(sign * ds[k] >= lowest)) lowest = sign * ds[k], weakest_ = k;
-        return lowest > 0;
-    };
-    if (positive(change_, -1)) return true;
+    solve_linear(right, 1e-6, change_);
     const double shift = products_->kernel().shift();
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += in_[k] = state_[k].stiffness;
     products_->inner(in_.data(), right.data());
-    for (double& value : right) value += 1 - shift * sum;
+    double crowded = 0;  // largest row sum of B D: (I + B D)^-1 1 is positive if it is below 1
+    for (double& value : right) value += -shift * sum, crowded = std::max(crowded, value), value += 1;
+    const auto positive = [&](const Vector& ds, double sign) {
+        weakest_ = 0;
+        double lowest = 1;
+        for (std::size_t k = 0; k < n; ++k) {
+            if (std::isnan(ds[k])) return false;
+            if (state_[k].df < 0 && sign * ds[k] < lowest) lowest = sign * ds[k], weakest_ = k;
+        }
+        return lowest > 0;
+    };
+    if (crowded < 1 && positive(change_, -1)) return true;
     solve_linear(right, 1e-3, x);
     return positive(x, 1);
 }

@@ -8,7 +8,8 @@
 //     H = Q [diag(u'/q) - B (I + D B)^-1] Q,
 // and the Newton matrix is (I + B D) Q^-1 H: both become singular together. The off-diagonal elements of H are not positive, because a
 // larger contact pulls on its neighbours; hence H is positive definite if H x = b > 0 has a solution x > 0 (an M-matrix). The
-// derivative x = -ds/dZ0, right-hand side 1 in the Newton system, is tried first: b = Q (I + B D)^-1 1 is positive unless contacts are crowded.
+// derivative x = -ds/dZ0, right-hand side 1 in the Newton system, is tried first if contacts are not crowded: b = Q (I + B D)^-1 1 is positive if
+// the row sums of B D are below 1.
 // Otherwise b = q 1 is tried, with the right-hand side 1 + B D.
 // For y = ds f'/p with p = sign(f') sqrt(D |f'|/(|f'| + q))
 // the systems are symmetric, with the matrix diag((f' + q)/(|f'| + q)) sign(f') + p B p. Its diagonal is positive for asperities that are

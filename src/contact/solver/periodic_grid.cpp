@@ -35,7 +35,7 @@ PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double hi
     rows_.assign(at(ny) + 1, 0);
     // K^-1 by offset: |k|/2/(1 + share), multiplied by a window with a non-negative transform, so that the result is positive semidefinite as
     // well.
-    inverse_ = Stencil(
+    inverse_ = PixelStencil(
         kReach,
         [&](double kx, double ky) {
             const double k = std::hypot(kx, ky / aspect);

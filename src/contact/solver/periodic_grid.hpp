@@ -78,7 +78,7 @@ private:
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
     SparsePlane plane_;
-    Stencil inverse_;                     // preconditioner
+    PixelStencil inverse_;                // preconditioner
     std::unique_ptr<SplitPixels> split_;  // null: not for this grid
     std::vector<float> from_, to_;
     long products_ = 0;
