@@ -126,7 +126,7 @@ bool AttachedSolver::stable() {
         return lowest > 0;
     };
     if (crowded < 1 && positive(change_, -1)) return true;
-    solve_linear(right, 1e-3, x);
+    solve_linear(right, 1e-6, x);
     return positive(x, 1);
 }
 
