@@ -217,10 +217,11 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         "no state has the force asked for: the level is the last stable one, that of the smallest force, where the bodies part under a dead "
         "load; give separations (indentation%control = 'separation') to go beyond.");
     const auto jump = [](const LevelValues& l) { return l.fallback == Fallback::jump; };
-    tell(count(jump), status_text(LevelStatus::not_converged) +
-                          " - the force asked for is inside a jump of N(Z0): close contacts have several solutions and change together, so "
-                          "that no separation has this force. The level is a state at one side of the jump; prescribe separations there, "
-                          "another force, or use solver%model = 'elements'.");
+    tell(count(jump),
+         status_text(LevelStatus::not_converged) +
+             " - the force asked for is inside a jump of N(Z0), so that no separation has it. The level is a state at one side of "
+             "the jump; prescribe separations there, or another force" +
+             (elements ? "." : "; solver%model = 'elements' has no such jumps between close contacts."));
     const auto failed = [&](const LevelValues& l) { return l.status == LevelStatus::not_converged && !held(l) && !jump(l); };
     const auto lost = [&](const LevelValues& l) { return failed(l) && !elements && job.settings.solids.adhesion > 0; };
     tell(count(lost), status_text(LevelStatus::not_converged) +
