@@ -204,15 +204,18 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     const double count = sum([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
     std::fill(p_.begin(), p_.end(), 0.0);
     std::fill(w_.begin(), w_.end(), -1.0);
+    double residual = 0;
     for (int round = 0; round < most_rounds && count > 0; ++round) {
         descend(most_steps, reduction);
         if (most_rounds == 1) break;
         multiply(p_, w_, !manner_.repeats);
         for (double& v : w_) v -= 1;
-        if (std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count) <= tolerance) break;
+        residual = std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count);
+        if (residual <= tolerance) break;
     }
-    // The error of 2 1'q - q'Kq is of second order in the residual.
-    const double answer = sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; });
+    // The error of 2 1'q - q'Kq is of second order in the residual. Without convergence there is no stiffness.
+    constexpr double useless = 0.1;
+    const double answer = residual <= useless ? sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; }) : std::nan("");
     p_ = p;
     w_ = w;
     wanted_ = wanted;
