@@ -138,7 +138,10 @@ double comparison_seconds(const Job& job) {
     const double once = c.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
     double seconds = 0;
     for (std::size_t k = 0; k < (c.compare.listed() ? c.compare.levels.size() : 1) && !job.levels.empty(); ++k)
-        seconds += once * kWithCoarser * element_seconds(job, likely_separation(job, job.levels.back()), c.elements.points_per_wave);
+        seconds +=
+            once * kWithCoarser *
+            element_seconds(job, likely_separation(job, c.compare.listed() ? c.compare.levels[k] * job.level_unit : job.levels.back()),
+                            c.elements.points_per_wave);
     return seconds;
 }
 

@@ -160,12 +160,18 @@ double expected_seconds(const Job& job, double workers) {
     constexpr double program = 0.1;
     double one = elements ? 4e-8 * points : job.given ? 0 : surface_seconds(job.settings);
     if (compares(job, true)) one += comparison_seconds(job);
+    // Elastic separations with half as many points again as the level before start from pressures that help little.
+    constexpr double cold = 2.5, grown = 1.5;
+    const bool steps = elements && !force && !layers && !job.indenter.period.finite() && !std::isfinite(job.settings.solids.hardness);
+    double before = 0;
     for (const double level : job.levels) {
+        const double under = steps ? points_under(job, level, points) : 0;
         if (elements)
-            one += element_level_seconds(job, level, points, force);
+            one += element_level_seconds(job, level, points, force) * (steps && under > grown * before ? cold : 1);
         else
             one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 3.5 : 1) * (job.indenter.period.finite() ? 8 : 1) *
                    level_seconds(job, expected_candidates(job, likely_separation(job, level)));
+        before = under;
     }
     constexpr double circles = 1e-6;  // for the weights of the radial means
     const auto& output = job.settings.output;
