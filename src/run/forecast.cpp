@@ -188,11 +188,14 @@ double expected_megabytes(const Job& job, double workers) {
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = 10 + sticking, flats = 33 + sticking;
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);
     const bool force = job.settings.indentation.control != Control::separation;
+    // Where most of the surface is under the indenter, its far products take more.
+    constexpr double deep = 150;
     double most = 0;
-    for (const double level : job.levels)
-        most = std::max(most, job.indenter.period.finite()
-                                  ? points * (flats + touching * share_in_contact(job, level, force))
-                                  : tables + free * points + under * points_under(job, likely_separation(job, level), points));
+    for (const double level : job.levels) {
+        const double below = job.indenter.period.finite() ? 0 : points_under(job, likely_separation(job, level), points);
+        most = std::max(most, job.indenter.period.finite() ? points * (flats + touching * share_in_contact(job, level, force))
+                                                           : tables + free * points + (under + deep * below / points) * below);
+    }
     return 1e-6 * (program + most * std::max(1.0, std::min(workers, static_cast<double>(job.settings.run.realizations))));
 }
 
