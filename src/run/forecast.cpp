@@ -89,16 +89,19 @@ double share_in_contact(const Job& job, double level, bool is_force) {
 // Number of grid points of elements that are higher than the indenter at Z0.
 double points_under(const Job& job, double Z0, double points) { return points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly); }
 
+// An indenter over nearly the whole surface is a punch, with high pressures at the border: additional time, and its share.
+constexpr double kPunch = 2.5;
+double punch_share(double under, double points) { return std::pow(under / points, 6); }
+
 // Seconds for a level by elements, a separation or a force, from trials on one core. Two flats: transforms of all points, and steps on those
 // in contact. Otherwise the time is that of the points under the indenter. A force takes some more products than a separation, and many
 // more where points yield.
 double element_level_seconds(const Job& job, double level, double points, bool is_force) {
     if (job.indenter.period.finite()) return points * (4e-7 + 5e-6 * share_in_contact(job, level, is_force));
-    const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = std::pow(under / points, 6);
+    const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = punch_share(under, points);
     const bool yields = std::isfinite(job.settings.solids.hardness);
-    // An indenter over the whole surface is a punch, with high pressures at the border.
     const double force = is_force ? (yields ? 12 : 2.5) * (1 + 2 * share) : 1;
-    return 3.2e-6 * under * (1 + 2.5 * share) * force * (job.settings.solids.layer_thickness.empty() ? 1 : 4);
+    return 3.2e-6 * under * (1 + kPunch * share) * force * (job.settings.solids.layer_thickness.empty() ? 1 : 4);
 }
 
 // Penetration of the smooth indenter under a force; 0 if no closed form is known.
@@ -167,7 +170,8 @@ double expected_seconds(const Job& job, double workers) {
     for (const double level : job.levels) {
         const double under = steps ? points_under(job, level, points) : 0;
         if (elements)
-            one += element_level_seconds(job, level, points, force) * (steps && under > grown * before ? cold : 1);
+            one += std::max(1.0, steps && under > grown * before ? cold / (1 + kPunch * punch_share(under, points)) : 0.0) *
+                   element_level_seconds(job, level, points, force);
         else
             one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 3.5 : 1) * (job.indenter.period.finite() ? 8 : 1) *
                    level_seconds(job, expected_candidates(job, likely_separation(job, level)));
@@ -189,7 +193,7 @@ double expected_megabytes(const Job& job, double workers) {
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);
     const bool force = job.settings.indentation.control != Control::separation;
     // Where most of the surface is under the indenter, its far products take more.
-    constexpr double deep = 150;
+    constexpr double deep = 50;
     double most = 0;
     for (const double level : job.levels) {
         const double below = job.indenter.period.finite() ? 0 : points_under(job, likely_separation(job, level), points);
