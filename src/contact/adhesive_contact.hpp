@@ -22,8 +22,8 @@ public:
     double stiffness() override;
     // Elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached.
     double energy() const override;
-    // Throws Error(bad_input) if any asperity is attached: the path under a moving tip, with its attachments and detachments between the two
-    // positions, is not implemented.
+    // Throws Error(bad_input) if any asperity is attached: only the separation follows the path of attachments and detachments. Pull the
+    // bodies apart first.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;

@@ -12,7 +12,7 @@
 
 namespace rsc {
 
-struct AdhesivePath {
+struct AdhesivePath : ContactBodies {
     using Vector = std::vector<double>;
 
     // State left by accepted levels.
@@ -24,14 +24,6 @@ struct AdhesivePath {
         double least_force = 0;  // smallest force since the beginning
     };
 
-    const Asperities& of_surface;
-    SummitSearch search;
-    std::optional<Asperities> of_difference;
-    mutable FlankTouch flanks;
-    const Asperities& asperities;  // refers to one of the two above
-    Indenter indenter;
-    SolverOptions options;
-    std::shared_ptr<const Kernel> kernel;
     std::unique_ptr<Law> law;
     Sticking sticking;
     Ranking ranking;

@@ -40,16 +40,8 @@ std::unique_ptr<Law> law_of(const Asperities& asperities, double E_star, const S
 
 }  // namespace
 
-struct AsperityContact::Impl {
-    const Asperities& of_surface;
-    SummitSearch search;
-    std::optional<Asperities> of_difference;
-    mutable FlankTouch flanks;
-    const Asperities& asperities;  // refers to one of the two above
-    Indenter indenter;
-    SolverOptions options;
+struct AsperityContact::Impl : ContactBodies {
     double found_x, found_y;  // position of the tip at which the summits were found
-    std::shared_ptr<const Kernel> kernel;
     std::optional<RelaxingAsperities> relaxing;
     std::unique_ptr<Law> law;
     Ranking ranking;
@@ -71,15 +63,9 @@ struct AsperityContact::Impl {
     Newton newton;
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
-        : of_surface(asperities_),
-          search(std::move(search_)),
-          of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
-          asperities(of_difference ? *of_difference : of_surface),
-          indenter(indenter_),
-          options(options_),
+        : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
           found_x(indenter_.x0),
           found_y(indenter_.y0),
-          kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)),
           law(law_of(asperities, indenter_.E_star, options_, relaxing)),
           direct(make_direct_products(kernel)),
           newton(*law) {

@@ -32,8 +32,7 @@ double beside(const Asperities& asperities, const Indenter& indenter) {
     return highest;
 }
 
-}  // namespace
-
+// Summits of the difference between surface and indenter; absent if the given asperities are to be used.
 std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                 const SummitSearch& search) {
     require_sound(indenter);
@@ -51,6 +50,17 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities, co
     }
     return moved_summits(asperities, indenter);
 }
+
+}  // namespace
+
+ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
+    : of_surface(given),
+      search(std::move(search_)),
+      of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
+      asperities(of_difference ? *of_difference : of_surface),
+      indenter(indenter_),
+      options(options_),
+      kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
 
 // `auto`: direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench. The dense method is never the
 // cheapest.

@@ -8,16 +8,28 @@
 
 namespace rsc {
 
-// Summits of the difference between surface and indenter; absent if the given asperities are to be used.
-std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                                                const SummitSearch& search);
-
 // Resolves method `auto` to direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench.
 Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates);
 
 // Z0 below which the flank of a summit of the surface touches the indenter, stored for the last position of the tip.
 struct FlankTouch {
     double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0, Z0 = 0;
+};
+
+// The bodies of a contact of asperities. The asperities are those given, or the summits of the difference that `search` finds.
+struct ContactBodies {
+    const Asperities& of_surface;
+    SummitSearch search;
+    std::optional<Asperities> of_difference;
+    mutable FlankTouch flanks;
+    const Asperities& asperities;  // refers to one of the two above
+    Indenter indenter;
+    SolverOptions options;
+    std::shared_ptr<const Kernel> kernel;
+
+    ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options, SummitSearch search);
+    ContactBodies(const ContactBodies&) = delete;
+    ContactBodies& operator=(const ContactBodies&) = delete;
 };
 
 // Completes a level that has contacts, force and the sum of areas: area of the union of elliptic spots, overlaps, validity of the model,

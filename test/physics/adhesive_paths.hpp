@@ -13,6 +13,7 @@
 
 #include "check.hpp"
 #include "contact/contact.hpp"
+#include "physics/elimination.hpp"
 
 // Asperities on the unit square at distances of at least `apart`, and a work of adhesion.
 struct RandomAsperities {
@@ -115,16 +116,8 @@ private:
                 }
                 worst = std::max(worst, std::abs(rest[i]));
             }
-            for (std::size_t c = 0; c < n; ++c)
-                for (std::size_t i = c + 1; i < n; ++i) {
-                    const double factor = m[i * n + c] / m[c * n + c];
-                    for (std::size_t j = c; j < n; ++j) m[i * n + j] -= factor * m[c * n + j];
-                    rest[i] -= factor * rest[c];
-                }
-            for (std::size_t i = n; i-- > 0;) {
-                for (std::size_t j = i + 1; j < n; ++j) rest[i] -= m[i * n + j] * rest[j];
-                u_[i] += rest[i] /= m[i * n + i];
-            }
+            const std::vector<double> change = solved(m, rest);
+            for (std::size_t i = 0; i < n; ++i) u_[i] += change[i];
             if (worst < 1e-17) break;
         }
         for (std::size_t i = 0; i < n; ++i) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "check.hpp"
+#include "physics/elimination.hpp"
 #include "physics/values/checked_file.hpp"
 #include "run/job.hpp"
 
@@ -341,27 +342,5 @@ struct Truth {
         return c.solids.hardness * std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[at(i)]);
     }
 };
-
-// Solves A x = b by elimination; A is n x n.
-inline Vector solved(Vector A, Vector b) {
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t i = k; i < n; ++i)
-            if (std::abs(A[i * n + k]) > std::abs(A[pivot * n + k])) pivot = i;
-        for (std::size_t j = 0; j < n; ++j) std::swap(A[k * n + j], A[pivot * n + j]);
-        std::swap(b[k], b[pivot]);
-        for (std::size_t i = k + 1; i < n; ++i) {
-            const double q = A[i * n + k] / A[k * n + k];
-            for (std::size_t j = k; j < n; ++j) A[i * n + j] -= q * A[k * n + j];
-            b[i] -= q * b[k];
-        }
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t j = k + 1; j < n; ++j) b[k] -= A[k * n + j] * b[j];
-        b[k] /= A[k * n + k];
-    }
-    return b;
-}
 
 }  // namespace values
