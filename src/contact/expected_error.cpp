@@ -28,12 +28,12 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
     double elongation = 0, pressed = 0, radius = 0, force = 0;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
         const auto i = static_cast<std::size_t>(level.asperity[k]);
-        const double ratio = asperities.kappa1.empty() ? 1.0 : asperities.kappa1[i] / asperities.kappa2[i];
-        elongation += level.f[k] * std::log(std::min(ratio, 1e3));
-        if (!asperities.biharmonic
-                 .empty()) {  // (q a/pi)^2 of the summit's profile (law/law.hpp); 1 if the contact reaches those of its neighbours
-            const double waves = level.a[k] / std::numbers::pi,
-                         q2 = asperities.biharmonic[i] / (asperities.kappa1[i] + asperities.kappa2[i]);
+        const bool round = asperities.kappa1.empty();
+        const double curvatures = round ? 2 / asperities.radius[i] : asperities.kappa1[i] + asperities.kappa2[i];
+        if (!round) elongation += level.f[k] * std::log(std::min(asperities.kappa1[i] / asperities.kappa2[i], 1e3));
+        if (!asperities.biharmonic.empty()) {
+            // (q a/pi)^2 of the summit's profile (law/law.hpp); 1 if the contact reaches those of its neighbours
+            const double waves = level.a[k] / std::numbers::pi, q2 = asperities.biharmonic[i] / curvatures;
             pressed += level.f[k] * std::clamp(q2 * waves * waves, 0.0, 1.0);
         }
         radius += level.f[k] * level.a[k];

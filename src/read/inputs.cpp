@@ -342,6 +342,12 @@ Asperities read_text_asperities(const std::string& path) {
 
 }  // namespace
 
+bool is_text_map(const std::string& path) {
+    if (is_netcdf(path)) return false;
+    const std::string start = first_bytes(path);
+    return std::none_of(std::begin(kInstrumentFormats), std::end(kInstrumentFormats), [&](const auto& format) { return format.is(start); });
+}
+
 HeightMap read_heights(const std::string& path, std::optional<double> L, const std::string& length_unit, const std::string& channel,
                        Missing missing, const TextMap& text) {
     const bool fill = missing == Missing::fill;

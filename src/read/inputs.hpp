@@ -23,6 +23,9 @@ struct TextMap {
     bool any() const { return !height_unit.empty() || pixel; }
 };
 
+// True if the readable file `path` is neither NetCDF nor of an instrument, so that TextMap applies to it.
+bool is_text_map(const std::string& path);
+
 // Heights from `path`.
 // NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable. scale_factor and
 //   add_offset are applied; missing values (_FillValue, missing_value, NaN, Inf) are refused. Heights and coordinates are

@@ -5,6 +5,7 @@
 #include "format.hpp"
 #include "run/forecast.hpp"
 #include "run/resolution.hpp"
+#include "run/screen.hpp"
 
 namespace rsc {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kAutoSeconds = 2;
 constexpr double kWithCoarser = 1.25;
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
-std::string itself(double error) { return std::isnan(error) ? " (error unknown)" : format(" (itself +- %.2g %%)", 100 * error); }
+std::string itself(double error) { return std::isnan(error) ? " (error unknown)" : format(" (itself +- %s)", percent(error).c_str()); }
 
 void print(std::ostream& out, const Job& job, const ComparedLevels& c, const LevelValues& asperities, bool by_force) {
     const std::size_t k = c.step.size() - 1;
@@ -37,8 +38,8 @@ void print(std::ostream& out, const Job& job, const ComparedLevels& c, const Lev
         out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
                       100 * c.contacts_error[k]);
     if (c.force_error_expected[k] > kUnresolved)
-        out << format("  warning: a finer grid may change N of the elements by %.2g %%, so they are not a reliable reference.\n",
-                      100 * c.force_error_expected[k]);
+        out << format("  warning: a finer grid may change N of the elements by %s, so they are not a reliable reference.\n",
+                      percent(c.force_error_expected[k]).c_str());
 }
 
 // The levels to compare: the nearest one to each of compare%levels. If levels depend on the levels before, they are in the order of the

@@ -155,7 +155,7 @@ Job prepare(const Case& settings) {
     job.solver = solver_of(settings, job.domain);
     job.indenter = indenter_of(settings, job.domain);
 
-    if (!elements && job.given && job.given_heights) {
+    if (job.given && job.given_heights) {
         const HeightMap& map = *job.given_heights;
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)

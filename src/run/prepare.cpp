@@ -80,9 +80,11 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
                  bool windowed = false) {
     const auto& keys = settings.surface;
     const bool part = windowed && keys.window[0];
+    // Of two maps one may be a text file, to which alone these keys apply.
+    const bool for_other = !settings.indenter.file.empty() && !is_text_map(path) && (!windowed || is_text_map(settings.indenter.file));
     Surface surface;
-    surface.map =
-        read_heights(path, L, settings.run.length_unit, channel, part ? Missing::fill : keys.missing, {keys.height_unit, keys.pixel});
+    surface.map = read_heights(path, L, settings.run.length_unit, channel, part ? Missing::fill : keys.missing,
+                               for_other ? TextMap{} : TextMap{keys.height_unit, keys.pixel});
     if (part) surface.map = part_of(surface.map, keys.window, path);
     surface.origin.name = path;
     try {

@@ -34,6 +34,8 @@ bool shown(const LevelQuantity& q, const Job& job) {
 
 }  // namespace
 
+std::string percent(double share) { return format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share); }
+
 std::string status_text(LevelStatus status) {
     std::string text = kLevelStatusNames[static_cast<std::size_t>(status)];
     for (char& c : text) {
@@ -164,12 +166,15 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
          "contacts within <d> of the border of the surface - asperities beyond it are missing: N is too small.");
     tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
          "more than 1 % of the contact area is on filled points, which were missing in the map (filled_share).");
+    if (std::isfinite(job.points_touch) && std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))
+        out << format("  no level reaches contact: the first point of the map touches at Z0 = %g (%g sigma).\n", job.points_touch,
+                      job.points_touch / sigma);
     if (elements) {
         double worst = 0;
         for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // ignores NaN
         tell(count([](const LevelValues& l) { return l.force_error_expected > kUnresolved; }),
-             format("a finer grid may change N by more than 1 %%, in nine of ten cases by less than %.2g %% (force_error_expected); ",
-                    100 * worst) +
+             format("a finer grid may change N by more than 1 %%, in nine of ten cases by less than %s (force_error_expected); ",
+                    percent(worst).c_str()) +
                  remedy);
     }
     if (!elements) {
@@ -237,8 +242,8 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
     const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) { return l.force_error_expected >= 0; });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
-    out << format("level %td: N = %.4g %s +- %.2g %%, A = %.4g %s2 +- %.2g %%: bounds valid in nine of ten cases\n", levels.rend() - last,
-                  last->force, f, 100 * last->force_error_expected, last->area, l, 100 * last->area_error_expected);
+    out << format("level %td: N = %.4g %s +- %s, A = %.4g %s2 +- %s: bounds valid in nine of ten cases\n", levels.rend() - last,
+                  last->force, f, percent(last->force_error_expected).c_str(), last->area, l, percent(last->area_error_expected).c_str());
 }
 
 // The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that relax.

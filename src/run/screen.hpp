@@ -29,6 +29,9 @@ const char* slope_remark(double rms_slope);
 // The last lines: the result file, a note if it replaced another one, and the command for pictures.
 void print_result(std::ostream& out, const std::string& file, bool replaces);
 
+// A share in percent with two digits, and without exponent: "0.015 %", "4.2 %", "120 %".
+std::string percent(double share);
+
 // "12.3 s", "4 min 10 s", ...
 std::string duration(double seconds);
 

@@ -88,7 +88,7 @@ private:
     }
 
     void call() {
-        switch (in_.ConsumeIntegralInRange(0, 25)) {
+        switch (in_.ConsumeIntegralInRange(0, 26)) {
             case 0:
                 rsc_case_destroy(&case_);
                 told(rsc_case_create(&case_));
@@ -207,7 +207,12 @@ private:
                 if (told(rsc_contact_deflection(contact(), 3, x.data(), y.data(), w))) finite(w[0] + w[1] + w[2], "deflection");
                 break;
             }
-            case 25: {
+            case 25:
+                if (!case_) break;
+                told(rsc_case_set(case_, "solids%adhesion", std::to_string(positive()).c_str()));
+                if (in_.ConsumeBool()) told(rsc_case_set(case_, "solids%adhesion_range", std::to_string(positive()).c_str()));
+                break;
+            case 26: {
                 if (!case_) break;
                 keep_small(true);
                 std::int64_t failed = 0;
@@ -250,7 +255,7 @@ private:
         std::int32_t level = 0;
         if (!told(rsc_contact_result(c, &separation, &force, &area, &contacts))) return;
         finite(separation, "separation");
-        PROMISE(std::isfinite(force) && force >= 0, "force " + std::to_string(force));
+        PROMISE(std::isfinite(force), "force " + std::to_string(force));  // negative with adhesion
         PROMISE(std::isfinite(area) && area >= 0, "area " + std::to_string(area));
         PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
         PROMISE(level >= 0 && level < RSC_LEVEL_LAST_ + 1 && contacts <= candidates, "level");

@@ -122,6 +122,20 @@ class Maps(Program):
         for keys, said in (("height_unit = 'nm'", "pixel"), ("height_unit = 'N' pixel = 0.02", "height_unit"), ("height_unit = 'nm' pixel = 0.02 L = 0.9", "L")):
             self.assertIn(said, self.run_case(self.CASE.format(keys=keys, level=1e-3), status=2))
 
+    def test_text_against_another_format(self):
+        self.heights("height_unit = 'nm' pixel = 0.02")
+        os.rename(self.path("r.nc"), self.path("other.nc"))
+        case = self.CASE.replace("R = Infinity, 10.0", "") + "\n&indenter shape = 'map' file = 'other.nc' channel = 'height' /"
+        text, keys = case.format(keys="{keys} detrend = 'none'", level=5e-4), "height_unit = 'nm' pixel = 0.02"
+        netcdf = text.replace("map.txt", "other.nc").replace("{keys}", "channel = 'height' {keys}")
+        forces = []
+        for case in (text.format(keys=keys), netcdf.format(keys="")):
+            self.run_case(case)
+            forces.append(float(self.result()["force"][0]))
+        self.assertGreater(forces[0], 0)
+        self.assertAlmostEqual(forces[1] / forces[0], 1, delta=1e-9)  # the text has 18 digits, in another unit
+        self.assertIn("pixel", self.run_case(netcdf.format(keys=keys), status=2))
+
     def test_window(self):
         r = self.heights("height_unit = 'nm' pixel = 0.02 window = 0.1, 0.5, 0.19, 0.7")
         np.testing.assert_allclose(r["height"], self.z[10:36, 5:26], rtol=1e-12)

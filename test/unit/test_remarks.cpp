@@ -44,6 +44,10 @@ void thresholds() {
     CHECK(said("overlapping", [](V& v) { v.status = LevelStatus::overlapping; }));
     CHECK(said("not unique", [](V& v) { v.status = LevelStatus::not_unique; }));
     CHECK(said("NOT CONVERGED", [](V& v) { v.status = LevelStatus::not_converged; }));
+    // A map that no level reaches: levels without force alone, and the separation where its first point touches.
+    job.points_touch = -3.5;
+    CHECK(remarks([](V&) {}).find("-3.5") != std::string::npos);
+    CHECK(remarks([](V& v) { v.force = 1; }).find("-3.5") == std::string::npos);
     job.settings.solver.model = Model::elements;  // of which the asperities' range says nothing
     CHECK(!said("<d>/4", [](V& v) { v.separation = -7, v.area = 3, v.large_contacts = 1; }));
     job.settings.solver.model = Model::asperities;

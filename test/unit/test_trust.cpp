@@ -210,11 +210,20 @@ void bounds() {
     expect_error(level, a, indenter, options);
     const double least = level.force_error_expected;
     CHECK(least > 0 && level.area_error_expected > 0);
-    for (double LevelValues::*const member : {&LevelValues::slope_ratio}) {
-        level.*member = 2;
-        expect_error(level, a, indenter, options);
-        CHECK(level.force_error_expected >= least);
-    }
+    // A round summit without listed curvatures is one of equal curvatures.
+    a.biharmonic = {1e5};
+    options.law = LawKind::fourth_order;
+    expect_error(level, a, indenter, options);
+    const double curved = level.force_error_expected;
+    Asperities round = a;
+    round.kappa1 = round.kappa2 = round.angle = {};
+    expect_error(level, round, indenter, options);
+    CHECK(level.force_error_expected == curved);
+    a.biharmonic = {};
+    options.law = LawKind::hertz;
+    level.slope_ratio = 2;
+    expect_error(level, a, indenter, options);
+    CHECK(level.force_error_expected >= least);
     options.measured = true;  // heights from a file
     expect_error(level, a, indenter, options);
     CHECK(level.force_error_expected > 1.5 * least);
