@@ -107,10 +107,7 @@ contains
     if (r%status == nf90_noerr) then
       call check_kind(r)
       call get_attributes(r, result)
-      call get_levels(r, result)
-      call get_surfaces(r, result)
-      call get_observations(r, result)
-      call get_contacts(r, result)
+      call get_variables(r, result)
       call close_file(r)
     end if
 
@@ -311,7 +308,7 @@ contains
     end if
   end subroutine get_attributes
 
-  subroutine get_levels(r, a)
+  subroutine get_variables(r, a)
     type(reader), intent(inout) :: r
     type(rsc_result), intent(inout) :: a
     call get(r, 'realization', a%realization)
@@ -342,11 +339,6 @@ contains
     call get(r, 'area_I', a%area_I)
     call get(r, 'area_II', a%area_II)
     call get(r, 'area_hertz', a%area_hertz)
-  end subroutine get_levels
-
-  subroutine get_surfaces(r, a)
-    type(reader), intent(inout) :: r
-    type(rsc_result), intent(inout) :: a
     call get(r, 'sigma', a%sigma)
     call get(r, 'm2', a%m2)
     call get(r, 'm4', a%m4)
@@ -364,11 +356,6 @@ contains
     call get(r, 'transition_force', a%transition_force)
     call get(r, 'tip_x', a%tip_x)
     call get(r, 'tip_y', a%tip_y)
-  end subroutine get_surfaces
-
-  subroutine get_observations(r, a)
-    type(reader), intent(inout) :: r
-    type(rsc_result), intent(inout) :: a
     call get(r, 'x', a%x)
     call get(r, 'y', a%y)
     call get(r, 'map_area_fraction', a%map_area_fraction)
@@ -385,11 +372,6 @@ contains
     call get(r, 'pressure_mean_pdf', a%pressure_mean_pdf)
     call get(r, 'pressure_pdf', a%pressure_pdf)
     call get(r, 'spot_area_pdf', a%spot_area_pdf)
-  end subroutine get_observations
-
-  subroutine get_contacts(r, a)
-    type(reader), intent(inout) :: r
-    type(rsc_result), intent(inout) :: a
     call get(r, 'asperity_x', a%asperity_x)
     call get(r, 'asperity_y', a%asperity_y)
     call get(r, 'asperity_z', a%asperity_z)
@@ -406,7 +388,7 @@ contains
     call get(r, 'height', a%height)
     call get(r, 'height_x', a%height_x)
     call get(r, 'height_y', a%height_y)
-  end subroutine get_contacts
+  end subroutine get_variables
 
   !> The shape of a variable in Fortran's order, padded with ones to `rank`; zeros if the file does not have it.
   subroutine inquire_variable(r, name, rank, varid, shape)

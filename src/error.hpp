@@ -23,4 +23,6 @@ private:
     Failure kind_;
 };
 
+[[noreturn]] inline void bad_input(const std::string& message) { throw Error(Failure::bad_input, message); }
+
 }  // namespace rsc

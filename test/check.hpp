@@ -2,12 +2,10 @@
 // test/unit/test_NAME.cpp begin at its TESTS { ... }, and `test_unit NAME` runs them.
 #pragma once
 
-#include <cmath>
-#include <cstdio>
-#include <initializer_list>
-#include <map>
-#include <string>
-#include <vector>
+#include <iterator>
+#include <random>
+
+#include "std.hpp"
 
 namespace check {
 

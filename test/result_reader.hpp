@@ -3,11 +3,6 @@
 
 #include <netcdf.h>
 
-#include <array>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 
 // Reading through the C library, failures counted as failed checks.

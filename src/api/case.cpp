@@ -33,8 +33,6 @@ int threads_of(const Case& settings) { return static_cast<int>(most_threads(sett
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_case_create(rsc_case** new_case) {
     return constructed(0, new_case, "new_case", [] { return new rsc_case; });
 }
@@ -49,8 +47,7 @@ int32_t rsc_case_copy(rsc_case** new_case, const rsc_case* original) {
 int32_t rsc_case_destroy(rsc_case** old_case) { return destroyed(old_case, "old_case"); }
 
 int32_t rsc_case_read(rsc_case* a_case, const char* text) {
-    return guarded(2, [&] {
-        require(a_case, 1, "a_case");
+    return on(a_case, "a_case", 2, [&] {
         require(text, 2, "text");
         rsc::ReadCase read = rsc::read_case_text(text, "case");
         if (read.study) refuse(2, "text", "must be one case: &study belongs to the program");
@@ -59,8 +56,7 @@ int32_t rsc_case_read(rsc_case* a_case, const char* text) {
 }
 
 int32_t rsc_case_read_file(rsc_case* a_case, const char* path) {
-    return guarded(2, [&] {
-        require(a_case, 1, "a_case");
+    return on(a_case, "a_case", 2, [&] {
         require(path, 2, "path");
         if (!*path) refuse(2, "path", "must not be empty");
         rsc::Options options;
@@ -72,8 +68,7 @@ int32_t rsc_case_read_file(rsc_case* a_case, const char* path) {
 }
 
 int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
-    return guarded(3, [&] {
-        require(a_case, 1, "a_case");
+    return on(a_case, "a_case", 3, [&] {
         require(name, 2, "name");
         require(value, 3, "value");
         try {
@@ -87,25 +82,18 @@ int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
 }
 
 int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length) {
-    return guarded(2, [&] {
-        require(a_case, 1, "a_case");
+    return on(a_case, "a_case", 2, [&] {
         require(name, 2, "name");
         put_text(rsc::get_key(a_case->settings, name), buffer, size, length, 3);
     });
 }
 
 int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length) {
-    return guarded(1, [&] {
-        require(a_case, 1, "a_case");
-        put_text(rsc::effective_namelist(a_case->settings), buffer, size, length, 2);
-    });
+    return on(a_case, "a_case", 1, [&] { put_text(rsc::effective_namelist(a_case->settings), buffer, size, length, 2); });
 }
 
 int32_t rsc_key_count(int64_t* count) {
-    return guarded(0, [&] {
-        require(count, 1, "count");
-        put(count, rsc::registry().size());
-    });
+    return on(count, "count", 0, [&] { put(count, rsc::registry().size()); });
 }
 
 int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
@@ -122,8 +110,7 @@ int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
 }
 
 int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels) {
-    return guarded(1, [&] {
-        require(a_case, 1, "a_case");
+    return on(a_case, "a_case", 1, [&] {
         rsc::require_valid(a_case->settings);
         rsc::RunOptions how;
         how.command = "rsc_case_run";
@@ -133,5 +120,3 @@ int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data
         if (failed > 0) throw Outcome{RSC_NOT_CONVERGED, "some levels did not converge; their values are in the file with status = 4"};
     });
 }
-
-}  // extern "C"

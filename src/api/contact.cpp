@@ -153,8 +153,6 @@ std::int64_t count_of(const Level& level, std::string_view name) {
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
                            const rsc_case* a_case) {
     return constructed(7, contact, "contact", [&] {
@@ -194,8 +192,7 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
 int32_t rsc_contact_destroy(rsc_contact** contact) { return destroyed(contact, "contact"); }
 
 int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
-    return guarded(2, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 2, [&] {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
         const rsc::Vec2 place = place_of(*contact, x0, y0);
@@ -205,16 +202,14 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
 }
 
 int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0) {
-    return guarded(0, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 0, [&] {
         put(x0, contact->contact.indenter().x0);
         put(y0, contact->contact.indenter().y0);
     });
 }
 
 int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation) {
-    return guarded(0, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 0, [&] {
         require(separation, 2, "separation");
         const double touch = contact->contact.first_touch();
         if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere");
@@ -223,8 +218,7 @@ int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation) 
 }
 
 int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force) {
-    return guarded(2, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 2, [&] {
         require_finite(separation, 2, "separation");
         // The present level is not computed again.
         const rsc::Indenter& tip = contact->contact.indenter();
@@ -238,16 +232,14 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
 }
 
 int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
-    return guarded(2, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 2, [&] {
         require_finite(time, 2, "time");
         contact->contact.set_time(time);
     });
 }
 
 int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation) {
-    return guarded(2, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 2, [&] {
         const bool pulls = contact->contact.pulls();
         if (!(force >= 0 || pulls) || !std::isfinite(force)) refuse(2, "force", "must be positive or zero, and finite");
         const double touch = contact->contact.first_touch();
@@ -399,5 +391,3 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         }
     });
 }
-
-}  // extern "C"

@@ -82,8 +82,6 @@ void rsc_contact::recall(const std::vector<double>& memory) {
     recalled = true;
 }
 
-extern "C" {
-
 int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
     return constructed(0, contact, "contact", [&] {
         require(original, 2, "original");
@@ -96,17 +94,9 @@ int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
 }
 
 int32_t rsc_contact_commit(rsc_contact* contact) {
-    return guarded(0, [&] {
-        require(contact, 1, "contact");
-        contact->committed = contact->state();
-    });
+    return on(contact, "contact", 0, [&] { contact->committed = contact->state(); });
 }
 
 int32_t rsc_contact_rollback(rsc_contact* contact) {
-    return guarded(0, [&] {
-        require(contact, 1, "contact");
-        contact->go_back(contact->committed);
-    });
+    return on(contact, "contact", 0, [&] { contact->go_back(contact->committed); });
 }
-
-}  // extern "C"

@@ -66,13 +66,10 @@ void with_levels(rsc_friction& friction, Ask&& ask) {
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) { return rsc_stiffness_ratio(E, nu, ratio); }
 
 int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
-    return guarded(1, [&] {
-        require(E, 1, "E");
+    return on(E, "E", 1, [&] {
         require(nu, 2, "nu");
         require(ratio, 3, "ratio");
         for (int i = 0; i < 2; ++i)
@@ -116,8 +113,7 @@ int32_t rsc_friction_destroy(rsc_friction** friction) { return destroyed(frictio
 
 int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x, double* force_y,
                             double* lost) {
-    return guarded(2, [&] {
-        require(friction, 1, "friction");
+    return on(friction, "friction", 2, [&] {
         require_usable(separation, 2, "separation");
         require_usable(x, 3, "x");
         require_usable(y, 4, "y");
@@ -134,8 +130,7 @@ int32_t rsc_friction_update(rsc_friction* friction, double separation, double x,
 }
 
 int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
-    return guarded(2, [&] {
-        require(friction, 1, "friction");
+    return on(friction, "friction", 2, [&] {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
         const rsc::Vec2 to = place_of(friction->outer, x0, y0);
@@ -159,8 +154,7 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
 }
 
 int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy) {
-    return guarded(0, [&] {
-        require(friction, 1, "friction");
+    return on(friction, "friction", 0, [&] {
         with_levels(*friction, [&] {
             const auto tangent = friction->history.stiffness(friction->curve);
             put(xx, tangent.xx);
@@ -190,8 +184,7 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
 }
 
 int32_t rsc_friction_commit(rsc_friction* friction) {
-    return guarded(0, [&] {
-        require(friction, 1, "friction");
+    return on(friction, "friction", 0, [&] {
         const rsc::Indenter& tip = friction->outer.contact.indenter();
         friction->committed_tip = {tip.x0, tip.y0};
         friction->history.commit();
@@ -199,8 +192,7 @@ int32_t rsc_friction_commit(rsc_friction* friction) {
 }
 
 int32_t rsc_friction_rollback(rsc_friction* friction) {
-    return guarded(0, [&] {
-        require(friction, 1, "friction");
+    return on(friction, "friction", 0, [&] {
         put_tip(*friction, friction->committed_tip);
         friction->history.rollback();
     });
@@ -260,5 +252,3 @@ int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, in
         });
     });
 }
-
-}  // extern "C"

@@ -29,11 +29,12 @@ const char* meaning(std::int32_t status) {
 
 }  // namespace
 
-void remember(std::string_view message) noexcept {
+std::int32_t failed(std::int32_t status, std::string_view message) noexcept {
     const std::size_t n = std::min(message.size(), kMessageSize - 1);
     std::memcpy(last_message, message.data(), n);
     if (n < message.size()) std::memcpy(last_message + n - 4, " ...", 4);
     last_message[n] = '\0';
+    return status;
 }
 
 std::int32_t status_of(const Error& error, int input) noexcept {
@@ -78,8 +79,6 @@ void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_version(char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] { put_text(RSC_VERSION, buffer, size, length, 1); });
 }
@@ -107,5 +106,3 @@ int32_t rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* len
         put_text(text, buffer, size, length, 2);
     });
 }
-
-}  // extern "C"

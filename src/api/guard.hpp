@@ -19,8 +19,8 @@ struct Outcome {
     const char* message;
 };
 
-// Stores the message for rsc_message, truncated if too long. Never fails, because it also reports lack of memory.
-void remember(std::string_view message) noexcept;
+// Stores the message for rsc_message, truncated if too long, and returns the status. Never fails, because it also reports lack of memory.
+std::int32_t failed(std::int32_t status, std::string_view message) noexcept;
 std::int32_t status_of(const Error& error, int input) noexcept;
 
 // Runs the body of a function. `input`: the number of the argument to blame if the core throws bad_input; 0: none.
@@ -30,29 +30,21 @@ std::int32_t guarded(int input, Body&& body) noexcept {
         body();
         return RSC_SUCCESS;
     } catch (const Refusal& refusal) {
-        remember(refusal.message);
-        return -refusal.argument;
+        return failed(-refusal.argument, refusal.message);
     } catch (const Outcome& outcome) {
-        remember(outcome.message);
-        return outcome.status;
+        return failed(outcome.status, outcome.message);
     } catch (const Error& error) {
-        remember(error.what());
-        return status_of(error, input);
+        return failed(status_of(error, input), error.what());
     } catch (const std::bad_alloc&) {
-        remember("out of memory");
-        return RSC_NO_MEMORY;
+        return failed(RSC_NO_MEMORY, "out of memory");
     } catch (const std::length_error&) {  // an array longer than any memory
-        remember("out of memory");
-        return RSC_NO_MEMORY;
+        return failed(RSC_NO_MEMORY, "out of memory");
     } catch (const Interrupted& stop) {
-        remember(stop.what());
-        return RSC_STOPPED;
+        return failed(RSC_STOPPED, stop.what());
     } catch (const std::exception& error) {
-        remember(error.what());
-        return RSC_INTERNAL;
+        return failed(RSC_INTERNAL, error.what());
     } catch (...) {
-        remember("an error of unknown kind");
-        return RSC_INTERNAL;
+        return failed(RSC_INTERNAL, "an error of unknown kind");
     }
 }
 
@@ -80,6 +72,15 @@ void put(T* output, const U& value) {
 
 // Copies text into a caller's buffer: arguments number `first` (buffer) and first + 1 (size).
 void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first);
+
+// guarded() for a function of an object, its argument 1.
+template <class Handle, class Body>
+std::int32_t on(Handle* handle, const char* name, int input, Body&& body) noexcept {
+    return guarded(input, [&] {
+        require(handle, 1, name);
+        body();
+    });
+}
 
 // guarded() for a function that creates a handle, its argument 1. The handle is null unless the function succeeds.
 template <class Handle, class Make>

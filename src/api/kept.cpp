@@ -225,11 +225,8 @@ FrictionHistory::State get_path(const Entries& from, const std::string& prefix) 
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
-    return guarded(2, [&] {
-        require(contact, 1, "contact");
+    return on(contact, "contact", 2, [&] {
         require_path(path, 2);
         const rsc_contact::State now = contact->state();
         Entries entries;
@@ -256,8 +253,7 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
 }
 
 int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
-    return guarded(2, [&] {
-        require(friction, 1, "friction");
+    return on(friction, "friction", 2, [&] {
         require_path(path, 2);
         Entries entries;
         put_making(entries, friction->outer);
@@ -287,5 +283,3 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         return made.release();
     });
 }
-
-}  // extern "C"

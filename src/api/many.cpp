@@ -35,9 +35,8 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
         if (status) std::copy(outcome.begin(), outcome.end(), status);
         const auto bad = std::find_if(outcome.begin(), outcome.end(), [](std::int32_t s) { return s != RSC_SUCCESS; });
         if (bad == outcome.end()) return;
-        first = *bad < 0 ? -2 : *bad;
         const auto k = static_cast<std::size_t>(bad - outcome.begin());
-        remember("contact " + std::to_string(k) + ": " + reason[k]);
+        first = failed(*bad < 0 ? -2 : *bad, "contact " + std::to_string(k) + ": " + reason[k]);
     });
     return whole != RSC_SUCCESS ? whole : first;
 }
@@ -46,8 +45,6 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
 }  // namespace rsc::api
 
 using namespace rsc::api;
-
-extern "C" {
 
 int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status, int32_t threads) {
     return for_all(n, contacts, force, 3, status, threads, 6,
@@ -86,5 +83,3 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
         return reached;
     });
 }
-
-}  // extern "C"

@@ -48,8 +48,6 @@ void require_apart(const Asperities& a) {
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization) {
     return constructed(2, surface, "surface", [&] {
         const rsc::Case& settings = settings_of(a_case);
@@ -93,8 +91,7 @@ int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
 int32_t rsc_surface_destroy(rsc_surface** surface) { return destroyed(surface, "surface"); }
 
 int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_left) {
-    return guarded(0, [&] {
-        require(surface, 1, "surface");
+    return on(surface, "surface", 0, [&] {
         require(how, 2, "how");
         const std::string_view word = how;
         const auto form = std::find(rsc::kDetrendNames.begin(), rsc::kDetrendNames.end(), word) - rsc::kDetrendNames.begin();
@@ -112,8 +109,7 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
 }
 
 int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
-    return guarded(0, [&] {
-        require(surface, 1, "surface");
+    return on(surface, "surface", 0, [&] {
         if (!rsc::usable_positive(cutoff)) refuse(2, "cutoff", rsc::kPositiveBounds);
         rsc::gaussian_filter(surface->surface.map, cutoff);
         if (!surface->surface.origin.theory) surface->surface.origin.sigma = rsc::roughness(surface->surface.map).height;
@@ -122,8 +118,7 @@ int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
 
 int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0,
                          int32_t* periodic) {
-    return guarded(0, [&] {
-        require(surface, 1, "surface");
+    return on(surface, "surface", 0, [&] {
         const rsc::HeightMap& map = surface->surface.map;
         put(nx, map.nx);
         put(ny, map.ny);
@@ -136,8 +131,7 @@ int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, d
 }
 
 int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights) {
-    return guarded(0, [&] {
-        require(surface, 1, "surface");
+    return on(surface, "surface", 0, [&] {
         const rsc::HeightMap& map = surface->surface.map;
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
@@ -146,8 +140,7 @@ int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heigh
 }
 
 int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4) {
-    return guarded(0, [&] {
-        require(surface, 1, "surface");
+    return on(surface, "surface", 0, [&] {
         const rsc::Moments moments = rsc::grid_moments(surface->surface.map);
         put(m0, moments.m0);
         put(m2, moments.m2);
@@ -217,16 +210,14 @@ int32_t rsc_asperities_copy(rsc_asperities** asperities, const rsc_asperities* o
 int32_t rsc_asperities_destroy(rsc_asperities** asperities) { return destroyed(asperities, "asperities"); }
 
 int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
-    return guarded(0, [&] {
-        require(asperities, 1, "asperities");
+    return on(asperities, "asperities", 0, [&] {
         require(n, 2, "n");
         put(n, asperities->model->asperities.size());
     });
 }
 
 int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius) {
-    return guarded(0, [&] {
-        require(asperities, 1, "asperities");
+    return on(asperities, "asperities", 0, [&] {
         const rsc::Asperities& a = asperities->model->asperities;
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(x, a.x);
@@ -237,8 +228,7 @@ int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* 
 }
 
 int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle) {
-    return guarded(0, [&] {
-        require(asperities, 1, "asperities");
+    return on(asperities, "asperities", 0, [&] {
         const rsc::Asperities& a = asperities->model->asperities;
         if (a.kappa1.empty()) refuse(1, "asperities", "were given without curvatures");
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
@@ -247,5 +237,3 @@ int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, d
         copy_to(angle, a.angle);
     });
 }
-
-}  // extern "C"

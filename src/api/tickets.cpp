@@ -146,8 +146,6 @@ Tickets& tickets() {
 
 using namespace rsc::api;
 
-extern "C" {
-
 int32_t rsc_ticket_issue(int64_t* ticket, int32_t kind, void* handle) {
     return guarded(0, [&] { tickets().issue(ticket, {handle, static_cast<Kind>(kind), ticket, true}); });
 }
@@ -187,5 +185,3 @@ int32_t rsc_ticket_copy(int64_t* ticket, const int64_t* original) {
 int32_t rsc_ticket_release(int64_t* ticket) {
     return guarded(0, [&] { tickets().release(ticket); });
 }
-
-}  // extern "C"

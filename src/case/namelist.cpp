@@ -128,8 +128,7 @@ private:
         return offset == resumed || text_[offset - 1] == '\n';
     }
     void unknown_group(const std::string& name, std::size_t sign) {
-        const std::string_view near = nearest(name, known_);
-        fault(sign, "unknown group '&" + name.substr(0, 63) + "'" + (near.empty() ? "" : "; did you mean '&" + std::string(near) + "'?"));
+        fault(sign, "unknown group '&" + name.substr(0, 63) + "'" + suggestion(name, known_, "&"));
     }
 
     // --- separators, the way gfortran does them ---------------------------------------------------------------------------
@@ -498,6 +497,11 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
         }
     }
     return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, const char* mark) {
+    const std::string_view near = nearest(word, candidates);
+    return near.empty() ? "" : std::string("; did you mean '") + mark + std::string(near) + "'?";
 }
 
 std::string lower_case(std::string_view word) {

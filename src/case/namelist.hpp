@@ -72,6 +72,8 @@ Document parse_assignments(std::string_view text);
 
 // The candidate closest in spelling to `word`; empty if none is close.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
+// "; did you mean 'sigma'?" for the nearest candidate, with `mark` ('&', '--') before it; empty if none is close.
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, const char* mark = "");
 
 std::string lower_case(std::string_view word);
 

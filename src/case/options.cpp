@@ -22,7 +22,7 @@ constexpr Flag kFlags[] = {
     {'\0', "man", &Options::man},        {'\0', "version", &Options::version},
 };
 
-[[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, text + " (--help lists the options)"); }
+[[noreturn]] void refuse(const std::string& text) { bad_input(text + " (--help lists the options)"); }
 
 const Flag& find_long(std::string_view name) {
     std::vector<std::string_view> names;
@@ -30,8 +30,7 @@ const Flag& find_long(std::string_view name) {
         if (flag.name == name) return flag;
         names.push_back(flag.name);
     }
-    const std::string_view near = namelist::nearest(name, names);
-    refuse("unknown option '--" + std::string(name) + "'" + (near.empty() ? "" : "; did you mean '--" + std::string(near) + "'?"));
+    refuse("unknown option '--" + std::string(name) + "'" + namelist::suggestion(name, names, "--"));
 }
 
 const Flag& find_short(char letter) {

@@ -51,9 +51,9 @@ std::string limited_text(std::istream& in, const std::string& name) {
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
         text.append(buffer, static_cast<std::size_t>(in.gcount()));
         if (text.size() > namelist::kLargestText)
-            throw Error(Failure::bad_input, name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+            bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
     }
-    if (in.bad()) throw Error(Failure::bad_input, name + ": cannot be read");
+    if (in.bad()) bad_input(name + ": cannot be read");
     return text;
 }
 
@@ -89,7 +89,7 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
 std::string apply_set(Case& settings, const std::string& argument) {
     const std::size_t equals = argument.find('=');
     try {
-        if (equals == std::string::npos) throw Error(Failure::bad_input, "expected 'group%key=value'");
+        if (equals == std::string::npos) bad_input("expected 'group%key=value'");
         set_key(settings, argument.substr(0, equals), argument.substr(equals + 1));
         return {};
     } catch (const Error& error) {
@@ -134,11 +134,11 @@ Reading read_namelist(std::string_view text) {
 
 ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
     if (text.size() > namelist::kLargestText)
-        throw Error(Failure::bad_input, name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        throw Error(Failure::bad_input, name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
+        bad_input(name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
-        throw Error(Failure::bad_input, name + ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
+        bad_input(name + ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
     faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
@@ -177,7 +177,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     };
     for (const Fault& fault : faults) line(namelist::format(name, fault));
     for (const std::string& fault : set_faults) line(fault);
-    if (count > 0) throw Error(Failure::bad_input, message);
+    if (count > 0) bad_input(message);
 
     ReadCase read{std::move(settings), std::move(reading.study), {}};
     for (const Fault& warning : reading.warnings) read.warnings.push_back(namelist::format(name, warning));
@@ -202,9 +202,9 @@ ReadCase read_case(std::istream& in, const std::string& name, const Options& opt
 ReadCase read_case(const Options& options) {
     if (options.case_path.empty()) return read_case(std::cin, "<stdin>", options);
     std::ifstream in(options.case_path, std::ios::binary);
-    if (!in) throw Error(Failure::bad_input, options.case_path + ": cannot be opened");
+    if (!in) bad_input(options.case_path + ": cannot be opened");
     // A directory can be opened, but not read.
-    if (in.peek() == std::ifstream::traits_type::eof() && in.bad()) throw Error(Failure::bad_input, options.case_path + ": cannot be read");
+    if (in.peek() == std::ifstream::traits_type::eof() && in.bad()) bad_input(options.case_path + ": cannot be read");
     in.clear();
     return read_case(in, options.case_path, options);
 }

@@ -377,8 +377,7 @@ std::string suggest_key(std::string_view group, std::string_view name) {
         if (namelist::lower_case(group) == key.group) here.push_back(key.name);
     for (const Key& key : registry())
         if (find_key(key.group, name)) return "; '" + std::string(name) + "' belongs to &" + find_key(key.group, name)->group;
-    const std::string_view near = namelist::nearest(name, here);
-    return near.empty() ? "" : "; did you mean '" + std::string(near) + "'?";
+    return namelist::suggestion(name, here);
 }
 
 std::string keys_named(std::string_view name) {

@@ -421,7 +421,7 @@ void require_valid(const Case& settings) {
     std::string text;
     for (const Problem& problem : check_case(settings))
         text += (text.empty() ? "&" : "\n&") + std::string(problem.keys.front()->group) + ": " + problem.text;
-    if (!text.empty()) throw Error(Failure::bad_input, text);
+    if (!text.empty()) bad_input(text);
 }
 
 bool relaxes(const Case& settings) {

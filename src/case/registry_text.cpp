@@ -102,10 +102,8 @@ std::string describe(std::string_view name) {
     const std::string group = namelist::lower_case(name.substr(0, percent));
     if (!group_meaning(group)) {
         if (const std::string meant = keys_named(name); percent == std::string_view::npos && !meant.empty())
-            throw Error(Failure::bad_input, "'" + std::string(name) + "' is a key, not a group; did you mean " + meant + "?");
-        const std::string_view near = namelist::nearest(group, group_names());
-        throw Error(Failure::bad_input,
-                    "unknown group '" + group + "'" + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+            bad_input("'" + std::string(name) + "' is a key, not a group; did you mean " + meant + "?");
+        bad_input("unknown group '" + group + "'" + namelist::suggestion(group, group_names()));
     }
     if (percent == std::string_view::npos) {
         describe_group(out, group);
@@ -113,7 +111,7 @@ std::string describe(std::string_view name) {
     }
     const std::string_view key_name = name.substr(percent + 1);
     const Key* key = find_key(group, key_name);
-    if (!key) throw Error(Failure::bad_input, "&" + group + ": unknown key '" + std::string(key_name) + "'" + suggest_key(group, key_name));
+    if (!key) bad_input("&" + group + ": unknown key '" + std::string(key_name) + "'" + suggest_key(group, key_name));
     out << "&" << group << "\n";
     describe_key(out, *key);
     return out.str();

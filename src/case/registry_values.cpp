@@ -148,8 +148,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     const std::string word = namelist::lower_case(text);
     const auto found = std::find_if(key.choices.begin(), key.choices.end(), [&](const char* c) { return word == c; });
     if (found == key.choices.end()) {
-        const std::string_view near = namelist::nearest(word, {key.choices.begin(), key.choices.end()});
-        return quote(item) + " is none of " + list_choices(key) + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
+        return quote(item) + " is none of " + list_choices(key) + namelist::suggestion(word, {key.choices.begin(), key.choices.end()});
     }
     if (key.list) {
         const auto i = static_cast<std::size_t>(element);
@@ -309,8 +308,7 @@ Named named(std::string_view name, std::string_view value) {
     const std::size_t percent = name.find('%');
     if (percent == std::string_view::npos) {
         const std::string meant = keys_named(name.substr(0, name.find('(')));
-        throw Error(Failure::bad_input,
-                    "expected group%key, found '" + std::string(name) + "'" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+        bad_input("expected group%key, found '" + std::string(name) + "'" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
     }
     const auto strip = [](std::string_view s) {
         while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
@@ -319,17 +317,15 @@ Named named(std::string_view name, std::string_view value) {
     };
     const std::string_view group = strip(name.substr(0, percent)), rest = strip(name.substr(percent + 1));
     if (!group_meaning(namelist::lower_case(group))) {
-        const std::string_view near = namelist::nearest(group, group_names());
-        throw Error(Failure::bad_input,
-                    "unknown group '" + std::string(group) + "'" + (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+        bad_input("unknown group '" + std::string(group) + "'" + namelist::suggestion(group, group_names()));
     }
     const std::string_view bare = strip(rest.substr(0, rest.find('(')));
     const Key* key = find_key(group, bare);
-    if (!key) throw Error(Failure::bad_input, "unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
+    if (!key) bad_input("unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
     const namelist::Document document = namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
-    if (!document.faults.empty()) throw Error(Failure::bad_input, document.faults.front().text);
+    if (!document.faults.empty()) bad_input(document.faults.front().text);
     const std::vector<Assignment>& assignments = document.groups.front().assignments;
-    if (assignments.size() != 1) throw Error(Failure::bad_input, "expected one value for one key");
+    if (assignments.size() != 1) bad_input("expected one value for one key");
     return {key, assignments.front()};
 }
 
@@ -365,8 +361,8 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;
         if (given > 0 && given < key->size) {
-            throw Error(Failure::bad_input, std::string(key->name) + " has " + std::to_string(key->size) +
-                                                " values: give all of them, or one as " + key->group + "%" + key->name + "(1)");
+            bad_input(std::string(key->name) + " has " + std::to_string(key->size) + " values: give all of them, or one as " + key->group +
+                      "%" + key->name + "(1)");
         }
     }
     Case changed = settings;
@@ -378,9 +374,9 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
         // The name includes the group.
         const std::string context = "&" + std::string(key->group) + ": ";
         const std::string& text = faults.front().text;
-        throw Error(Failure::bad_input, text.starts_with(context) ? text.substr(context.size()) : text);
+        bad_input(text.starts_with(context) ? text.substr(context.size()) : text);
     }
-    if (const std::string problem = out_of_bounds(changed, *key); !problem.empty()) throw Error(Failure::bad_input, problem);
+    if (const std::string problem = out_of_bounds(changed, *key); !problem.empty()) bad_input(problem);
     settings = std::move(changed);
 }
 
@@ -396,8 +392,8 @@ std::string get_key(const Case& settings, std::string_view name) {
     }
     Walk walk{1, 1, size};
     if (assignment.subscript) {
-        if (key->size == 1) throw Error(Failure::bad_input, std::string(key->name) + " is no array: it takes no subscript");
-        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty()) throw Error(Failure::bad_input, problem);
+        if (key->size == 1) bad_input(std::string(key->name) + " is no array: it takes no subscript");
+        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty()) bad_input(problem);
         if (!assignment.subscript->section) walk.count = 1;
     }
     std::string text;

@@ -19,9 +19,8 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
     if (percent == std::string::npos) return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
     const std::string group = a.key.substr(0, percent), name = a.key.substr(percent + 1);
     if (group == "study" || !group_meaning(group)) {
-        const std::string_view near = group == "study" ? "" : namelist::nearest(group, group_names());
         return fault("unknown group '" + group + "' in '" + a.key + "'" +
-                     (near.empty() ? "" : "; did you mean '" + std::string(near) + "'?"));
+                     (group == "study" ? "" : namelist::suggestion(group, group_names())));
     }
     const Key* key = find_key(group, name);
     if (!key) return fault("unknown key '" + a.key + "'" + suggest_key(group, name));
@@ -142,7 +141,7 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
 std::vector<Member> expand_study(const Case& base, const Study& study) {
     std::string wrong;
     for (const Fault& fault : check_study(base, study)) wrong += (wrong.empty() ? "" : "\n") + fault.text;
-    if (!wrong.empty()) throw Error(Failure::bad_input, wrong);
+    if (!wrong.empty()) bad_input(wrong);
 
     const std::size_t count = member_count(study);
     std::vector<Member> members(count);
@@ -165,7 +164,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
                 wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") + std::to_string(member.index) + " (" +
                          join(member.values) + "): &" + problem.keys.front()->group + ": " + problem.text;
     }
-    if (!wrong.empty()) throw Error(Failure::bad_input, wrong);
+    if (!wrong.empty()) bad_input(wrong);
     return members;
 }
 

@@ -27,9 +27,7 @@ public:
     // The unit system, read once from UDUNITS's XML files. Never freed: another thread may use it while the program ends.
     ut_system* system() {
         static ut_system* const units = ut_read_xml(nullptr);
-        if (!units)
-            throw Error(Failure::bad_input,
-                        "the list of units of UDUNITS cannot be read; set the environment's UDUNITS2_XML_PATH to its udunits2.xml");
+        if (!units) bad_input("the list of units of UDUNITS cannot be read; set the environment's UDUNITS2_XML_PATH to its udunits2.xml");
         return units;
     }
 
@@ -102,14 +100,13 @@ double length_factor(const std::string& from, const std::string& to, int power) 
     Session session;
     const Unit unit = session.parse(a), wanted = session.parse(b);
     const auto require = [&](const std::string& text, const Unit& parsed) {
-        if (const std::string wrong = problem_of(session, text, parsed, Quantity::length); !wrong.empty())
-            throw Error(Failure::bad_input, wrong);
+        if (const std::string wrong = problem_of(session, text, parsed, Quantity::length); !wrong.empty()) bad_input(wrong);
     };
     require(b, wanted);
     if (power == 1) require(a, unit);
     const Unit raised(ut_raise(wanted.get(), power), ut_free);
     const double factor = unit && raised ? factor_between(unit, raised) : 0;
-    if (factor == 0) throw Error(Failure::bad_input, "'" + a + "' where a unit like (" + b + ")" + std::to_string(power) + " is expected");
+    if (factor == 0) bad_input("'" + a + "' where a unit like (" + b + ")" + std::to_string(power) + " is expected");
     return factor;
 }
 

@@ -13,11 +13,6 @@ namespace rsc {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path folder_of(const std::string& path) {
-    const fs::path parent = fs::path(path).parent_path();
-    return parent.empty() ? fs::path(".") : parent;
-}
-
 void check(int status, const std::string& path) {
     if (status == NC_NOERR) return;
     if (status == NC_EVARSIZE || status == NC_EDIMSIZE)
@@ -36,7 +31,7 @@ void check(int status, const std::string& path) {
 std::vector<char> make_empty(const std::string& path, int mode) {
     std::error_code none;
     int error = 0;
-    for (const fs::path& folder : {fs::temp_directory_path(none), folder_of(path)}) {
+    for (const fs::path& folder : {fs::temp_directory_path(none), fs::path(folder_of(path))}) {
         std::string name = (folder / "rsc-empty-XXXXXX").string();
         const int fd = ::mkstemp(name.data());
         if (fd < 0) {

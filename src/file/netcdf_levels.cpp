@@ -161,12 +161,7 @@ void ResultTable::surfaces() {
     add_absent("m4", dims, unit(-2), "fourth profile moment: mean square profile curvature",
                of_surfaces([](const auto& s) { return s.m4; }),
                origin + (directional ? ", 3/8 (m40 + m04 + 2 m22)" : ", (m40 + m04 + 3 m22)/3"));
-    const struct {
-        const char* name;
-        double MomentTensor::*of;
-    } components[] = {{"m20", &MomentTensor::m20}, {"m11", &MomentTensor::m11}, {"m02", &MomentTensor::m02}, {"m40", &MomentTensor::m40},
-                      {"m31", &MomentTensor::m31}, {"m22", &MomentTensor::m22}, {"m13", &MomentTensor::m13}, {"m04", &MomentTensor::m04}};
-    for (const auto& [name, of] : components)
+    for (const auto& [name, of] : kMomentComponents)
         add_absent(name, dims, name[1] - '0' + name[2] - '0' == 2 ? "1" : unit(-2),
                    std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
                    of_surfaces([of = of](const auto& s) { return s.tensor.*of; }), origin);

@@ -250,36 +250,41 @@ void ResultTable::residual_profile() {
 
 void ResultTable::compared() {
     const ComparedLevels& c = r_.compared;
-    if (c.step.empty()) return;
-    file_.dimension("compare", c.step.size());
-    std::vector<std::int32_t> step = c.step;
+    if (c.levels.empty()) return;
+    using C = ComparedLevel;
+    file_.dimension("compare", c.levels.size());
+    const auto of = [&c]<class T>(T C::*member) {
+        std::vector<T> values;
+        for (const C& level : c.levels) values.push_back(level.*member);
+        return values;
+    };
+    std::vector<std::int32_t> step = of(&C::step);
     for (std::int32_t& s : step) ++s;
     const Names dims{"compare"};
-    const std::string by = " by elements";
+    const std::string by = " by elements", change = "from its change with the grid", over = "of asperities over that of elements, minus 1";
     add("compare_step", dims, "1", "number of the level that was also solved by elements", step,
         {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "of the first realization"}});
-    add("compare_separation", dims, unit(1), "separation of that level, Z0", c.separation,
+    add("compare_separation", dims, unit(1), "separation of that level, Z0", of(&C::separation),
         comment(r_.force_control ? "of elements at the force of the level" : ""));
-    add("compare_force", dims, unit(0, 1), "normal force" + by, c.force);
-    add("compare_contact_area", dims, unit(2), "true contact area" + by, c.area);
+    add("compare_force", dims, unit(0, 1), "normal force" + by, of(&C::force));
+    add("compare_contact_area", dims, unit(2), "true contact area" + by, of(&C::area));
     add("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, without the correction at borders",
-        c.area_pixels);
-    add("compare_contacts", dims, "1", "number of contacts" + by, c.contacts, comment("sets of pixels connected by their sides"));
-    add("compare_residual", dims, "1", "residual of the contact conditions", c.residual);
-    const std::string over = "of asperities over that of elements, minus 1";
+        of(&C::area_pixels));
+    add("compare_contacts", dims, "1", "number of contacts" + by, of(&C::contacts), comment("sets of pixels connected by their sides"));
+    add("compare_residual", dims, "1", "residual of the contact conditions", of(&C::residual));
     if (r_.force_control)
         add_absent("separation_error", dims, unit(1), "separation of asperities minus that of elements, at equal force",
-                   c.separation_error);
+                   of(&C::separation_error));
     else
-        add_absent("force_error", dims, "1", "force " + over, c.force_error);
-    add_absent("compare_force_error_expected", dims, "1", "expected relative error of the force of elements", c.force_error_expected,
-               "from its change with the grid");
-    add_absent("compare_area_error_expected", dims, "1", "expected relative error of the contact area of elements", c.area_error_expected,
-               "from its change with the grid");
-    add("compare_columns", dims, "1", "points of the elements' grid along x", c.columns);
-    add("compare_rows", dims, "1", "points of the elements' grid along y", c.rows);
-    add_absent("area_error", dims, "1", "contact area " + over, c.area_error);
-    add_absent("contacts_error", dims, "1", "number of contacts " + over, c.contacts_error);
+        add_absent("force_error", dims, "1", "force " + over, of(&C::force_error));
+    add_absent("compare_force_error_expected", dims, "1", "expected relative error of the force of elements", of(&C::force_error_expected),
+               change);
+    add_absent("compare_area_error_expected", dims, "1", "expected relative error of the contact area of elements",
+               of(&C::area_error_expected), change);
+    add("compare_columns", dims, "1", "points of the elements' grid along x", of(&C::columns));
+    add("compare_rows", dims, "1", "points of the elements' grid along y", of(&C::rows));
+    add_absent("area_error", dims, "1", "contact area " + over, of(&C::area_error));
+    add_absent("contacts_error", dims, "1", "number of contacts " + over, of(&C::contacts_error));
     const LevelPixels& p = c.pixels;
     if (p.index.empty()) return;
     file_.dimension("compare_pixel", p.index.size());

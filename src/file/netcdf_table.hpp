@@ -91,12 +91,9 @@ private:
     static NetcdfAttributes comment(const std::string& text) {
         return text.empty() ? NetcdfAttributes{} : NetcdfAttributes{{"comment", text}};
     }
-    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name, std::vector<double> values,
+    template <class T>
+    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name, std::vector<T> values,
              NetcdfAttributes attributes = {}) {
-        file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
-    }
-    void add(const std::string& name, Names dimensions, const std::string& units, const std::string& long_name,
-             std::vector<std::int32_t> values, NetcdfAttributes attributes = {}) {
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values), std::move(attributes), false});
     }
     // Incompressible data: unordered positions, heights, forces.

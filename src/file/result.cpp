@@ -9,14 +9,13 @@ namespace rsc {
 Contacts contacts_kept(const Case& c) {
     const bool one = c.run.realizations == 1;
     if (!one && (c.output.contacts == Contacts::last || c.output.contacts == Contacts::all))
-        throw Error(Failure::bad_input, "&output contacts: contacts are stored for one realization only, and this case has " +
-                                            std::to_string(c.run.realizations) + "; use contacts='none' or 'auto', or realizations=1");
+        bad_input("&output contacts: contacts are stored for one realization only, and this case has " +
+                  std::to_string(c.run.realizations) + "; use contacts='none' or 'auto', or realizations=1");
     if (!one && c.output.heights)
-        throw Error(Failure::bad_input, "&output heights: heights are stored for one realization only, and this case has " +
-                                            std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");
+        bad_input("&output heights: heights are stored for one realization only, and this case has " + std::to_string(c.run.realizations) +
+                  "; use heights=.false. or realizations=1");
     if (!one && !c.output.fields.empty())
-        throw Error(Failure::bad_input,
-                    "&output fields: fields are stored for one realization only, and this case has " + std::to_string(c.run.realizations));
+        bad_input("&output fields: fields are stored for one realization only, and this case has " + std::to_string(c.run.realizations));
     if (c.output.contacts != Contacts::automatic) return c.output.contacts;
     return one ? Contacts::all : Contacts::none;
 }
@@ -71,8 +70,7 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
         const std::size_t count = kept ? level.asperity.size() : 0;
         if (packed.force.size() + count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-            throw Error(Failure::bad_input,
-                        "&output contacts: too many contacts for the indices of the result file; use contacts='last' or 'none'");
+            bad_input("&output contacts: too many contacts for the indices of the result file; use contacts='last' or 'none'");
         packed.start.push_back(static_cast<std::int32_t>(packed.force.size()));
         packed.count.push_back(static_cast<std::int32_t>(count));
         if (!kept) continue;
@@ -129,7 +127,7 @@ public:
         if (!variable || variable->lengths.size() != 1) refuse("it has no list " + name);
         return variable->lengths.front();
     }
-    [[noreturn]] void refuse(const std::string& why) const { throw Error(Failure::bad_input, "'" + file_.path() + "': " + why); }
+    [[noreturn]] void refuse(const std::string& why) const { bad_input("'" + file_.path() + "': " + why); }
 
 private:
     NetcdfInput file_;
@@ -171,29 +169,30 @@ void read_levels(const Columns& file, Accumulators& sums) {
 
 void read_surfaces(const Columns& file, Accumulators& sums) {
     sums.surface.resize(sums.realization.size());
-    const auto read = [&](const char* name, auto SurfaceStatistics::*member) {
+    using S = SurfaceStatistics;
+    const auto read = [&](const char* name, auto member_of) {
         const std::vector<double> values = file.values(name, {sums.surface.size()});
-        using Value = std::remove_reference_t<decltype(sums.surface.front().*member)>;
-        for (std::size_t k = 0; k < values.size(); ++k) sums.surface[k].*member = static_cast<Value>(values[k]);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            auto& member = member_of(sums.surface[k]);
+            member = static_cast<std::decay_t<decltype(member)>>(values[k]);
+        }
     };
-    const auto read_moment = [&](const char* name, double MomentTensor::*of) {
-        const std::vector<double> values = file.values(name, {sums.surface.size()});
-        for (std::size_t k = 0; k < values.size(); ++k) sums.surface[k].tensor.*of = values[k];
-    };
-    read("sigma", &SurfaceStatistics::sigma);
-    read_moment("m20", &MomentTensor::m20), read_moment("m11", &MomentTensor::m11), read_moment("m02", &MomentTensor::m02);
-    read_moment("m40", &MomentTensor::m40), read_moment("m31", &MomentTensor::m31), read_moment("m22", &MomentTensor::m22);
-    read_moment("m13", &MomentTensor::m13), read_moment("m04", &MomentTensor::m04);
-    if (file.find("skewness")) read("skewness", &SurfaceStatistics::skewness), read("kurtosis", &SurfaceStatistics::kurtosis);
-    read("m2", &SurfaceStatistics::m2);
-    read("m4", &SurfaceStatistics::m4);
-    read("m2_grid", &SurfaceStatistics::m2_grid);
-    read("m4_grid", &SurfaceStatistics::m4_grid);
-    read("mean_kappa_g", &SurfaceStatistics::mean_kappa_g);
-    read("mean_kappa_a", &SurfaceStatistics::mean_kappa_a);
+    for (const auto& [name, member] : {std::pair{"sigma", &S::sigma},
+                                       {"m2", &S::m2},
+                                       {"m4", &S::m4},
+                                       {"m2_grid", &S::m2_grid},
+                                       {"m4_grid", &S::m4_grid},
+                                       {"mean_kappa_g", &S::mean_kappa_g},
+                                       {"mean_kappa_a", &S::mean_kappa_a}})
+        read(name, [m = member](S& s) -> double& { return s.*m; });
+    for (const auto& [name, of] : kMomentComponents) read(name, [m = of](S& s) -> double& { return s.tensor.*m; });
+    if (file.find("skewness"))
+        read("skewness", [](S& s) -> double& { return s.skewness; }), read("kurtosis", [](S& s) -> double& { return s.kurtosis; });
     if (!file.find("summits")) return;  // elements do not search for summits
-    read("summits", &SurfaceStatistics::summits);
-    read("saddles", &SurfaceStatistics::saddles);
+    read(
+        "summits", [](S & s) -> auto& { return s.summits; }),
+        read(
+            "saddles", [](S & s) -> auto& { return s.saddles; });
 }
 
 void read_distributions(const Columns& file, Accumulators& sums) {

@@ -46,18 +46,21 @@ struct FrictionLoops {
     std::vector<double> stiffness, cycle_work;  // [step] [force/length], [force length]
 };
 
-// Levels of the asperity model solved also by elements (&compare), one value for each.
+// A level of the asperity model solved also by elements (&compare). NaN: not known, or the elements did not converge.
+struct ComparedLevel {
+    std::int32_t step = 0;  // the level, from 0
+    // Of elements:
+    double separation = 0, force = 0, area = 0, area_pixels = 0, residual = 0;
+    double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
+    std::int32_t contacts = 0, columns = 0, rows = 0;  // columns and rows of their grid
+    // Asperities over elements - 1; that of the force is NaN under force control.
+    double force_error = kNotComputed, area_error = kNotComputed, contacts_error = kNotComputed;
+    double separation_error = kNotComputed;  // asperities minus elements, under force control [length]
+};
 struct ComparedLevels {
-    std::vector<std::int32_t> step;  // the level, from 0
-    std::vector<std::int32_t> contacts;
-    std::vector<double> separation, force, area, area_pixels, residual;
-    std::vector<double> force_error, area_error,
-        contacts_error;                    // asperities over elements - 1; that of the force is NaN under force control
-    std::vector<double> separation_error;  // asperities minus elements, under force control [length]
-    std::vector<double> force_error_expected, area_error_expected;  // of the elements themselves; NaN: not known
-    std::vector<std::int32_t> columns, rows;                        // of the grid of elements
-    LevelPixels pixels;                                             // of the last one
-    long failed = 0;                                                // levels at which elements did not converge
+    std::vector<ComparedLevel> levels;
+    LevelPixels pixels;  // of the last one
+    long failed = 0;     // levels at which elements did not converge
 };
 
 struct Result {

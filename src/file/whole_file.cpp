@@ -19,12 +19,12 @@ constexpr int kPartsLookedAt = 16;  // more than one writer of the same file at 
 
 std::string part_name(const std::string& path, int k) { return path + ".rsc-part-" + std::to_string(k); }
 
+}  // namespace
+
 std::string folder_of(const std::string& path) {
     const std::string parent = fs::path(path).parent_path().string();
     return parent.empty() ? "." : parent;
 }
-
-}  // namespace
 
 std::string reason_to_leave(const std::string& path, const FileKind& kind) {
     struct stat status {};
@@ -199,15 +199,14 @@ std::optional<std::string> case_in_result(const std::string& path) {
 const FileKind kResultFile{"result", [](const std::string& path) { return head_of_result(path).has_value(); }};
 
 bool check_output(const std::string& path, const std::vector<std::string>& inputs) {
-    const auto refuse = [&path](const std::string& why) { throw Error(Failure::bad_input, "&output file='" + path + "': " + why); };
+    const auto refuse = [&path](const std::string& why) { bad_input("&output file='" + path + "': " + why); };
     if (path.empty()) refuse("a file name is expected");
     if (path.back() == '/') refuse("a file name is expected after the last '/'");
     // NetCDF would treat such names as URLs or as zarr stores.
     if (path.find("://") != std::string::npos || path.starts_with("http:") || path.find("#mode=") != std::string::npos)
         refuse("this is a URL; rsc writes to plain files only");
     std::error_code error;
-    const fs::path parent = fs::path(path).parent_path(), folder = parent.empty() ? fs::path(".") : parent,
-                   ancestor = existing_ancestor(folder);
+    const fs::path folder = folder_of(path), ancestor = existing_ancestor(folder);
     if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
     if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
         refuse("folder '" + folder.string() + "' does not exist; create it first");

@@ -19,6 +19,9 @@ struct FileKind {
 // kind. Empty if it may be written.
 std::string reason_to_leave(const std::string& path, const FileKind& kind);
 
+// The folder of a file, "." for a bare name.
+std::string folder_of(const std::string& path);
+
 // Throws Error(file_system): the meaning of the system's error number for writing `path`, and a remedy.
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 

@@ -85,10 +85,10 @@ std::vector<double> density(const Binned& binned) {
 }  // namespace
 
 PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest) {
-    if (bins < 1) throw Error(Failure::bad_input, "distributions: the number of bins must be at least 1, not " + std::to_string(bins));
+    if (bins < 1) bad_input("distributions: the number of bins must be at least 1, not " + std::to_string(bins));
     const double pressure = E_star * std::sqrt(sigma * sqrt_m4), area = sigma / sqrt_m4;
     if (!(pressure > 0) || !std::isfinite(pressure) || !(area > 0) || !std::isfinite(area))
-        throw Error(Failure::bad_input, "distributions: E*, the rms height and the curvature scale must be positive and finite");
+        bad_input("distributions: E*, the rms height and the curvature scale must be positive and finite");
     return {bins, std::min(1.2 * pressure, hardest), 10 * area};
 }
 

@@ -137,7 +137,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     if (asked.window) {
         const auto& w = *asked.window;
         columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]), rows = points_within(map.y0, map.dy, map.ny, w[2], w[3]);
-        if (columns.size() < 1 || rows.size() < 1) throw Error(Failure::bad_input, "output%field_window contains no point of the surface");
+        if (columns.size() < 1 || rows.size() < 1) bad_input("output%field_window contains no point of the surface");
     } else if (!repeats) {
         about_contact(map, pressures, columns, rows);
     }

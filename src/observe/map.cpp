@@ -16,15 +16,15 @@ int MapGrid::cell(double px, double py) const {
 
 MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     if (!(Lx > 0) || !(Ly > 0) || !std::isfinite(Lx) || !std::isfinite(Ly))
-        throw Error(Failure::bad_input, "coarse map: the sides of the surface must be positive and finite");
-    if (cells < 1) throw Error(Failure::bad_input, "coarse map: the number of cells must be at least 1, not " + std::to_string(cells));
+        bad_input("coarse map: the sides of the surface must be positive and finite");
+    if (cells < 1) bad_input("coarse map: the number of cells must be at least 1, not " + std::to_string(cells));
     MapGrid grid{x0, y0, Lx / cells, cells, 0};
     // If Ly is a whole number of cells up to rounding, the last row is kept.
     const double rows = std::floor(Ly / grid.side * (1 + 8 * std::numeric_limits<double>::epsilon()));
     if (rows < 1)
-        throw Error(Failure::bad_input, "coarse map: a cell of side " + std::to_string(grid.side) +
-                                            " is larger than the surface's extent " + std::to_string(Ly) + " along y; increase map_cells");
-    if (rows * cells > 1e8) throw Error(Failure::bad_input, "coarse map: more than 1e8 cells; decrease map_cells");
+        bad_input("coarse map: a cell of side " + std::to_string(grid.side) + " is larger than the surface's extent " + std::to_string(Ly) +
+                  " along y; increase map_cells");
+    if (rows * cells > 1e8) bad_input("coarse map: more than 1e8 cells; decrease map_cells");
     grid.ny = static_cast<int>(rows);
     return grid;
 }

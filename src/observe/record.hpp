@@ -31,6 +31,15 @@ struct SurfaceStatistics {
     std::int64_t summits = 0, saddles = 0;
 };
 
+// The components of `tensor` by their names in files.
+struct MomentComponent {
+    const char* name;  // m, power of kx, power of ky
+    double MomentTensor::*of;
+};
+inline constexpr MomentComponent kMomentComponents[] = {
+    {"m20", &MomentTensor::m20}, {"m11", &MomentTensor::m11}, {"m02", &MomentTensor::m02}, {"m40", &MomentTensor::m40},
+    {"m31", &MomentTensor::m31}, {"m22", &MomentTensor::m22}, {"m13", &MomentTensor::m13}, {"m04", &MomentTensor::m04}};
+
 struct RealizationRecord {
     std::int64_t realization = 1;
     SurfaceStatistics surface;

@@ -15,9 +15,9 @@ double Hertz::pressure(double r) const {
 }
 
 Hertz hertz_contact(double force, double R, double E_star) {
-    if (!(force >= 0) || !std::isfinite(force)) throw Error(Failure::bad_input, "Hertz contact: the force must be finite and not negative");
-    if (!(R > 0) || !std::isfinite(R)) throw Error(Failure::bad_input, "Hertz contact: the radius must be positive and finite");
-    if (!(E_star > 0) || !std::isfinite(E_star)) throw Error(Failure::bad_input, "Hertz contact: E* must be positive and finite");
+    if (!(force >= 0) || !std::isfinite(force)) bad_input("Hertz contact: the force must be finite and not negative");
+    if (!(R > 0) || !std::isfinite(R)) bad_input("Hertz contact: the radius must be positive and finite");
+    if (!(E_star > 0) || !std::isfinite(E_star)) bad_input("Hertz contact: E* must be positive and finite");
     Hertz h;
     h.radius = std::cbrt(3 * force * R / (4 * E_star));
     h.penetration = h.radius * h.radius / R;

@@ -29,12 +29,12 @@ void reverse_rows(HeightMap& map);
 inline std::string read_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-    if (size < 0) throw Error(Failure::bad_input, path + ": cannot be read");
+    if (size < 0) bad_input(path + ": cannot be read");
     check_memory(path, "the file", static_cast<double>(size) / sizeof(double));
     std::string bytes(static_cast<std::size_t>(size), '\0');
     file.seekg(0);
     file.read(bytes.data(), size);
-    if (file.gcount() != size) throw Error(Failure::bad_input, path + ": reading failed");
+    if (file.gcount() != size) bad_input(path + ": reading failed");
     return bytes;
 }
 
@@ -47,9 +47,7 @@ public:
     std::size_t at() const { return at_; }
     std::size_t left() const { return end_ - at_; }
     const std::string& path() const { return path_; }
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw Error(Failure::bad_input, path_ + ": at byte " + std::to_string(at_) + ": " + what);
-    }
+    [[noreturn]] void refuse(const std::string& what) const { bad_input(path_ + ": at byte " + std::to_string(at_) + ": " + what); }
 
     // The next `count` items of `size` bytes each; `what` names them in messages.
     std::string_view take(std::size_t count, std::size_t size, const std::string& what) {

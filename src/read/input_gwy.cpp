@@ -8,8 +8,6 @@
 namespace rsc {
 namespace {
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
-
 // A named value: its position in the bytes and its type.
 struct Component {
     std::string_view name;
@@ -167,8 +165,8 @@ HeightMap read_gwy(const std::string& path, const std::string& channel, const st
         return magic;
     }();
     if (start != "GWYP")
-        refuse(path + ": a file of another version of Gwyddion (it begins with '" + printable(start) +
-               "', not 'GWYP'): open it in Gwyddion 2 and save it again");
+        bad_input(path + ": a file of another version of Gwyddion (it begins with '" + printable(start) +
+                  "', not 'GWYP'): open it in Gwyddion 2 and save it again");
     const GwyFile file(path);
     std::string names;
     std::optional<long> chosen;
@@ -178,30 +176,30 @@ HeightMap read_gwy(const std::string& path, const std::string& channel, const st
         names += (names.empty() ? "'" : ", '") + printable(title) + "' in '" + printable(field->unit_z) + "'";
         if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value() : title == channel)) chosen = n;
     }
-    if (names.empty()) refuse(path + ": contains no channel (image)");
+    if (names.empty()) bad_input(path + ": contains no channel (image)");
     if (!chosen)
-        refuse(path + ": " + (channel.empty() ? "no channel contains heights" : "there is no channel '" + channel + "'") + "; there are " +
-               names);
+        bad_input(path + ": " + (channel.empty() ? "no channel contains heights" : "there is no channel '" + channel + "'") +
+                  "; there are " + names);
     const std::string base = format("/%ld", *chosen);
     const Field field = *file.field(base + "/data");
     const std::string name = path + ": channel '" + printable(file.title(*chosen)) + "'";
     const auto factor_z = factor_of(field.unit_z, length_unit), factor_xy = factor_of(field.unit_xy, length_unit);
-    if (!factor_z) refuse(name + ": its values are in '" + printable(field.unit_z) + "', which is no length");
-    if (!factor_xy) refuse(name + ": its sides are in '" + printable(field.unit_xy) + "', which is no length");
+    if (!factor_z) bad_input(name + ": its values are in '" + printable(field.unit_z) + "', which is no length");
+    if (!factor_xy) bad_input(name + ": its sides are in '" + printable(field.unit_xy) + "', which is no length");
     check_grid(path, field.nx, field.ny);
     const std::size_t points = field.nx * field.ny;
     if (field.data.size() != points * sizeof(double))
-        refuse(name + ": " + std::to_string(field.data.size() / sizeof(double)) + " values for " + std::to_string(field.nx) + " x " +
-               std::to_string(field.ny) + " points");
+        bad_input(name + ": " + std::to_string(field.data.size() / sizeof(double)) + " values for " + std::to_string(field.nx) + " x " +
+                  std::to_string(field.ny) + " points");
     if (!(field.Lx > 0 && field.Ly > 0 && std::isfinite(field.Lx) && std::isfinite(field.Ly)))
-        refuse(name + ": sides of " + text_of(field.Lx) + " and " + text_of(field.Ly) + " must be positive");
+        bad_input(name + ": sides of " + text_of(field.Lx) + " and " + text_of(field.Ly) + " must be positive");
     HeightMap map = allocate_map(field.nx, field.ny);
     map.dx = field.Lx * *factor_xy / static_cast<double>(field.nx);
     map.dy = field.Ly * *factor_xy / static_cast<double>(field.ny);
     for (std::size_t k = 0; k < points; ++k) map.data[k] = *factor_z * ByteReader::value<double>(field.data.data() + k * sizeof(double));
     if (const auto mask = file.field(base + "/mask")) {
         if (mask->nx != field.nx || mask->ny != field.ny || mask->data.size() != field.data.size())
-            refuse(name + ": its mask and the channel differ in size");
+            bad_input(name + ": its mask and the channel differ in size");
         for (std::size_t k = 0; k < points; ++k)
             if (ByteReader::value<double>(mask->data.data() + k * sizeof(double)) > 0) map.data[k] = std::nan("");
     }

@@ -28,8 +28,7 @@ void require_sound(const std::string& path) {
     in.seekg(size - length);
     if (!in.read(line.data(), length)) return;
     if (!line.starts_with(start)) {
-        if (line.find(start) != std::string::npos)
-            throw Error(Failure::bad_input, path + ": is truncated: its last line, the checksum, is incomplete");
+        if (line.find(start) != std::string::npos) bad_input(path + ": is truncated: its last line, the checksum, is incomplete");
         return;
     }
     std::vector<char> buffer(1 << 20);
@@ -41,9 +40,9 @@ void require_sound(const std::string& path) {
         left -= in.gcount();
     }
     if (line_of(crc) != line)
-        throw Error(Failure::bad_input, path +
-                                            ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy makes a copy "
-                                            "without one)");
+        bad_input(path +
+                  ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy makes a copy "
+                  "without one)");
 }
 
 namespace {
@@ -107,8 +106,7 @@ public:
 
 private:
     [[noreturn]] void damaged() const {
-        throw Error(Failure::bad_input,
-                    path_ + ": looks like NetCDF, but its header is truncated or damaged at byte " + std::to_string(position_));
+        bad_input(path_ + ": looks like NetCDF, but its header is truncated or damaged at byte " + std::to_string(position_));
     }
 
     std::uint64_t number(int bytes) {
@@ -180,13 +178,11 @@ void check_classic_length(const std::string& path) {
     ClassicHeader header(path);
     const std::uint64_t wanted = header.wanted_length();
     if (header.length() < wanted)
-        throw Error(Failure::bad_input, path + ": ends at byte " + std::to_string(header.length()) + " of the " + std::to_string(wanted) +
-                                            " in its header; the file is truncated");
+        bad_input(path + ": ends at byte " + std::to_string(header.length()) + " of the " + std::to_string(wanted) +
+                  " in its header; the file is truncated");
 }
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
 
 // Stored values of the variable that mean "missing".
 bool has_default_fill(nc_type type) {
@@ -212,19 +208,19 @@ std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
 
 bool is_netcdf(const std::string& path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) refuse(path + ": is a directory, not a file");
+    if (std::filesystem::is_directory(path, ignored)) bad_input(path + ": is a directory, not a file");
     if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-        refuse(path + ": is a device or a FIFO; a plain file was expected");
+        bad_input(path + ": is a device or a FIFO; a plain file was expected");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file) refuse(path + ": " + (errno != 0 ? std::strerror(errno) : "cannot be opened"));
+    if (!file) bad_input(path + ": " + (errno != 0 ? std::strerror(errno) : "cannot be opened"));
     constexpr std::array<char, 8> kHdf5 = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     for (const long offset : {0L, 512L, 1024L, 2048L}) {  // a user block may come before the HDF5 signature
         std::array<char, 8> start{};
         file.seekg(offset);
         file.read(start.data(), start.size());
         const auto count = file.gcount();
-        if (offset == 0 && count == 0) refuse(path + ": is empty");
+        if (offset == 0 && count == 0) bad_input(path + ": is empty");
         if (offset == 0 && count >= 4 && std::memcmp(start.data(), "CDF", 3) == 0 && (start[3] == 1 || start[3] == 2 || start[3] == 5))
             return true;
         if (count == 8 && start == kHdf5) return true;
@@ -238,13 +234,13 @@ NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path
     require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
-    if (status != NC_NOERR) refuse(path + ": looks like NetCDF but cannot be opened; is it complete? (" + nc_strerror(status) + ")");
+    if (status != NC_NOERR) bad_input(path + ": looks like NetCDF but cannot be opened; is it complete? (" + nc_strerror(status) + ")");
 }
 
 NetcdfInput::~NetcdfInput() { nc_close(id_); }
 
 void NetcdfInput::must(int status, const std::string& what) const {
-    if (status != NC_NOERR) refuse(path_ + ": " + what + " cannot be read; is the file complete? (" + nc_strerror(status) + ")");
+    if (status != NC_NOERR) bad_input(path_ + ": " + what + " cannot be read; is the file complete? (" + nc_strerror(status) + ")");
 }
 
 std::string NetcdfInput::Variable::shape() const {
@@ -289,7 +285,7 @@ std::optional<std::vector<double>> NetcdfInput::numbers_attribute(const Variable
     const int status = nc_inq_att(id_, v.id, name, &type, &length);
     if (status == NC_ENOTATT) return std::nullopt;
     must(status, v.name + ":" + name);
-    if (type == NC_CHAR || type == NC_STRING) refuse(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
+    if (type == NC_CHAR || type == NC_STRING) bad_input(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
     std::vector<double> values(length);
     if (length > 0) must(nc_get_att_double(id_, v.id, name, values.data()), v.name + ":" + name);
     return values;
@@ -309,13 +305,13 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
         if (value) text = value;
         nc_free_string(1, &value);
     } else {
-        refuse(path_ + ": attribute " + v.name + ":" + name + " is no text");
+        bad_input(path_ + ": attribute " + v.name + ":" + name + " is no text");
     }
     return printable(text.substr(0, text.find('\0')), text.size());
 }
 
 void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {
-    if (!v.numeric()) refuse(path_ + ": variable " + v.name + " is not numeric");
+    if (!v.numeric()) bad_input(path_ + ": variable " + v.name + " is not numeric");
     std::size_t count = 1;
     for (const std::size_t n : v.lengths) count *= n;
     must(nc_get_var_double(id_, v.id, out), "variable " + v.name);
@@ -336,7 +332,7 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         const auto values = numbers_attribute(v, name);
         if (!values) return otherwise;
         if (values->size() != 1 || !std::isfinite(values->front()))
-            refuse(path_ + ": attribute " + v.name + ":" + name + " must be one finite number");
+            bad_input(path_ + ": attribute " + v.name + ":" + name + " must be one finite number");
         return values->front();
     };
     const double scale = factor("scale_factor", 1.0), offset = factor("add_offset", 0.0);
@@ -347,9 +343,10 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
             continue;
         }
         if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            refuse(path_ + ": " + indices(v, i) + " is missing (it has the fill value " + shown(stored) + "); every value must be known");
+            bad_input(path_ + ": " + indices(v, i) + " is missing (it has the fill value " + shown(stored) +
+                      "); every value must be known");
         out[i] = stored * scale + offset;
-        if (!std::isfinite(out[i])) refuse(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
+        if (!std::isfinite(out[i])) bad_input(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }
 }
 

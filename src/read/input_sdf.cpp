@@ -16,16 +16,14 @@ struct Header {
     long compression = 0, type = 0, check = 0;
 };
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
-
 HeightMap prepare(const std::string& path, const Header& h, const std::string& length_unit, double& factor) {
     check_grid(path, h.nx, h.ny);
     const auto positive = [&](const char* name, double value) {
-        if (!(value > 0 && std::isfinite(value))) refuse(path + ": " + name + " = " + text_of(value) + ": must be positive");
+        if (!(value > 0 && std::isfinite(value))) bad_input(path + ": " + name + " = " + text_of(value) + ": must be positive");
     };
     positive("Xscale", h.dx), positive("Yscale", h.dy), positive("Zscale", h.scale);
-    if (h.compression != 0) refuse(path + ": Compression = " + std::to_string(h.compression) + ": only 0 (none) is known");
-    if (h.check != 0) refuse(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
+    if (h.compression != 0) bad_input(path + ": Compression = " + std::to_string(h.compression) + ": only 0 (none) is known");
+    if (h.check != 0) bad_input(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
     const double metre = length_factor("m", length_unit);
     HeightMap map = allocate_map(h.nx, h.ny);
     map.dx = h.dx * metre, map.dy = h.dy * metre;
@@ -64,7 +62,7 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
     h.type = in.number<std::uint8_t>("DataType");
     h.check = in.number<std::uint8_t>("CheckType");
     constexpr std::size_t kSizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
-    if (h.type > 7) refuse(path + ": DataType = " + std::to_string(h.type) + ": 0 to 7 was expected");
+    if (h.type > 7) bad_input(path + ": DataType = " + std::to_string(h.type) + ": 0 to 7 was expected");
     // Before memory is allocated.
     if (h.nx > 0 && h.ny > 0 && in.left() / kSizes[h.type] / h.nx < h.ny)
         in.refuse(std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights of " + std::to_string(kSizes[h.type]) +
@@ -98,7 +96,7 @@ class Words {
 public:
     Words(const std::string& path, std::string_view text) : path_(path), text_(text) {}
     long line() const { return line_; }
-    [[noreturn]] void refuse_here(const std::string& what) const { refuse(path_ + ":" + std::to_string(line_) + ": " + what); }
+    [[noreturn]] void refuse_here(const std::string& what) const { bad_input(path_ + ":" + std::to_string(line_) + ": " + what); }
 
     // The rest of the line, without blanks around it; false at the end of the text.
     bool next_line(std::string_view& content) {
@@ -161,13 +159,13 @@ HeightMap read_text(const std::string& path, const std::string& bytes, const std
         value.remove_prefix(std::min(value.find_first_not_of("= \t"), value.size()));
         header[lower(line.substr(0, end))] = {value, words.line()};
     }
-    if (!data) refuse(path + ": the line '*' that ends the header is missing; is the file complete?");
+    if (!data) bad_input(path + ": the line '*' that ends the header is missing; is the file complete?");
     const auto number = [&](const char* name, auto& value) {
         const auto found = header.find(lower(name));
-        if (found == header.end()) refuse(path + ": the header has no " + std::string(name));
+        if (found == header.end()) bad_input(path + ": the header has no " + std::string(name));
         if (!to_number(found->second.first, value))
-            refuse(path + ":" + std::to_string(found->second.second) + ": " + name + ": a number was expected, not " +
-                   shown(found->second.first));
+            bad_input(path + ":" + std::to_string(found->second.second) + ": " + name + ": a number was expected, not " +
+                      shown(found->second.first));
     };
     Header h;
     number("NumPoints", h.nx), number("NumProfiles", h.ny);
@@ -177,8 +175,8 @@ HeightMap read_text(const std::string& path, const std::string& bytes, const std
     if (header.count("checktype")) number("CheckType", h.check);
     // A height has at least two characters, so excessive sizes are refused before memory is allocated.
     if (h.nx > 0 && h.ny > bytes.size() / h.nx)
-        refuse(path + ": " + std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights in a file of " + std::to_string(bytes.size()) +
-               " bytes; is the file complete?");
+        bad_input(path + ": " + std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights in a file of " +
+                  std::to_string(bytes.size()) + " bytes; is the file complete?");
     double factor = 0;
     HeightMap map = prepare(path, h, length_unit, factor);
     // Some writers of integers also mark missing points by a number.
@@ -214,7 +212,7 @@ bool is_sdf(const std::string& start) {
 
 HeightMap read_sdf(const std::string& path, const std::string& length_unit) {
     const std::string bytes = read_bytes(path);
-    if (!is_sdf(bytes)) refuse(path + ": is no surface data file (ISO 25178-71)");
+    if (!is_sdf(bytes)) bad_input(path + ": is no surface data file (ISO 25178-71)");
     HeightMap map = bytes[0] == 'b' ? read_binary(path, bytes, length_unit) : read_text(path, bytes, length_unit);
     reverse_rows(map);
     return map;

@@ -12,7 +12,7 @@ namespace {
 std::vector<double> read_variable(const NetcdfInput& file, const char* name, const std::string& length_unit, int power,
                                   std::size_t rank = 1) {
     const auto variable = file.find(name);
-    const auto refuse = [&](const std::string& what) { throw Error(Failure::bad_input, file.path() + ": " + what); };
+    const auto refuse = [&](const std::string& what) { bad_input(file.path() + ": " + what); };
     if (!variable)
         refuse(std::string("there is no variable ") + name +
                "; it was expected as in the result of a measured map (surface%source = 'heights')");
@@ -56,9 +56,9 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
             psd = read("psd", 4);
         } else {
             if (by_direction || heights)
-                throw Error(Failure::bad_input,
-                            "a text file has only the radial spectrum; surface%twins = 'directional' and surface%twin_heights = "
-                            "'measured' need the result file of a measured map");
+                bad_input(
+                    "a text file has only the radial spectrum; surface%twins = 'directional' and surface%twin_heights = "
+                    "'measured' need the result file of a measured map");
             const TextTable table = read_table(path, 2);
             for (std::size_t i = 0; i < table.rows; ++i) wavenumber.push_back(table.values[2 * i]), psd.push_back(table.values[2 * i + 1]);
         }

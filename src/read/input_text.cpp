@@ -18,7 +18,7 @@ struct Style {
 const char* name_of(char separator) { return separator == ' ' ? "blanks" : separator == ',' ? "commas" : "semicolons"; }
 
 [[noreturn]] void refuse(const std::string& path, long line, const std::string& what) {
-    throw Error(Failure::bad_input, path + ":" + std::to_string(line) + ": " + what);
+    bad_input(path + ":" + std::to_string(line) + ": " + what);
 }
 
 // A word for a message.
@@ -115,7 +115,7 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
 
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw Error(Failure::bad_input, path + ": cannot be read");
+    if (!file) bad_input(path + ": cannot be read");
     TextTable table;
     Style style;
     table.columns = columns;
@@ -126,7 +126,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         std::string_view view(text);
         if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // UTF-8 byte order mark
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
-            throw Error(Failure::bad_input, path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
+            bad_input(path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
         if (view.find('\0') != std::string_view::npos) refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
         const std::size_t count = parse(view, path, line, style, missing, table.values);
         if (count == 0) continue;
@@ -138,9 +138,9 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         }
         table.line.push_back(line);
     }
-    if (file.bad()) throw Error(Failure::bad_input, path + ": reading failed after line " + std::to_string(line));
+    if (file.bad()) bad_input(path + ": reading failed after line " + std::to_string(line));
     table.rows = table.line.size();
-    if (table.rows == 0) throw Error(Failure::bad_input, path + ": contains no numbers");
+    if (table.rows == 0) bad_input(path + ": contains no numbers");
     return table;
 }
 

@@ -26,7 +26,7 @@ std::vector<std::string> matching_files(const std::string& name) {
     }
     globfree(&found);
     if (status == GLOB_NOSPACE) throw Error(Failure::no_memory, "not enough memory for the files of " + name);
-    if (files.empty()) throw Error(Failure::bad_input, name + ": no file matches this pattern");
+    if (files.empty()) bad_input(name + ": no file matches this pattern");
     std::sort(files.begin(), files.end());  // independent of the locale
     return files;
 }
@@ -37,10 +37,8 @@ constexpr double kUniform = 1e-6;      // tolerance of coordinates on a uniform 
 constexpr double kUniformText = 0.01;  // the same for coordinates in text files, which are rounded
 constexpr double kSameL = 1e-6;        // relative tolerance of nx dx = L
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(Failure::bad_input, message); }
-
 void check_L(const std::string& path, double L) {
-    if (!(L > 0 && std::isfinite(L))) refuse(path + ": L must be positive and finite, not " + text_of(L));
+    if (!(L > 0 && std::isfinite(L))) bad_input(path + ": L must be positive and finite, not " + text_of(L));
 }
 
 // nx dx must equal the given L, if any.
@@ -49,8 +47,8 @@ void check_given_L(const std::string& path, const std::string& coordinate, int n
     check_L(path, *L);
     const double extent = nx * dx;
     if (!(std::abs(extent - *L) <= kSameL * *L))
-        refuse(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) + " steps of " + text_of(dx) + " = " +
-               text_of(extent) + ", but L = " + text_of(*L) + " was given");
+        bad_input(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) + " steps of " + text_of(dx) + " = " +
+                  text_of(extent) + ", but L = " + text_of(*L) + " was given");
 }
 
 // The uniform grid of one coordinate of x y z triples.
@@ -65,7 +63,7 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     for (std::size_t i = 0; i < table.rows; ++i) {
         c[i] = table.values[3 * i + column];
         if (std::isnan(c[i]))
-            refuse(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " is missing");
+            bad_input(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " is missing");
     }
     std::sort(c.begin(), c.end());
     TextAxis axis;
@@ -74,21 +72,21 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     axis.count = 1;
     for (std::size_t i = 1; i < c.size(); ++i) axis.count += c[i] - c[i - 1] > same ? 1 : 0;
     if (axis.count < 2)
-        refuse(path + ": three columns are read as x y z of a map; column " + name + " is " + text_of(axis.first) + " throughout");
+        bad_input(path + ": three columns are read as x y z of a map; column " + name + " is " + text_of(axis.first) + " throughout");
     axis.step = range / static_cast<double>(axis.count - 1);
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double v = table.values[3 * i + column];
         const double uniform = axis.first + static_cast<double>(axis.index(v)) * axis.step;
         if (!(std::abs(v - uniform) <= kUniformText * axis.step))
-            refuse(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " = " + text_of(v) +
-                   " is not on a uniform grid of " + std::to_string(axis.count) + " values from " + text_of(c.front()) + " to " +
-                   text_of(c.back()));
+            bad_input(path + ":" + std::to_string(table.line[i]) + ": three columns are read as x y z of a map; " + name + " = " +
+                      text_of(v) + " is not on a uniform grid of " + std::to_string(axis.count) + " values from " + text_of(c.front()) +
+                      " to " + text_of(c.back()));
     }
     return axis;
 }
 
 HeightMap read_text_triples(const std::string& path, const TextTable& table, std::optional<double> L, bool missing, const TextMap& text) {
-    if (text.pixel) refuse(path + ": three columns are read as x y z of a map, which define the step; surface%pixel is for a matrix");
+    if (text.pixel) bad_input(path + ": three columns are read as x y z of a map, which define the step; surface%pixel is for a matrix");
     const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
     check_grid(path, x.count, y.count);
     HeightMap map = allocate_map(x.count, y.count);
@@ -97,8 +95,8 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table, std
         const double* const row = table.values.data() + 3 * i;
         const std::size_t point = y.index(row[1]) * x.count + x.index(row[0]);
         if (line[point] > 0)
-            refuse(path + ":" + std::to_string(table.line[i]) + ": x = " + text_of(row[0]) + ", y = " + text_of(row[1]) +
-                   " is already in line " + std::to_string(line[point]));
+            bad_input(path + ":" + std::to_string(table.line[i]) + ": x = " + text_of(row[0]) + ", y = " + text_of(row[1]) +
+                      " is already in line " + std::to_string(line[point]));
         line[point] = table.line[i];
         map.data[point] = row[2];
     }
@@ -106,9 +104,9 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table, std
         if (line[k] == 0) map.data[k] = std::nan(""), line[k] = -1;
     if (const auto empty = std::find(line.begin(), line.end(), 0L); empty != line.end()) {
         const auto point = static_cast<std::size_t>(empty - line.begin());
-        refuse(path + ": three columns are read as x y z of a map of " + std::to_string(x.count) + " x " + std::to_string(y.count) +
-               " points, but there is none at x = " + text_of(x.first + static_cast<double>(point % x.count) * x.step) +
-               ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step));
+        bad_input(path + ": three columns are read as x y z of a map of " + std::to_string(x.count) + " x " + std::to_string(y.count) +
+                  " points, but there is none at x = " + text_of(x.first + static_cast<double>(point % x.count) * x.step) +
+                  ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step));
     }
     map.x0 = x.first;
     map.y0 = y.first;
@@ -121,8 +119,8 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table, std
 HeightMap read_text_points(const std::string& path, std::optional<double> L, bool missing, const TextMap& text) {
     const TextTable table = read_table(path, 0, missing);
     if (table.columns == 3) return read_text_triples(path, table, L, missing, text);
-    if (table.columns == 4) refuse(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
-    if (!L && !text.pixel) refuse(path + ": a text matrix has no spacing; L, its extent in x, must be given, or surface%pixel");
+    if (table.columns == 4) bad_input(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
+    if (!L && !text.pixel) bad_input(path + ": a text matrix has no spacing; L, its extent in x, must be given, or surface%pixel");
     if (L) check_L(path, *L);
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
@@ -158,16 +156,16 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     if (axis.reversed) std::reverse(c.begin(), c.end());
     axis.first = c.front();
     axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
-    if (!(axis.step > 0)) refuse(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text_of(c.front()));
+    if (!(axis.step > 0)) bad_input(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " + text_of(c.front()));
     // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (std::size_t i = 0; i < n; ++i) {
         const double uniform = axis.first + static_cast<double>(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
-            refuse(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text_of(axis.step) + ": " + name + "(" +
-                   std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text_of(c[i]) + " where " + text_of(uniform) +
-                   " was expected");
+            bad_input(file.path() + ": coordinate " + name + " is not uniform to 1e-6 of its step " + text_of(axis.step) + ": " + name +
+                      "(" + std::to_string(axis.reversed ? n - 1 - i : i) + "), counted from 0, is " + text_of(c[i]) + " where " +
+                      text_of(uniform) + " was expected");
     }
     return axis;
 }
@@ -175,14 +173,15 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
 NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel) {
     if (!channel.empty()) {
         const auto named = file.find(channel);
-        if (!named) refuse(file.path() + ": there is no variable '" + channel + "'");
+        if (!named) bad_input(file.path() + ": there is no variable '" + channel + "'");
         if (named->lengths.size() != 2 || !named->numeric())
-            refuse(file.path() + ": channel '" + channel + "': a numeric variable of two dimensions was expected, not " + named->shape());
+            bad_input(file.path() + ": channel '" + channel + "': a numeric variable of two dimensions was expected, not " +
+                      named->shape());
         return *named;
     }
     if (const auto named = file.find("height")) {
         if (named->lengths.size() != 2 || !named->numeric())
-            refuse(file.path() + ": height(y, x), numeric, was expected, not " + named->shape());
+            bad_input(file.path() + ": height(y, x), numeric, was expected, not " + named->shape());
         return *named;
     }
     std::vector<NetcdfInput::Variable> maps;
@@ -192,8 +191,8 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
             names += (maps.empty() ? "" : ", ") + v.shape();
             maps.push_back(v);
         }
-    if (maps.empty()) refuse(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
-    if (maps.size() > 1) refuse(file.path() + ": there is no variable height(y, x), and several others have two dimensions: " + names);
+    if (maps.empty()) bad_input(file.path() + ": there is no variable height(y, x) and no other of two dimensions");
+    if (maps.size() > 1) bad_input(file.path() + ": there is no variable height(y, x), and several others have two dimensions: " + names);
     return maps[0];
 }
 
@@ -204,7 +203,7 @@ std::optional<double> unit_factor(const NetcdfInput& file, const NetcdfInput::Va
     try {
         return length_factor(*units, length_unit, power);
     } catch (const Error& error) {
-        refuse(file.path() + ": the units of " + v.name + ": " + error.what());
+        bad_input(file.path() + ": the units of " + v.name + ": " + error.what());
     }
 }
 
@@ -228,8 +227,8 @@ Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heigh
             with = &all[k];
     }
     if (with && without)
-        refuse(file.path() + ": " + with->name + " is in '" + file.text_attribute(*with, "units").value_or("") + "', but " + without->name +
-               " has no attribute units, so its unit is unknown");
+        bad_input(file.path() + ": " + with->name + " is in '" + file.text_attribute(*with, "units").value_or("") + "', but " +
+                  without->name + " has no attribute units, so its unit is unknown");
     return {factor[0], factor[1], factor[2]};
 }
 
@@ -240,8 +239,8 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
     check_grid(path, variable.lengths[1], variable.lengths[0]);
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
-        refuse(path + ": " + variable.shape() + " has a coordinate variable for only one dimension; both or none were expected");
-    if (!x && !L) refuse(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
+        bad_input(path + ": " + variable.shape() + " has a coordinate variable for only one dimension; both or none were expected");
+    if (!x && !L) bad_input(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
     if (L) {
         check_L(path, *L);
@@ -289,8 +288,8 @@ void refuse_unknown(const std::string& path, const std::string& start) {
     std::string names = ": neither NetCDF, ";
     for (const InstrumentFormat& format : kInstrumentFormats)
         names += std::string(format.name) + (&format == std::end(kInstrumentFormats) - 1 ? " " : ", ");
-    refuse(path + names + "nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" + path +
-           "' makes one that rsc reads");
+    bad_input(path + names + "nor text. Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" + path +
+              "' makes one that rsc reads");
 }
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
@@ -300,19 +299,20 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
     const auto take = [&](const std::string& name, std::vector<double>& values, int power, bool required = true) {
         const auto v = file.find(name);
         if (!v && !required) return;
-        if (!v) refuse(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
-        if (v->lengths.size() != 1 || !v->numeric()) refuse(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
+        if (!v)
+            bad_input(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
+        if (v->lengths.size() != 1 || !v->numeric()) bad_input(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
         if (size && *size != v->lengths[0])
-            refuse(path + ": " + v->shape() + ": " + std::to_string(*size) + " values as of asperity_x were expected");
+            bad_input(path + ": " + v->shape() + ": " + std::to_string(*size) + " values as of asperity_x were expected");
         if (v->lengths[0] > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            refuse(path + ": " + v->shape() + ": more than 2147483647 asperities");
+            bad_input(path + ": " + v->shape() + ": more than 2147483647 asperities");
         check_memory(path, v->shape(), 8.0 * static_cast<double>(v->lengths[0]));
         size = v->lengths[0];
         values.resize(*size);
         file.read(*v, values.data());
         const std::string units = file.text_attribute(*v, "units").value_or("radian");
         if (power == 0 && units != "radian" && units != "radians" && units != "rad" && units != "1")
-            refuse(path + ": " + name + " is in '" + units + "'; radian is expected");
+            bad_input(path + ": " + name + " is in '" + units + "'; radian is expected");
         const double factor = power != 0 ? unit_factor(file, *v, length_unit, power).value_or(1.0) : 1.0;
         if (factor != 1)
             for (double& value : values) value *= factor;
@@ -324,7 +324,7 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
         if (of_curvatures && !curvatures) continue;
         take("asperity_" + std::string(column.name), a.*column.values, column.length_power, column.required || of_curvatures);
     }
-    if (a.size() == 0) refuse(path + ": there is no asperity in it");
+    if (a.size() == 0) bad_input(path + ": there is no asperity in it");
     validate(a, [&](std::size_t i) { return path + ": asperity " + std::to_string(i) + ", counted from 0"; });
     return a;
 }
@@ -358,18 +358,18 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
     const InstrumentFormat* const instrument = found == std::end(kInstrumentFormats) ? nullptr : found;
     const bool channels = instrument && instrument->channels;
     if (!channel.empty() && !netcdf && !channels)
-        refuse(path + ": has no channel '" + channel + "'; only .gwy and NetCDF files have channels");
+        bad_input(path + ": has no channel '" + channel + "'; only .gwy and NetCDF files have channels");
     if (!netcdf && !instrument) refuse_unknown(path, start);
     if ((netcdf || instrument) && text.any())
-        refuse(path + ": is not a text file; surface%height_unit and surface%pixel are only for text files");
+        bad_input(path + ": is not a text file; surface%height_unit and surface%pixel are only for text files");
     HeightMap map = netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill)
                     : instrument ? instrument->read(path, channel, length_unit)
                                  : read_text_heights(path, L, fill, text, length_unit);
     if (instrument) check_given_L(path, "x", map.nx, map.dx, L);
     for (const double step : {map.dx, map.dy})
-        if (!usable_positive(step)) refuse(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));
+        if (!usable_positive(step)) bad_input(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));
     for (const double origin : {map.x0, map.y0})
-        if (!usable(origin)) refuse(path + ": the first coordinate " + kNumberBounds + ", not " + text_of(origin));
+        if (!usable(origin)) bad_input(path + ": the first coordinate " + kNumberBounds + ", not " + text_of(origin));
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             const double z = map(i, j);
@@ -377,10 +377,10 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
             const std::string place = " in column " + std::to_string(i) + " of row " + std::to_string(j) + ", counted from 0" +
                                       (instrument ? " with y upwards" : "");
             if (std::isnan(z))
-                refuse(path + ": " + std::to_string(count_missing(map)) + " of " + std::to_string(static_cast<long>(map.nx) * map.ny) +
-                       " points are missing" + (channels ? " or masked" : "") + ", the first" + place +
-                       "; surface%missing = 'fill' fills them");
-            refuse(path + ": a height " + kNumberBounds + ", not " + text_of(z) + " as" + place);
+                bad_input(path + ": " + std::to_string(count_missing(map)) + " of " + std::to_string(static_cast<long>(map.nx) * map.ny) +
+                          " points are missing" + (channels ? " or masked" : "") + ", the first" + place +
+                          "; surface%missing = 'fill' fills them");
+            bad_input(path + ": a height " + kNumberBounds + ", not " + text_of(z) + " as" + place);
         }
     return map;
 }

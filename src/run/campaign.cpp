@@ -1,7 +1,5 @@
 #include "run/campaign.hpp"
 
-#include <unistd.h>
-
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
@@ -104,9 +102,9 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
         const std::optional<ResultHead> head = head_of_result(file);
         if (!head) return {};
         const Reading there = read_namelist(head->case_text);
-        if (there.study) throw Error(Failure::bad_input, "it is not the result of a campaign");
-        if (!head->this_version() || !there.faults.empty()) throw Error(Failure::bad_input, "it was written by another version of rsc");
-        if (input_is_newer(job.settings)) throw Error(Failure::bad_input, "an input has changed since");
+        if (there.study) bad_input("it is not the result of a campaign");
+        if (!head->this_version() || !there.faults.empty()) bad_input("it was written by another version of rsc");
+        if (input_is_newer(job.settings)) bad_input("an input has changed since");
         for (const std::string& line : Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
             why += (why.empty() ? "" : "; ") + line;
         if (why.empty()) return read_sums(file, job.observe, job.levels.size());
@@ -158,8 +156,6 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     const auto total = static_cast<std::size_t>(settings.run.realizations);
 
     std::ostream* const table = options.quiet ? nullptr : options.table;
-    const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal);
     if (table) print_campaign_heading(*table, *job, team.workers(), already);
     const std::size_t batch = std::max<std::size_t>(1, total / 20);
     if (options.report)
@@ -167,7 +163,7 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
             if (options.report(static_cast<double>(state.finished()), static_cast<double>(total))) throw Interrupted(0, "stopped");
         };
     try {
-        ProgressLine line(show ? options.messages : nullptr, terminal, "realizations", static_cast<double>(already));
+        ProgressLine line(options, "realizations", static_cast<double>(already));
         team.run(
             [&]() -> std::optional<Task> {
                 const std::optional<std::int64_t> number = state.next();
@@ -192,8 +188,7 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 
     if (state.added() != total) throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
     const Result result = campaign_result(*job, state.sums(), table);
-    if (const int signal = caught_signal())
-        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; " + how_far(state, settings) + ": " + kGoesOn);
+    leave_if_interrupted("; " + how_far(state, settings) + ": " + kGoesOn);
     try {
         write_result(result, file, {settings.output.format, settings.output.compression, options.command});
     } catch (const Error& error) {
@@ -219,7 +214,7 @@ std::optional<RunSummary> finished_result(const Case& settings) {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) { throw Error(Failure::bad_input, "--merge: " + text); }
+[[noreturn]] void refuse(const std::string& text) { bad_input("--merge: " + text); }
 
 struct Part {
     std::string file;
@@ -283,8 +278,7 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
     }
     std::ostream* const table = options.quiet ? nullptr : options.table;
     const Result result = campaign_result(job, sums, table);
-    if (const int signal = caught_signal())
-        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+    leave_if_interrupted("; nothing is written");
     write_result(result, output, {whole.output.format, whole.output.compression, options.command});
     const RunSummary summary = campaign_summary(result);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

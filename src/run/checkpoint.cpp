@@ -100,23 +100,21 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
       header_(header_start() + effective_namelist(settings)),
       last_sync_(std::chrono::steady_clock::now()) {
     for (int attempt = 0; fd_ < 0; ++attempt) {
-        if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty())
-            throw Error(Failure::bad_input, "'" + name_ + "': " + why);
+        if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty()) bad_input("'" + name_ + "': " + why);
         fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
         const bool busy = lock_file(fd_) == EAGAIN;
         if (!busy && still_named(fd_, name_)) break;  // otherwise the file was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
-        if (busy || attempt == 100) throw Error(Failure::bad_input, "'" + name_ + "': another process is running this campaign");
+        if (busy || attempt == 100) bad_input("'" + name_ + "': another process is running this campaign");
     }
     try {
         load(settings);
         if (base_size_ > 0 && !resume)
-            throw Error(Failure::bad_input,
-                        "'" + name_ +
-                            "' is the checkpoint of an interrupted campaign: continue with --resume, or remove that file to "
-                            "start from the beginning");
+            bad_input("'" + name_ +
+                      "' is the checkpoint of an interrupted campaign: continue with --resume, or remove that file to "
+                      "start from the beginning");
         if (base_size_ == 0) create();
     } catch (...) {
         ::close(fd_);
@@ -152,7 +150,7 @@ void Checkpoint::load(const Case& settings) {
     std::uint64_t offset = 0;
     std::uint32_t kind = 0;
     std::string bytes;
-    const auto refuse = [this](const std::string& text) { throw Error(Failure::bad_input, "'" + name_ + "' " + text); };
+    const auto refuse = [this](const std::string& text) { bad_input("'" + name_ + "' " + text); };
     if (!get_frame(fd_, end, offset, kind, bytes)) {
         // The incomplete first frame of a killed process is accepted; anything else is no checkpoint.
         std::uint32_t start = kHeader;
@@ -259,83 +257,65 @@ namespace {
 
 ArchiveReader reader_of(std::string_view bytes) { return {bytes, Failure::internal, "a record of a realization has the wrong length"}; }
 
-// One function for each type writes and reads it.
 template <class Archive, class T>
-using In = std::conditional_t<Archive::writing, const T, T>;
-
-template <class Archive>
-void transfer(Archive& a, In<Archive, CountHistogram>& h) {
-    a(h.count), a(h.overflow), a(h.power);
-}
-
-template <class Archive>
-void transfer(Archive& a, In<Archive, AreaHistogram>& h) {
-    a(h.area), a(h.overflow), a(h.total), a(h.squares), a(h.power);
-}
-
-template <class Archive>
-void transfer(Archive& a, In<Archive, Distributions>& d) {
-    a(d.separation), a(d.levels), a(d.step);
-    transfer<Archive>(a, d.mean_pressure), transfer<Archive>(a, d.pressure), transfer<Archive>(a, d.spot_area);
-}
-
-template <class Archive>
-void transfer(Archive& a, In<Archive, MapLevel>& m) {
-    a(m.cell), a(m.area), a(m.force), a(m.outside);
-}
-
-template <class Archive>
-void transfer(Archive& a, In<Archive, DistributionSums>& d) {
-    a(d.step), a(d.numbers);
-}
+void transfer(Archive& a, T& x);
 
 template <class Archive, class T>
 void transfer_each(Archive& a, T& vector) {
-    if constexpr (Archive::writing) {
-        a(static_cast<std::uint64_t>(vector.size()));
-    } else {
-        std::uint64_t size = 0;
-        a(size);
-        vector.clear();
-        // Appended one by one: a wrong size fails at the end of the bytes, before much memory is allocated.
-        for (std::uint64_t k = 0; k < size; ++k) transfer<Archive>(a, vector.emplace_back());
-        return;
+    std::uint64_t size = vector.size();
+    a(size);
+    // When reading, items are appended one by one: a wrong size fails at the end of the bytes, before much memory is allocated.
+    if constexpr (!Archive::writing) vector.clear();
+    for (std::uint64_t k = 0; k < size; ++k) {
+        if constexpr (!Archive::writing) vector.emplace_back();
+        transfer(a, vector[k]);
     }
-    for (auto& item : vector) transfer<Archive>(a, item);
 }
 
-template <class Archive>
-void transfer(Archive& a, In<Archive, RealizationRecord>& r) {
-    a(r.realization), a(r.surface), a(r.levels);
-    transfer_each(a, r.maps);
-    transfer_each(a, r.distributions);
-}
-
-template <class Archive>
-void transfer(Archive& a, In<Archive, Accumulators>& s) {
-    a(s.realization), a(s.surface), a(s.rows), a(s.map_area), a(s.map_force);
-    transfer_each(a, s.distributions);
+// Writes or reads the members of an object; T is const if the archive writes.
+template <class Archive, class T>
+void transfer(Archive& a, T& x) {
+    using Type = std::remove_const_t<T>;
+    if constexpr (std::is_same_v<Type, CountHistogram>) {
+        a(x.count), a(x.overflow), a(x.power);
+    } else if constexpr (std::is_same_v<Type, AreaHistogram>) {
+        a(x.area), a(x.overflow), a(x.total), a(x.squares), a(x.power);
+    } else if constexpr (std::is_same_v<Type, Distributions>) {
+        a(x.separation), a(x.levels), a(x.step);
+        transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area);
+    } else if constexpr (std::is_same_v<Type, MapLevel>) {
+        a(x.cell), a(x.area), a(x.force), a(x.outside);
+    } else if constexpr (std::is_same_v<Type, DistributionSums>) {
+        a(x.step), a(x.numbers);
+    } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
+        a(x.realization), a(x.surface), a(x.levels);
+        transfer_each(a, x.maps), transfer_each(a, x.distributions);
+    } else {
+        static_assert(std::is_same_v<Type, Accumulators>);
+        a(x.realization), a(x.surface), a(x.rows), a(x.map_area), a(x.map_force);
+        transfer_each(a, x.distributions);
+    }
 }
 
 }  // namespace
 
 std::string to_bytes(const RealizationRecord& record) {
     ArchiveWriter writer;
-    transfer<ArchiveWriter>(writer, record);
+    transfer(writer, record);
     return std::move(writer.bytes);
 }
 
 std::string to_bytes(const Accumulators& sums) {
     ArchiveWriter writer;
     writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() + 65536);
-    transfer<ArchiveWriter>(writer, sums);
+    transfer(writer, sums);
     return std::move(writer.bytes);
 }
 
 RealizationRecord record_from_bytes(std::string_view bytes) {
     RealizationRecord record;
     ArchiveReader reader = reader_of(bytes);
-    transfer<ArchiveReader>(reader, record);
+    transfer(reader, record);
     reader.end();
     return record;
 }
@@ -343,7 +323,7 @@ RealizationRecord record_from_bytes(std::string_view bytes) {
 void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
     Accumulators read(sums.options, sums.steps);
     ArchiveReader reader = reader_of(bytes);
-    transfer<ArchiveReader>(reader, read);
+    transfer(reader, read);
     reader.end();
     if (read.map_area.size() != sums.map_area.size() || read.map_force.size() != sums.map_force.size() ||
         read.distributions.size() != sums.distributions.size() || read.rows.size() != read.realization.size() * sums.steps ||

@@ -20,26 +20,23 @@ constexpr double kWithCoarser = 1.25;
 // "A = 1.2 mm2 (itself +- 0.4 %)"
 std::string itself(double error) { return std::isnan(error) ? " (error unknown)" : format(" (itself +- %s)", percent(error).c_str()); }
 
-void print(std::ostream& out, const Job& job, const ComparedLevels& c, const LevelValues& asperities, bool by_force) {
-    const std::size_t k = c.step.size() - 1;
+void print(std::ostream& out, const Job& job, const ComparedLevel& c, const LevelValues& asperities, bool by_force) {
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
-    out << format("level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d contacts; asperities ",
-                  c.step[k] + 1, c.separation[k] / job.sigma, c.columns[k], c.rows[k], c.force[k], f,
-                  by_force ? "" : itself(c.force_error_expected[k]).c_str(), c.area[k], l, itself(c.area_error_expected[k]).c_str(),
-                  c.contacts[k]);
-    if (std::isnan(c.area_error[k]) && c.contacts[k] > 0)
+    out << format("level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d contacts; asperities ", c.step + 1,
+                  c.separation / job.sigma, c.columns, c.rows, c.force, f, by_force ? "" : itself(c.force_error_expected).c_str(), c.area,
+                  l, itself(c.area_error_expected).c_str(), c.contacts);
+    if (std::isnan(c.area_error) && c.contacts > 0)
         out << "not compared: ELEMENTS DID NOT CONVERGE, raise solver%max_iterations\n";
-    else if (c.contacts[k] == 0)
+    else if (c.contacts == 0)
         out << format("N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f, asperities.area, l, asperities.contacts);
     else if (by_force)
-        out << format("at the same force Z0 %+.3g %s (%+.3f sigma), A %+.2f %%, contacts %+.1f %%\n", c.separation_error[k], l,
-                      c.separation_error[k] / job.sigma, 100 * c.area_error[k], 100 * c.contacts_error[k]);
+        out << format("at the same force Z0 %+.3g %s (%+.3f sigma), A %+.2f %%, contacts %+.1f %%\n", c.separation_error, l,
+                      c.separation_error / job.sigma, 100 * c.area_error, 100 * c.contacts_error);
     else
-        out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error[k], 100 * c.area_error[k],
-                      100 * c.contacts_error[k]);
-    if (c.force_error_expected[k] > kUnresolved)
+        out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error, 100 * c.area_error, 100 * c.contacts_error);
+    if (c.force_error_expected > kUnresolved)
         out << format("  warning: a finer grid may change N of the elements by %s, so they are not a reliable reference.\n",
-                      percent(c.force_error_expected[k]).c_str());
+                      percent(c.force_error_expected).c_str());
 }
 
 // The levels to compare: the nearest one to each of compare%levels. If levels depend on the levels before, they are in the order of the
@@ -183,23 +180,15 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
         const bool found = truth.status != LevelStatus::not_converged && on_path;
         c.failed += !found;
         const auto error = [&](double model, double elements) { return found && elements != 0 ? model / elements - 1 : kNotComputed; };
-        c.step.push_back(static_cast<std::int32_t>(step));
-        c.contacts.push_back(truth.contacts);
-        c.separation.push_back(truth.separation);
-        c.force.push_back(truth.force);
-        c.area.push_back(truth.area);
-        c.area_pixels.push_back(truth.area_pixels);
-        c.residual.push_back(truth.residual);
-        c.force_error.push_back(by_force ? kNotComputed : error(level.force, truth.force));
-        c.separation_error.push_back(by_force && found ? level.separation - truth.separation : kNotComputed);
-        c.area_error.push_back(error(level.area, truth.area));
-        c.contacts_error.push_back(error(level.contacts, truth.contacts));
-        c.force_error_expected.push_back(own ? own->force : kNotComputed);
-        c.area_error_expected.push_back(own ? own->area : kNotComputed);
-        c.columns.push_back(reference.map().nx);
-        c.rows.push_back(reference.map().ny);
+        ComparedLevel row{static_cast<std::int32_t>(step), truth.separation, truth.force, truth.area, truth.area_pixels, truth.residual};
+        if (own) row.force_error_expected = own->force, row.area_error_expected = own->area;
+        row.contacts = truth.contacts, row.columns = reference.map().nx, row.rows = reference.map().ny;
+        if (!by_force) row.force_error = error(level.force, truth.force);
+        if (by_force && found) row.separation_error = level.separation - truth.separation;
+        row.area_error = error(level.area, truth.area), row.contacts_error = error(level.contacts, truth.contacts);
+        c.levels.push_back(row);
         c.pixels = std::move(truth.pixels);
-        if (table) print(*table, job, c, level, by_force);
+        if (table) print(*table, job, row, level, by_force);
         if (stop()) break;
     }
     return c;

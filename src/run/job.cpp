@@ -3,6 +3,7 @@
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
+#include "contact/contact_curve.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/ranking.hpp"
@@ -41,8 +42,8 @@ void require_maps(const Case& settings) {
     const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
     const std::int64_t last = std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
     if (last > files)
-        throw Error(Failure::bad_input, settings.surface.file + ": realizations up to " + std::to_string(last) + " are requested, but " +
-                                            std::to_string(files) + " files match");
+        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) + " are requested, but " + std::to_string(files) +
+                  " files match");
 }
 
 // The sphere touches every map at the same position, so that all maps must have the same size; their origins do not matter.
@@ -50,9 +51,8 @@ void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     constexpr double kSame = 1e-6;
     const Domain& d = model.domain;
     if (!(std::abs(d.Lx - place.Lx) <= kSame * place.Lx && std::abs(d.Ly - place.Ly) <= kSame * place.Ly))
-        throw Error(Failure::bad_input, "the map of realization " + std::to_string(number) + " is " + std::to_string(d.Lx) + " x " +
-                                            std::to_string(d.Ly) + ", the first is " + std::to_string(place.Lx) + " x " +
-                                            std::to_string(place.Ly) + "; maps of one size are expected");
+        bad_input("the map of realization " + std::to_string(number) + " is " + std::to_string(d.Lx) + " x " + std::to_string(d.Ly) +
+                  ", the first is " + std::to_string(place.Lx) + " x " + std::to_string(place.Ly) + "; maps of one size are expected");
     for (double& x : model.asperities.x) x += place.x0 - d.x0;
     for (double& y : model.asperities.y) y += place.y0 - d.y0;
     if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; model.search && (dx != 0 || dy != 0))
@@ -116,6 +116,38 @@ FieldsAsked fields_asked(const Case& settings) {
     return asked;
 }
 
+// The friction loops of the levels, by copies of the contact, whose path is not changed.
+class FrictionRows {
+public:
+    FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other)
+        : friction_(friction), one_(std::move(one)), other_(std::move(other)), curve_(*one_, *other_) {}
+
+    // Adds the row of a level. False if a level did not converge meanwhile; the row must then not be used.
+    bool add(const Level& level, FrictionLoops& loops) {
+        constexpr int steps = 40;  // of first loading
+        const double delta = -level.separation;
+        const long failed = curve_.failed();
+        loops.points = slide_cycle_points(steps);
+        loops.first = steps + 1;
+        const bool touches = delta > curve_.first_touch();
+        SlideCycle cycle;
+        if (touches)
+            cycle = slide_cycle(curve_, friction_, delta, steps);
+        else
+            cycle.displacement = cycle.force = std::vector<double>(loops.points, kNotComputed);
+        loops.stiffness.push_back(touches ? -friction_.ratio * level.stiffness : kNotComputed);
+        loops.cycle_work.push_back(touches ? cycle.work : kNotComputed);
+        loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(), cycle.displacement.end());
+        loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
+        return curve_.failed() == failed;
+    }
+
+private:
+    Friction friction_;
+    std::unique_ptr<Contact> one_, other_;
+    ContactCurve curve_;
+};
+
 }  // namespace
 
 Job prepare(const Case& settings) {
@@ -148,9 +180,9 @@ Job prepare(const Case& settings) {
     }
     job.sigma = sigma_of(settings, job.domain);
     if (!(job.sigma > 0)) {
-        throw Error(Failure::bad_input,
-                    "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales unit='sigma' "
-                    "and solver%delta0), and unit='length' if the levels are lengths");
+        bad_input(
+            "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales unit='sigma' "
+            "and solver%delta0), and unit='length' if the levels are lengths");
     }
     job.solver = solver_of(settings, job.domain);
     job.indenter = indenter_of(settings, job.domain);
@@ -166,9 +198,9 @@ Job prepare(const Case& settings) {
     job.levels = spaced(indentation);
     job.times = times_of(indentation, job.levels.size());
     if (relaxes(settings) && job.times.empty())
-        throw Error(Failure::bad_input,
-                    "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give "
-                    "duration or times");
+        bad_input(
+            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give "
+            "duration or times");
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
         const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
@@ -275,37 +307,6 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& r) {
     return observe(job.observe, number, r.statistics, r.levels);
-}
-
-namespace {
-
-constexpr int kSteps = 40;  // of first loading
-
-}  // namespace
-
-FrictionRows::FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other)
-    : friction_(friction), one_(std::move(one)), other_(std::move(other)), curve_(*one_, *other_) {}
-
-bool FrictionRows::add(const Level& level, FrictionLoops& loops) {
-    const double delta = -level.separation;
-    const long failed = curve_.failed();
-    loops.points = slide_cycle_points(kSteps);
-    loops.first = kSteps + 1;
-    SlideCycle cycle;
-    if (delta > curve_.first_touch()) {
-        cycle = slide_cycle(curve_, friction_, delta, kSteps);
-        loops.stiffness.push_back(-friction_.ratio * level.stiffness);
-        loops.cycle_work.push_back(cycle.work);
-    } else {
-        const double absent = std::numeric_limits<double>::quiet_NaN();
-        cycle.displacement.assign(loops.points, absent);
-        cycle.force = cycle.displacement;
-        loops.stiffness.push_back(absent);
-        loops.cycle_work.push_back(absent);
-    }
-    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(), cycle.displacement.end());
-    loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
-    return curve_.failed() == failed;
 }
 
 }  // namespace rsc

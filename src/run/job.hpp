@@ -3,7 +3,6 @@
 
 #include "case/case.hpp"
 #include "contact/contact.hpp"
-#include "contact/contact_curve.hpp"
 #include "file/result.hpp"
 #include "observe/record.hpp"
 #include "rough/asperities.hpp"
@@ -51,20 +50,5 @@ struct Realization {
 Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level = {});
 
 RealizationRecord observe(const Job& job, std::int64_t number, const Realization& realization);
-
-// Friction at the levels of a run: the tangential force of a slide at each separation.
-
-// Adds the friction loops of a level. `one` and `other` are copies of the contact of the level, whose path is not changed.
-class FrictionRows {
-public:
-    FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other);
-    // Returns false if a level did not converge meanwhile; the row must then not be used.
-    bool add(const Level& level, FrictionLoops& loops);
-
-private:
-    Friction friction_;
-    std::unique_ptr<Contact> one_, other_;
-    ContactCurve curve_;
-};
 
 }  // namespace rsc

@@ -44,7 +44,7 @@ void made_heights(const Moments& sampled, SurfaceStatistics& s) {
 
 void require_summits(const SurfaceModel& model, const std::string& name, const std::string& where) {
     if (model.asperities.size() > 0) return;
-    throw Error(Failure::bad_input, name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
+    bad_input(name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
 }
 
 // The file of realization `number`.
@@ -52,8 +52,8 @@ std::string map_file(const std::string& name, std::int64_t number) {
     if (!is_pattern(name)) return name;
     const std::vector<std::string> files = matching_files(name);
     if (number < 1 || number > static_cast<std::int64_t>(files.size()))
-        throw Error(Failure::bad_input, name + ": realization " + std::to_string(number) + " is requested, but only " +
-                                            std::to_string(files.size()) + " files match");
+        bad_input(name + ": realization " + std::to_string(number) + " is requested, but only " + std::to_string(files.size()) +
+                  " files match");
     return files[static_cast<std::size_t>(number - 1)];
 }
 
@@ -65,10 +65,10 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
               j0 = std::max(0, static_cast<int>(std::ceil(number(*window[2], map.y0, map.dy, map.ny)))),
               j1 = std::min(map.ny - 1, static_cast<int>(std::floor(number(*window[3], map.y0, map.dy, map.ny))));
     if (i1 - i0 < 2 || j1 - j0 < 2)
-        throw Error(Failure::bad_input,
-                    format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g to %.6g in x and from "
-                           "%.6g to %.6g in y",
-                           path.c_str(), map.x0, map.x0 + (map.nx - 1) * map.dx, map.y0, map.y0 + (map.ny - 1) * map.dy));
+        bad_input(
+            format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g to %.6g in x and from "
+                   "%.6g to %.6g in y",
+                   path.c_str(), map.x0, map.x0 + (map.nx - 1) * map.dx, map.y0, map.y0 + (map.ny - 1) * map.dy));
     HeightMap part;
     part.allocate(i1 - i0 + 1, j1 - j0 + 1, i1 - i0 + 1);
     part.dx = map.dx, part.dy = map.dy, part.x0 = map.x0 + i0 * map.dx, part.y0 = map.y0 + j0 * map.dy;
@@ -155,7 +155,7 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
         surface.map.periodic = settings.indentation.boundary == Boundary::periodic;
         return surface;
     }
-    throw Error(Failure::bad_input, "&surface: source = 'asperities' has no heights, only summits");
+    bad_input("&surface: source = 'asperities' has no heights, only summits");
 }
 
 int element_points(const Case& settings, const Spectrum& spectrum) {
@@ -169,7 +169,7 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
     if (wanted > most) {
         std::snprintf(text, sizeof text, "&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is %.0f",
                       settings.elements.points_per_wave, wanted, most);
-        throw Error(Failure::bad_input, text);
+        bad_input(text);
     }
     const int n = element_points(settings, spectrum);
     // Memory for two flats: heights, the pressures on some pixels, transforms in single and double precision.
@@ -183,7 +183,7 @@ void require_element_memory(const Case& settings, const Spectrum& spectrum) {
                   "fewer points per wave or a smaller surface%%L_lambda_s",
                   settings.elements.points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes,
                   1e-9 * memory);
-    throw Error(Failure::bad_input, text);
+    bad_input(text);
 }
 
 bool element_memory_suffices(const Case& settings, const Spectrum& spectrum) {
@@ -216,8 +216,7 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     const Extent box = extent(asperities);
     const double extent = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
     if (L && extent > *L) {
-        throw Error(Failure::bad_input,
-                    "surface%L = " + std::to_string(*L) + " is less than the extent of " + whose + ", " + std::to_string(extent));
+        bad_input("surface%L = " + std::to_string(*L) + " is less than the extent of " + whose + ", " + std::to_string(extent));
     }
     SurfaceDomain domain;
     if (L && std::min(box.x_min, box.y_min) >= 0 && std::max(box.x_max, box.y_max) <= *L) {
@@ -374,10 +373,9 @@ void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x
         return usable(v) && v >= first - beyond - rounding && v <= first + length + beyond + rounding;
     };
     if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
-    throw Error(Failure::bad_input, "the tip at x = " + text(x) + ", y = " + text(y) +
-                                        " is not above the surface, which reaches from x = " + text(d.x0) + " to " + text(d.x0 + d.Lx) +
-                                        " and from y = " + text(d.y0) + " to " + text(d.y0 + d.Ly) +
-                                        (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
+    bad_input("the tip at x = " + text(x) + ", y = " + text(y) + " is not above the surface, which reaches from x = " + text(d.x0) +
+              " to " + text(d.x0 + d.Lx) + " and from y = " + text(d.y0) + " to " + text(d.y0 + d.Ly) +
+              (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
 }
 
 Shape shape_of(const Case& settings) {
@@ -469,9 +467,9 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     if (free) options.marks = domain.marks;
     if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
-        throw Error(Failure::bad_input,
-                    "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
-                    "asperities, which all have the same height, do not give one");
+        bad_input(
+            "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
+            "asperities, which all have the same height, do not give one");
     }
     return options;
 }

@@ -26,14 +26,6 @@ bool check_result_path(const Case& settings, const RunOptions& options) {
 
 std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
 
-// On a terminal the line is redrawn, unless the table is printed there; with `always` lines are also printed on other streams.
-std::ostream* progress_stream(const RunOptions& options, bool& terminal) {
-    terminal = isatty(STDERR_FILENO) != 0;
-    const bool scrolls = options.table && !options.quiet && isatty(STDOUT_FILENO) != 0;
-    const bool show = options.progress == Progress::always || (options.progress == Progress::automatic && terminal && !scrolls);
-    return show ? options.messages : nullptr;
-}
-
 void tell_failed(const RunOptions& options, const RunSummary& summary) {
     if (summary.failed == 0 || !options.messages) return;
     *options.messages << "rsc: " << summary.failed << " of " << summary.levels
@@ -125,14 +117,11 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     Job job = prepare(settings);
     const int threads = static_cast<int>(most_threads(settings.run.threads));
     const LoopThreads loops(threads);
-    bool terminal = false;
-    std::ostream* const line_out = progress_stream(options, terminal);
     std::ostream* table = options.quiet ? nullptr : options.table;
     const double total = static_cast<double>(job.levels.size());
     double done = 0;
     const auto go_on = [&] {
-        if (const int signal = caught_signal())
-            throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + "; nothing is written");
+        leave_if_interrupted("; nothing is written");
         if ((options.abandoned && *options.abandoned) || (options.report && options.report(done, total)))
             throw Interrupted(0, "stopped; nothing is written");
     };
@@ -140,7 +129,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     if (table) print_heading(*table, job);
     Realization r;
     {
-        ProgressLine progress(line_out, terminal, "levels");
+        // A table on the terminal shows the progress itself.
+        ProgressLine progress(options, "levels", 0, options.table && !options.quiet && isatty(STDOUT_FILENO) != 0);
         r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
             if (table) print_level(*table, job, k, level);
             done = static_cast<double>(k + 1);
@@ -175,7 +165,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces, twins);
     const LevelValues& last = record.levels.back();
     const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
-    const RunSummary summary{static_cast<long>(record.levels.size() + result.compared.step.size()),
+    const RunSummary summary{static_cast<long>(record.levels.size() + result.compared.levels.size()),
                              static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) + result.compared.failed,
                              last.separation, last.force, last.area};
     tell_failed(options, summary);

@@ -35,9 +35,6 @@ bool check_result_path(const Case& settings, const RunOptions& options);
 // The effective namelist in a result file: that of the case without run%threads, which has no effect on results.
 std::string case_text(const Case& settings);
 
-// The stream for a progress line, or null if none is wanted; `terminal` is set if stderr is one.
-std::ostream* progress_stream(const RunOptions& options, bool& terminal);
-
 // Reports levels that did not converge on `messages`.
 void tell_failed(const RunOptions& options, const RunSummary& summary);
 

@@ -1,5 +1,7 @@
 #include "run/screen.hpp"
 
+#include <unistd.h>
+
 #include "case/units.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/touching.hpp"
@@ -403,8 +405,10 @@ std::string duration(double seconds) {
     return format("%d h %02d min", static_cast<int>(seconds / 3600), static_cast<int>(seconds / 60) % 60);
 }
 
-ProgressLine::ProgressLine(std::ostream* out, bool terminal, const char* unit, double already)
-    : out_(out), terminal_(terminal), unit_(unit), already_(already), start_(Clock::now()), last_(start_) {}
+ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double already, bool scrolls)
+    : terminal_(isatty(STDERR_FILENO) != 0), unit_(unit), already_(already), start_(Clock::now()), last_(start_) {
+    if (options.progress == Progress::always || (options.progress == Progress::automatic && terminal_ && !scrolls)) out_ = options.messages;
+}
 
 ProgressLine::~ProgressLine() { wipe(); }
 
@@ -493,7 +497,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
 RunSummary campaign_summary(const Result& result) {
     const Observations& o = result.observations;
     RunSummary summary;
-    summary.levels = static_cast<long>(o.rows.size() + result.compared.step.size());
+    summary.levels = static_cast<long>(o.rows.size() + result.compared.levels.size());
     summary.failed = result.compared.failed;
     for (const LevelValues& row : o.rows)
         if (row.status == LevelStatus::not_converged) ++summary.failed;

@@ -38,15 +38,16 @@ std::string duration(double seconds);
 // Progress with rate and remaining time: a line that is redrawn on a terminal, a line every 30 s on other streams.
 class ProgressLine {
 public:
-    // `out` null: no output. `terminal`: redraw in place. `already`: done by an earlier run, not included in the rate.
-    ProgressLine(std::ostream* out, bool terminal, const char* unit, double already = 0);
+    // On options.messages, as options.progress says. `already`: done by an earlier run, not included in the rate; `scrolls`: with
+    // Progress::automatic there is no line.
+    ProgressLine(const RunOptions& options, const char* unit, double already = 0, bool scrolls = false);
     ~ProgressLine();  // erases the line
     void show(double done, double total);
     void wipe();  // before other output to the same terminal
 
 private:
     using Clock = std::chrono::steady_clock;
-    std::ostream* out_;
+    std::ostream* out_ = nullptr;  // null: no output
     bool terminal_, drawn_ = false;
     const char* unit_;
     double already_;

@@ -1,7 +1,5 @@
 #include "run/study.hpp"
 
-#include <unistd.h>
-
 #include "case/registry.hpp"
 #include "case/units.hpp"
 #include "error.hpp"
@@ -106,8 +104,7 @@ void check_manifest(const std::string& output_file, const std::vector<std::strin
     std::error_code error;
     for (const std::string& input : inputs)
         if (fs::is_regular_file(input, error) && fs::equivalent(input, path, error)) why = "this is an input of the run";
-    if (!why.empty())
-        throw Error(Failure::bad_input, "the manifest of the study, '" + path + "': " + why + " (give &output file another name)");
+    if (!why.empty()) bad_input("the manifest of the study, '" + path + "': " + why + " (give &output file another name)");
 }
 
 }  // namespace
@@ -176,26 +173,20 @@ bool look_at(const Member& member, const RunOptions& options) {
     return there;
 }
 
-// Prepares cases. A map used by several members is read once.
-class ReadOnce {
-public:
-    void operator()(const Case& settings) {
-        const auto& surface = settings.surface;
-        if (surface.source == Source::synthetic || files_read_.insert(surface.file).second) prepare(settings);
-    }
-
-private:
-    std::set<std::string> files_read_;
-};
+// Prepares a case, unless its map is among those that were read for other members.
+void prepare_once(const Case& settings, std::set<std::string>& files_read) {
+    const auto& surface = settings.surface;
+    if (surface.source == Source::synthetic || files_read.insert(surface.file).second) prepare(settings);
+}
 
 std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all, std::optional<int> only) {
     std::vector<const Member*> wanted;
     for (const Member& member : all)
         if (!only || member.index == *only) wanted.push_back(&member);
     if (only && (!read.study || wanted.empty()))
-        throw Error(Failure::bad_input, read.study ? "--member " + std::to_string(*only) + ": the study has " + std::to_string(all.size()) +
-                                                         " members (--list names them)"
-                                                   : "--member: the case has no &study");
+        bad_input(read.study ? "--member " + std::to_string(*only) + ": the study has " + std::to_string(all.size()) +
+                                   " members (--list names them)"
+                             : "--member: the case has no &study");
     return wanted;
 }
 
@@ -227,9 +218,7 @@ public:
 
     // Runs members of one realization each in parallel.
     void side_by_side(const std::vector<const Member*>& members) {
-        const bool terminal = ::isatty(STDERR_FILENO) != 0;
-        const bool show = options_.progress == Progress::always || (options_.progress == Progress::automatic && terminal);
-        ProgressLine line(show ? options_.messages : nullptr, terminal, "members");
+        ProgressLine line(options_, "members");
         std::size_t next = 0, done = 0;
         team_.run(
             [&]() -> std::optional<Task> {
@@ -320,10 +309,10 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
     constexpr std::size_t samples = 20;  // members whose time is estimated; the others are assumed similar
     Forecast all_members;
     std::size_t timed = 0;
-    ReadOnce prepare_once;
+    std::set<std::string> files_read;
     look_at_all(read, wanted, options, [&](const Member& member, bool) {
         const bool campaign = member.settings.run.realizations > 1;
-        if (timed == samples) return prepare_once(member.settings);
+        if (timed == samples) return prepare_once(member.settings, files_read);
         ++timed;
         // Members of one realization run in parallel.
         const double side_by_side = campaign || wanted.size() == 1 ? 1.0 : static_cast<double>(std::min(threads, wanted.size()));
@@ -338,12 +327,12 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
-    ReadOnce prepare_once;
+    std::set<std::string> files_read;
     std::set<const Member*> there;  // members with an existing result
     look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);
         // A single case is prepared later anyway.
-        if (!member.values.empty()) prepare_once(member.settings);
+        if (!member.values.empty()) prepare_once(member.settings, files_read);
     });
     if (read.study) write_manifest(read, all, options.command);
 

@@ -81,8 +81,8 @@ private:
     std::size_t threads_;
 };
 
-// Throws Interrupted if a signal has been caught.
-void leave_if_interrupted();
+// Throws Interrupted if a signal has been caught; `state` ends its message.
+void leave_if_interrupted(const std::string& state = "");
 
 // The work of a worker: realizations of the members of a study (or of the one case there is), or whole members.
 

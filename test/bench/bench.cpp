@@ -4,12 +4,6 @@
 
 #include <fftw3.h>
 
-#include <cstdio>
-#include <cstring>
-#include <numbers>
-#include <random>
-#include <string>
-
 #include "contact/asperity_contact.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/spots.hpp"

@@ -3,12 +3,6 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <cmath>
-#include <ctime>
-#include <functional>
-#include <vector>
-
 #include "contact/indentation.hpp"
 
 namespace bench {

@@ -1,6 +1,4 @@
 // What elements cost: a level cold, a series of levels, and how the cost grows with the pixels in contact.
-#include <cstdio>
-
 #include "bench.hpp"
 #include "contact/element_contact.hpp"
 #include "rough/synthesis.hpp"

@@ -1,7 +1,5 @@
 // What a direction and heights that are not Gaussian cost where surfaces are made, and what layers cost where they are pressed: processor
 // times over those of the isotropic Gaussian surface and of the body without layers, in turns in one run.
-#include <cstdio>
-
 #include "bench.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

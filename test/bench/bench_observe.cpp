@@ -1,8 +1,5 @@
 // From levels to a file: what observing, recording and writing cost beside solving. And a realization of two flats.
 #include <unistd.h>
-#include <cstdio>
-#include <filesystem>
-#include <string>
 
 #include "bench.hpp"
 #include "case/read_case.hpp"

@@ -2,10 +2,6 @@
 // (time on the wall with all threads) / (with one), beside 0, 1 and 2 busy processes. Medians of several runs, the two kinds in turn.
 #include <sys/wait.h>
 #include <unistd.h>
-#include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <cstdio>
 
 #include "bench.hpp"
 #include "case/read_case.hpp"

@@ -1,16 +1,7 @@
-#!/bin/sh
+#!/bin/bash
 # paper.sh RSC PROJECT FOLDER: input/paper/run.sh --short from beginning to end; 77 where Python lacks its modules.
-set -u
-rsc=$1
-project=$2
-folder=$3
-failed=0
-fail() {
-    echo "FAILED: $*"
-    failed=1
-}
-rm -rf "$folder"
-mkdir -p "$folder"
+rsc=$1 project=$2 folder=$3
+. "$(dirname "$0")/common.sh"
 
 # An rsc that fails at the maps as long as there is a file `broken`, and writes down what it was called for.
 cat > "$folder/rsc" << END
@@ -43,11 +34,11 @@ for picture in asperities curvatures area area_slope maps radial pressure_mean p
 done
 
 report=$folder/paper/report.txt
-[ -s "$report" ] || { fail "no report"; exit 1; }
+[ -s "$report" ] || fail "no report"
 # It begins with a verdict on nine numbers of the paper, made from its own rows.
 [ "$(head -n 25 "$report" | grep -c ': agrees$\|: does not agree, [-+][0-9]* %$')" -eq 9 ] || fail "not nine verdicts: $(head -n 25 "$report")"
 grep -q 'SHORTENED' "$report" || fail "the report does not say that it is the shortened one"
-if grep -n -w -i nan "$report"; then fail "not a number in the report"; fi
+! grep -n -w -i nan "$report" || fail "not a number in the report"
 # What does not depend on the size of the run: Greenwood's mode by its own formula, kappa1/kappa2 = 2.2153.
 grep -q 'ratio 2\.2153' "$report" || fail "the mode of Greenwood's density is not at kappa1/kappa2 = 2.2153"
 grep -q "value of Greenwood's formula itself  *1\.356  *1\.356 " "$report" || fail "the mean of Greenwood's density is not 1.356"
@@ -68,4 +59,3 @@ awk -v b="$beta" 'BEGIN { exit !(b > 0.8 && b < 1.05) }' || fail "beta of elemen
 # within a fifth: beta between 0.5 and 1.2. The paper's 0.2, or a lost factor of 2, is outside.
 beta=$(sed -n 's/^ *beta, mean of the six members *0\.2 *\([0-9.]*\) .*/\1/p' "$report")
 awk -v b="$beta" 'BEGIN { exit !(b > 0.5 && b < 1.2) }' || fail "beta = '$beta' is no rough elastic contact's"
-exit $failed

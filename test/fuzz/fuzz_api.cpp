@@ -2,13 +2,6 @@
 // that confesses an internal error, no number that is not finite among the results of a call that succeeded.
 #include <fuzzer/FuzzedDataProvider.h>
 
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "promise.hpp"
 #include "rsc.h"
 

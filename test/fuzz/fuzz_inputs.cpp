@@ -2,9 +2,6 @@
 // their bytes are the affair of the HDF5 library, which is known to fall over damaged ones.
 #include <netcdf.h>
 
-#include <cstdint>
-#include <cstring>
-
 #include "memory_file.hpp"
 #include "read_input.hpp"
 

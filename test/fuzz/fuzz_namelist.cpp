@@ -1,10 +1,5 @@
 // Any bytes as a case: they are read or refused with a message. What is read, printed as the effective namelist and read again, is the
 // same. A first line "%..." is the argument of a --set.
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <string_view>
-
 #include "case/read_case.hpp"
 #include "error.hpp"
 #include "promise.hpp"

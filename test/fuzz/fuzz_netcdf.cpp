@@ -3,12 +3,6 @@
 #include <fuzzer/FuzzedDataProvider.h>
 #include <netcdf.h>
 
-#include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "read_input.hpp"
 
 namespace {

@@ -4,9 +4,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstddef>
-#include <string>
-
 #include "promise.hpp"
 
 class MemoryFile {

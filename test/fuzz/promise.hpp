@@ -1,9 +1,7 @@
 // What a fuzzer asserts: a broken promise ends the process, and libFuzzer keeps the input.
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
-#include <string>
+#include "std.hpp"
 
 #define PROMISE(condition, what)                                                                                        \
     do {                                                                                                                \

@@ -1,11 +1,6 @@
 // Reads a file as heights, as a measured map, as a spectrum and as asperities: what comes out is finite and of the shape it says, or it is refused with a message.
 #pragma once
 
-#include <cmath>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "error.hpp"
 #include "promise.hpp"
 #include "read/inputs.hpp"

@@ -4,13 +4,6 @@
 // after the other moves to the nearest minimum of the energy along its own radius, the forces being in equilibrium, until none moves.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/contact.hpp"
 #include "physics/elimination.hpp"

@@ -1,9 +1,7 @@
 // A small dense system of equations.
 #pragma once
 
-#include <cmath>
-#include <utility>
-#include <vector>
+#include "std.hpp"
 
 // Solves A x = b by elimination; A is n x n.
 inline std::vector<double> solved(std::vector<double> A, std::vector<double> b) {

@@ -8,10 +8,7 @@
 // sweeps go down to a minimum.
 #pragma once
 
-#include <cmath>
-#include <numbers>
-#include <utility>
-#include <vector>
+#include "std.hpp"
 
 namespace independent {
 

@@ -2,12 +2,9 @@
 // pressures with their mean given (Polonsky and Keer 1999), the answer of a mode of pressure being 2/(E* |k|).
 #pragma once
 
-#include <fftw3.h>
+#include "std.hpp"
 
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <vector>
+#include <fftw3.h>
 
 struct PeriodicElements {
     double separation = 0;     // of the flat from the mean plane of the deformed surface

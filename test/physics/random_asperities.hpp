@@ -1,9 +1,6 @@
 // Sets of asperities for tests: reproducible, with heights and radii of a rough surface or worse.
 #pragma once
 
-#include <cmath>
-#include <random>
-
 #include "rough/asperities.hpp"
 
 // n asperities on the unit square, at least `spacing` apart, Gaussian heights of rms sigma, lognormal radii about `radius`.

@@ -1,12 +1,4 @@
 // Asperities that stick (contact/adhesive_contact.hpp), against closed forms, scalar equations, and a slow minimiser of the energy.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <random>
-
 #include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"

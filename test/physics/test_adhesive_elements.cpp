@@ -1,10 +1,4 @@
 // Elements that attract within a range (contact/adhesive_elements.hpp), against Maugis's sphere and Johnson's wave.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/element_contact.hpp"
 #include "error.hpp"

@@ -4,14 +4,6 @@
 //
 // The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l = 24, H = 0.8, R = 2.5 mm),
 // grid 4096, areas corrected by their perimeter. Its own error, from the grid twice as coarse: 0.1 % in N, 1 % in A.
-#include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <map>
-#include <sstream>
-#include <string>
-#include <tuple>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

@@ -1,9 +1,4 @@
 // The contact of a few asperities against closed forms, and the symmetries every answer must have.
-#include <algorithm>
-#include <numbers>
-#include <optional>
-#include <tuple>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/expected_error.hpp"

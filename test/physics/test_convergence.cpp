@@ -1,11 +1,5 @@
 // One surface on finer and finer grids. A summit between the points is the same on every grid that finds it, and nearly every grid
 // finds all: the load at a fixed separation does not depend on the grid. Hertz asperities sit on grid points and do.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "rough/detection.hpp"

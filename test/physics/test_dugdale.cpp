@@ -1,9 +1,4 @@
 // Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, a scalar equation, and JKR as its limit.
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "error.hpp"

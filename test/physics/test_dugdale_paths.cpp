@@ -1,8 +1,4 @@
 // Several asperities that attract within a range: the path against a slow minimiser of the energy, and the work of cycles.
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"

@@ -1,10 +1,5 @@
 // The edges of the problem: whatever is asked, the answer is finite and right, or its status says what is wrong with it, or it is
 // refused with a reason.
-#include <algorithm>
-#include <cstdio>
-#include <limits>
-#include <string>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/ranking.hpp"

@@ -2,11 +2,6 @@
 // way (alone or in a series, by separation or by force, pixels of other shapes).
 #include <fftw3.h>
 
-#include <complex>
-#include <cstring>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/interaction/pixel_kernels.hpp"

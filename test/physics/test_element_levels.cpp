@@ -1,14 +1,6 @@
 // Every number of a level of elements, and all that the contact answers beside it, against the full matrix of a small map: pressures by an
 // active set of its own with Gaussian elimination, the rest from these pressures. Maps of oblong pixels that begin somewhere, more columns than
 // rows; a sphere beside the middle, a flat, a flat that repeats; elastic and yielding, along a path down, up, down and aside.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"

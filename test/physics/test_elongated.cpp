@@ -1,8 +1,4 @@
 // Single elongated summits, up to 1:20 in curvature, against elements on the same points.
-#include <cmath>
-#include <cstdio>
-#include <numbers>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

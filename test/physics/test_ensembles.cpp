@@ -2,12 +2,6 @@
 // comparison would raise a false alarm with the probability of a deviation beyond its threshold: 5 standard deviations of a sum
 // of many terms with known variance, 6e-7; 7 of a mean with a variance estimated from 24 surfaces (Student, 23 degrees of
 // freedom), 4e-7. In all less than 1e-5 for the whole test.
-#include <cmath>
-#include <cstdio>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "rough/detection.hpp"

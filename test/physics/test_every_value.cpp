@@ -5,13 +5,6 @@
 // cases must balance: each force is that of its own penetration under all the others.
 #include <netcdf.h>
 
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "error.hpp"

@@ -1,12 +1,4 @@
 // Two flats through the program: a rectangular map beside its double, and the theory of summits.
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <numbers>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "error.hpp"

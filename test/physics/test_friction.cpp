@@ -1,7 +1,4 @@
 // Partial slip and its memory against closed forms, and against springs with friction one by one (physics of src/contact/friction.hpp).
-#include <algorithm>
-#include <random>
-
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/friction.hpp"

@@ -1,7 +1,4 @@
 // Friction, conductance and lateral force of asperities in contact against problems solved on their own.
-#include <algorithm>
-#include <numbers>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"

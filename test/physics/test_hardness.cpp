@@ -1,13 +1,4 @@
 // Asperities that yield (contact/law/hardness.hpp), against closed forms, against the work they take, and against a slow solver of its own.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <random>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/law/hardness.hpp"

@@ -1,13 +1,5 @@
 // Elements that yield (contact/element_contact.hpp): the elastic and the plastic limit, work and energy along a path, and a slow solver of
 // its own with the same bounds.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

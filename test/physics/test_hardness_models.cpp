@@ -1,9 +1,6 @@
 // Asperities that yield against elements that yield on the same surface: E* = 94.7 GPa, L/lambda_s = 64, 8 points in the shortest wave, two
 // surfaces, both models along the levels 2.5, 2, 1.5, 1 sigma. What fourth_order is held to stands in kWantedN, kWantedA; the table is
 // that of test/README.
-#include <cmath>
-#include <cstdio>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

@@ -1,9 +1,5 @@
 // Hundreds of random systems against the independent slow solver (independent.hpp); how fast Newton converges; and what follows
 // from an energy: the symmetry of the response, dW/dg = F, a minimum.
-#include <algorithm>
-#include <cstdio>
-#include <limits>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "physics/independent.hpp"

@@ -1,8 +1,4 @@
 // Each asperity law against its own limits and against independent quadratures.
-#include <algorithm>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/law/ellipse.hpp"
 #include "contact/law/law.hpp"

@@ -4,12 +4,6 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/bessel.hpp>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <random>
-#include <vector>
 
 #include "case/registry.hpp"
 #include "check.hpp"

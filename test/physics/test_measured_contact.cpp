@@ -1,10 +1,6 @@
 // Contacts of measured maps: what a map's pixels, orientation and spectrum have to do with it, and what not.
 #include <netcdf.h>
 #include <unistd.h>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <numbers>
 
 #include "case/read_case.hpp"
 #include "case/registry.hpp"

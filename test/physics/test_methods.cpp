@@ -1,8 +1,5 @@
 // All methods give one answer, a local minimum of the energy, on many kinds of surfaces; and a level gives the same answer alone as
 // in a series. Counts of Newton steps and products are printed, so that a regression shows.
-#include <cmath>
-#include <numbers>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "physics/random_asperities.hpp"

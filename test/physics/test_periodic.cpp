@@ -1,9 +1,5 @@
 // Two flats that repeat: asperities and their images against scalar equations, a large period against none, methods against each other,
 // conservation and symmetry.
-#include <algorithm>
-#include <numbers>
-#include <utility>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "physics/random_asperities.hpp"

@@ -1,13 +1,4 @@
 // Elements between two flats that repeat: against an independent solver, closed forms, conservation, and themselves by another way.
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/lateral.hpp"

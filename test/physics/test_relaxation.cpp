@@ -1,12 +1,5 @@
 // A body that relaxes (contact/law/relaxation.hpp, relaxing.hpp): its creep function against an inversion of the Laplace transform, and one
 // asperity against the solutions of Lee and Radok (1960) and of Ting (1966), by integrals worked out here.
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <functional>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/law/relaxing.hpp"
 #include "error.hpp"

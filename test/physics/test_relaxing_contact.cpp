@@ -1,12 +1,5 @@
 // Contacts of a body that relaxes, asperities and elements, free and between flats, against the elastic contact: the correspondence principle
 // while contacts grow, the two elastic answers in the limits, conservation of energy, convergence, memories.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <numbers>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

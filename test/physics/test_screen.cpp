@@ -1,12 +1,5 @@
 // The screen of runs: the numbers of its tables are those of the result file, and remarks stand there when the levels ask for them
 // (test_remarks has each threshold). And the case of twins that lies beside a measured map's result.
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "result_reader.hpp"

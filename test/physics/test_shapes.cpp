@@ -1,10 +1,4 @@
 // Indenters of every shape: smooth ones by elements against closed forms, each with its order in the pixel; lateral forces against the energy.
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"

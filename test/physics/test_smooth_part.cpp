@@ -4,11 +4,6 @@
 #include "contact/interaction/kernel.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <random>
-#include <vector>
 
 #include "check.hpp"
 #include "contact/deflection.hpp"

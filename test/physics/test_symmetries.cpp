@@ -3,16 +3,6 @@
 // level of a path is compared, and all that a contact answers beside its levels.
 //
 // Nothing in the problems is symmetric itself: the plane's sides, the pixels' sides, the tip's place and both directions of the roughness differ.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <map>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"

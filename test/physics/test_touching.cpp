@@ -1,9 +1,5 @@
 // Summits where bodies touch, against elements on the same points: on a surface smoother than the sphere is round, on maps with pits and
 // steps, on rounded maps; and tips that move.
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

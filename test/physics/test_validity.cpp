@@ -2,11 +2,6 @@
 // under the sphere, a sphere below -3 sigma. And only those.
 #include "contact/validity.hpp"
 
-#include <cmath>
-#include <sstream>
-#include <utility>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"

@@ -28,6 +28,8 @@ class Studies(unittest.TestCase):
 &indentation start = 3 stop = 2 steps = 3 /
 &study surface%sigma = 0.01, 0.02  asperities%law = 'hertz', 'elliptic', 'fourth_order' /"""
         subprocess.run([os.environ["RSC_PROGRAM"], "-q", "-o", path("r.nc")], input=case, text=True, check=True, stdout=subprocess.DEVNULL)
+        with netCDF4.Dataset(path("r_manifest.nc")) as file:  # relative to the manifest, which may move with its members
+            self.assertEqual(str(netCDF4.chartostring(file["file"][4])), "r_005.nc")
         read = rsc.read(path("r_manifest.nc"), xarray=False)
         cube.main([path("r_manifest.nc")])
         with netCDF4.Dataset(path("r_cube.nc")) as file:

@@ -1,11 +1,7 @@
 // Files of instruments, written here: what the readers are tested with.
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <string>
-#include <vector>
+#include "std.hpp"
 
 namespace map_files {
 

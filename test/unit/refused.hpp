@@ -1,11 +1,6 @@
 // What is refused as bad input, and with which words.
 #pragma once
 
-#include <cstdio>
-#include <cstring>
-#include <functional>
-#include <string>
-
 #include "check.hpp"
 #include "error.hpp"
 

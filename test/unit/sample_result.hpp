@@ -2,11 +2,6 @@
 // interaction). The writer's test, the Fortran reader's test and the pictures' test share it.
 #pragma once
 
-#include <cmath>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include "file/result.hpp"
 
 namespace sample {

@@ -1,12 +1,9 @@
 // A fresh folder, removed with everything in it.
 #pragma once
 
-#include <unistd.h>
+#include "std.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
+#include <unistd.h>
 
 struct Folder {
     std::filesystem::path path = std::filesystem::temp_directory_path() / ("rsc-test-" + std::to_string(::getpid()));

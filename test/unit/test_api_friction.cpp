@@ -1,46 +1,24 @@
 // Friction through the C interface: what it does is that of the core.
-#include <cstdint>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
-#include "rsc.h"
+#include "unit/library.hpp"
 
 namespace {
 
-#define OK(call) CHECK((call) == RSC_SUCCESS)
-
-struct Handles {
-    rsc::Asperities list = random_asperities(300, 0.02, 0.01, 5e-4, 0.3, 7);
-    rsc_asperities* asperities = nullptr;
-    rsc_contact* contact = nullptr;
-    rsc_case* options = nullptr;
-    Handles() {
-        OK(rsc_asperities_take(&asperities, static_cast<std::int64_t>(list.size()), list.x.data(), list.y.data(), list.z.data(),
-                               list.radius.data(), nullptr, nullptr, nullptr, nullptr));
-        OK(rsc_case_create(&options));
-        OK(rsc_case_set(options, "solver%tolerance", "1e-12"));
-        OK(rsc_contact_create(&contact, asperities, 94e3, 2.5, 0.5, 0.5, options));
-    }
-    ~Handles() {
-        rsc_contact_destroy(&contact);
-        rsc_case_destroy(&options);
-        rsc_asperities_destroy(&asperities);
-    }
-};
-
 void same_as_core() {
-    Handles h;
+    const rsc::Asperities list = random_asperities(300, 0.02, 0.01, 5e-4, 0.3, 7);
+    ContactHandle contact;
+    OK(rsc_contact_create(&contact, take(list), 94e3, 2.5, 0.5, 0.5, case_of("&solver tolerance=1e-12 /")));
     rsc::SolverOptions tight;
     tight.tolerance = 1e-12;
-    rsc::AsperityContact one(h.list, {94e3, 2.5, 0.5, 0.5}, tight), other(h.list, {94e3, 2.5, 0.5, 0.5}, tight);
+    rsc::AsperityContact one(list, {94e3, 2.5, 0.5, 0.5}, tight), other(list, {94e3, 2.5, 0.5, 0.5}, tight);
     rsc::ContactCurve curve(one, other);
     rsc::FrictionHistory path({0.3, 0.8});
-    rsc_friction* friction = nullptr;
-    OK(rsc_friction_create(&friction, h.contact, 0.3, 0.8));
-    rsc_contact_destroy(&h.contact);  // may go
+    FrictionHandle friction;
+    OK(rsc_friction_create(&friction, contact, 0.3, 0.8));
+    rsc_contact_destroy(&contact);  // may go
     const double steps[][3] = {{0.002, 1, 2},           {0.001, 1.0001, 2},       {0.001, 1.0006, 2.0002}, {0.0005, 1.0006, 2},
                                {0.001, 1.0003, 1.9999}, {0.0012, 1.0003, 1.9999}, {0.001, 1.01, 2}};
     for (const auto& s : steps) {
@@ -86,7 +64,7 @@ void same_as_core() {
     }
     CHECK_RELATIVE(sum, qx, 1e-9);  // the levels of the sum and of the spots are two solutions to the tolerance
     // A copy has the path, and goes its own way.
-    rsc_friction* copy = nullptr;
+    FrictionHandle copy;
     OK(rsc_friction_copy(&copy, friction));
     OK(rsc_friction_commit(friction));
     double original = 0, copied = 0;
@@ -97,10 +75,6 @@ void same_as_core() {
     double again = 0;
     OK(rsc_friction_state(friction, nullptr, nullptr, nullptr, nullptr, &again, nullptr, nullptr, nullptr, nullptr, nullptr));
     CHECK(again == qx);
-    OK(rsc_friction_destroy(&copy));
-    OK(rsc_friction_destroy(&friction));
-    CHECK(!friction);
-    OK(rsc_friction_destroy(&friction));
 }
 
 }  // namespace

@@ -1,34 +1,14 @@
-// Contacts and friction kept in files go on bit for bit; many contacts at once are what they are one by one, whatever the threads.
+// Contacts saved in files continue bit for bit; many contacts in one call give the results of single calls, for any number of threads.
 #include <sys/resource.h>
-
-#include <csignal>
-#include <cstdint>
-#include <fstream>
-#include <string>
-#include <vector>
 
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
-#include "rsc.h"
+#include "unit/library.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
 
-#define OK(call) CHECK((call) == RSC_SUCCESS)
-
-bool says(const char* what) {
-    char text[400];
-    rsc_message(text, sizeof text, nullptr);
-    return std::string(text).find(what) != std::string::npos;
-}
-
-rsc_asperities* make(unsigned seed) {
-    const rsc::Asperities list = random_asperities(400, 0.01, 0.01, 5e-4, 0.4, seed);
-    rsc_asperities* handle = nullptr;
-    OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(list.size()), list.x.data(), list.y.data(), list.z.data(), list.radius.data(),
-                           nullptr, nullptr, nullptr, nullptr));
-    return handle;
-}
+AsperitiesHandle make(unsigned seed) { return take(random_asperities(400, 0.01, 0.01, 5e-4, 0.4, seed)); }
 
 // Force, place and stiffness along a path that moves the tip and presses as well.
 std::vector<double> go_on(rsc_contact* contact) {
@@ -48,15 +28,14 @@ std::vector<double> go_on(rsc_contact* contact) {
 }
 
 void contacts_in_files(const Folder& folder) {
-    rsc_asperities *asperities = make(1), *others = make(2);
-    rsc_contact *contact = nullptr, *again = nullptr;
+    const AsperitiesHandle asperities = make(1), others = make(2);
+    ContactHandle contact, again;
     OK(rsc_contact_create(&contact, asperities, 94e3, 2.5, 0.5, 0.5, nullptr));
     const std::string file = folder / "contact";
     OK(rsc_contact_save(contact, file.c_str()));  // without a level
     OK(rsc_contact_restore(&again, asperities, file.c_str()));
     double N = 0, same = 0, E = 0, W = 0, Z0 = 0;
     CHECK(rsc_contact_energy(again, &E) == RSC_NO_RESULT);
-    OK(rsc_contact_destroy(&again));
     for (double z : {0.008, 0.007, 0.006, 0.005, 0.0045}) OK(rsc_contact_indent(contact, z, &N));
     OK(rsc_contact_energy(contact, &W));
     OK(rsc_contact_save(contact, file.c_str()));
@@ -75,7 +54,6 @@ void contacts_in_files(const Folder& folder) {
     OK(rsc_contact_move_tip(contact, 0.45, 0.52));
     OK(rsc_contact_result(contact, &Z0, &N, nullptr, nullptr));
     OK(rsc_contact_save(contact, file.c_str()));
-    OK(rsc_contact_destroy(&again));
     OK(rsc_contact_restore(&again, asperities, file.c_str()));
     OK(rsc_contact_result(again, nullptr, &same, nullptr, nullptr));
     CHECK(same == N);
@@ -93,11 +71,10 @@ void contacts_in_files(const Folder& folder) {
     OK(rsc_contact_indent(again, Z0, &there));
     CHECK(here == there && here != N);
     CHECK(go_on(contact) == go_on(again));
-    OK(rsc_contact_destroy(&again));
-    // What is not that.
+    // Other asperities, and a file that does not exist.
     CHECK(rsc_contact_restore(&again, others, file.c_str()) == -2 && says("asperities") && !again);
     CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 && says("cannot read"));
-    // A disk that takes no more: told, and the file of before is as it was.
+    // A full disk, here the limit of file sizes: reported, and the earlier file is unchanged.
     const std::string before = bytes(file);
     rlimit usual{};
     CHECK(getrlimit(RLIMIT_FSIZE, &usual) == 0 && std::signal(SIGXFSZ, SIG_IGN) != SIG_ERR);
@@ -112,14 +89,11 @@ void contacts_in_files(const Folder& folder) {
     CHECK(rsc_contact_restore(&again, asperities, (folder / "spoilt").c_str()) == -3 && says("damaged"));
     std::ofstream(folder / "short", std::ios::binary) << bytes(file).substr(0, 60);
     CHECK(rsc_contact_restore(&again, asperities, (folder / "short").c_str()) == -3 && !again);
-    OK(rsc_contact_destroy(&contact));
-    OK(rsc_asperities_destroy(&asperities));
-    OK(rsc_asperities_destroy(&others));
 }
 
 void many_contacts() {
     constexpr int n = 24;
-    rsc_asperities* asperities = make(1);
+    const AsperitiesHandle asperities = make(1);
     std::vector<double> one, force(n), separation(n), forces(n);
     std::vector<std::int32_t> status(n);
     for (int k = 0; k < n; ++k) force[static_cast<std::size_t>(k)] = 0.1 + 0.2 * k;
@@ -155,7 +129,7 @@ void many_contacts() {
     made[3] = kept;
     for (auto& c : made) OK(rsc_contact_destroy(&c));
     // One that does not converge is no wrong argument: its numbers are there.
-    rsc_case* few = nullptr;
+    CaseHandle few;
     OK(rsc_case_create(&few));
     OK(rsc_case_set(few, "solver%max_iterations", "1"));
     rsc_contact* two[2] = {nullptr, nullptr};
@@ -165,8 +139,6 @@ void many_contacts() {
     CHECK(rsc_contacts_indent(2, two, deep, forces.data(), status.data(), 1) == RSC_NOT_CONVERGED && says("contact 1:"));
     CHECK(status[0] == RSC_SUCCESS && status[1] == RSC_NOT_CONVERGED && forces[0] > 0 && forces[1] > 0);
     for (auto& c : two) OK(rsc_contact_destroy(&c));
-    OK(rsc_case_destroy(&few));
-    OK(rsc_asperities_destroy(&asperities));
 }
 
 }  // namespace

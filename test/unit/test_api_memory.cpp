@@ -1,10 +1,5 @@
 // Memory refused at every single allocation, one after the other: the status says so, nothing is lost or broken, and the next
 // call works.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-#include <vector>
-
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 #include "rsc.h"

@@ -1,27 +1,13 @@
 // A whole case run through the library: every value of its result file that the library has a call for is what that call gives, to the last bit.
-#include <cmath>
-#include <fstream>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "result_reader.hpp"
-#include "rsc.h"
+#include "unit/library.hpp"
 #include "unit/map_files.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
 
-#define OK(call) CHECK((call) == RSC_SUCCESS)
-
 using Values = std::vector<double>;
-
-std::string message() {
-    char text[3000] = "";
-    OK(rsc_message(text, sizeof text, nullptr));
-    return text;
-}
 
 void same(const char* what, const Values& by_file, const Values& by_call) {
     bool equal = by_file.size() == by_call.size();
@@ -94,11 +80,9 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, con
 
 void every_value(const Folder& folder, const Run& run) {
     const int before = check::failures;
-    rsc_case* c = nullptr;
-    rsc_asperities* a = nullptr;
-    rsc_contact* k = nullptr;
-    OK(rsc_case_create(&c));
-    OK(rsc_case_read(c, run.namelist.c_str()));
+    AsperitiesHandle a;
+    ContactHandle k;
+    CaseHandle c = case_of(run.namelist.c_str());
     const std::string path = folder / "run.nc";
     OK(rsc_case_set(c, "output%file", ("'" + path + "'").c_str()));
     std::int64_t failed = -1;
@@ -112,6 +96,10 @@ void every_value(const Folder& folder, const Run& run) {
     if (file.has("tip_x")) CHECK(x == file.values("tip_x")[0] && y == file.values("tip_y")[0] && (x != y || file.has("pressure")));
 
     const Values separation = file.values("separation"), force = file.values("force");
+    if (file.has("pull_off_force")) {
+        const Values least = file.values("least_force");
+        CHECK(least.back() < 0 && file.values("pull_off_force") == Values{*std::min_element(least.begin(), least.end())});
+    }
     std::vector<std::string> names;
     for (std::size_t s = 0; s < separation.size(); ++s) {
         OK(run.force ? rsc_contact_press(k, std::round(force[s] * 1e4) / 1e4, nullptr) : rsc_contact_indent(k, separation[s], nullptr));
@@ -129,9 +117,6 @@ void every_value(const Folder& folder, const Run& run) {
         level_by_calls(file, k, s, names);
     }
     CHECK(force.back() > 0 && separation.size() > 1);
-    OK(rsc_contact_destroy(&k));
-    OK(rsc_asperities_destroy(&a));
-    OK(rsc_case_destroy(&c));
     if (check::failures > before) std::printf("in the case '%s'\n", run.name);
 }
 
@@ -161,6 +146,7 @@ TESTS {
                                "&output contacts='all', heights=.true. /"},
         {"no interaction, at the border",
          surface + solids + " / &solver interaction='none' / &indentation levels=1, 0  centre=0.125, 1.25 / " + output},
+        {"adhesion", surface + solids + "  adhesion=1e-3 / &indentation levels=1, 3, 0  centre=0.7, 0.8 / " + output},
         {"yielding", surface + solids + "  hardness=100.0 / &indentation levels=2, 0.5, 1  centre=0.7, 0.8 / " + output},
         {"two flats", surface +
                           "&solids E=1e3, 3e3  nu=0.125, 0.375  R=Infinity, Infinity / "
@@ -173,9 +159,7 @@ TESTS {
     CHECK(compared.size() >= 30);
 
     // Levels that do not converge are told, and the file is there all the same; a folder that cannot be made leaves nothing.
-    rsc_case* c = nullptr;
-    OK(rsc_case_create(&c));
-    OK(rsc_case_read(c, "&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver max_iterations=1 /"));
+    CaseHandle c = case_of("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver max_iterations=1 /");
     OK(rsc_case_set(c, "output%file", ("'" + (folder / "unfinished.nc") + "'").c_str()));
     std::int64_t failed = -1;
     CHECK(rsc_case_run(c, &failed) == RSC_NOT_CONVERGED && message().find("status = 4") != std::string::npos);
@@ -183,7 +167,7 @@ TESTS {
     for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
     CHECK(failed > 0 && failed == with_4);
     // Flats pressed deeper than asperities bear: no state, and no numbers of one.
-    rsc_case* deep = nullptr;
+    CaseHandle deep;
     OK(rsc_case_create(&deep));
     OK(rsc_case_read(deep,
                      "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
@@ -193,10 +177,8 @@ TESTS {
     const Reader deep_file(folder / "deep.nc");
     const Values forces = deep_file.values("force");
     CHECK(deep_file.values("status")[1] == 4 && forces[0] > 0 && forces[0] < 1e6 && forces[1] == NC_FILL_DOUBLE);
-    OK(rsc_case_destroy(&deep));
     OK(rsc_case_set(c, "output%file", "'/proc/no/such/folder.nc'"));
     failed = -1;
     CHECK(rsc_case_run(c, &failed) == -1);
     CHECK(failed == -1);
-    OK(rsc_case_destroy(&c));
 }

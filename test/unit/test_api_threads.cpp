@@ -1,10 +1,5 @@
 // Handles in several threads at once: each its own gives the bits it gives alone, and one may be read by all. Made for
 // ThreadSanitizer, too.
-#include <cstring>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "check.hpp"
 #include "rsc.h"
 

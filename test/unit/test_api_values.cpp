@@ -1,16 +1,9 @@
 // The rms height that a contact of a map given through rsc.h goes by.
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
-#include "rsc.h"
+#include "unit/library.hpp"
 
 namespace {
 
-#define OK(call) CHECK((call) == RSC_SUCCESS)
 constexpr double kPi = std::numbers::pi, kInfinity = std::numeric_limits<double>::infinity();
 using Values = std::vector<double>;
 
@@ -28,8 +21,8 @@ struct Map {
             for (int i = 0; i < nx; ++i) all.push_back(z(i, j));
         return all;
     }
-    rsc_surface* take(const Values& z, bool periodic = false) const {
-        rsc_surface* surface = nullptr;
+    SurfaceHandle take(const Values& z, bool periodic = false) const {
+        SurfaceHandle surface;
         OK(rsc_surface_take(&surface, nx, ny, dx, dy, x0, y0, periodic ? 1 : 0, z.data()));
         return surface;
     }
@@ -48,15 +41,13 @@ double rms(const Values& z) {
 }
 
 std::int32_t level_at(const rsc_surface* surface, const rsc_case* a_case, double separation) {
-    rsc_asperities* on = nullptr;
-    rsc_contact* contact = nullptr;
+    AsperitiesHandle on;
+    ContactHandle contact;
     std::int32_t status = -1;
     OK(rsc_asperities_find(&on, surface, nullptr));
     OK(rsc_contact_create(&contact, on, 1e3, kInfinity, 0, 0, a_case));
     OK(rsc_contact_indent(contact, separation, nullptr));
     OK(rsc_contact_level(contact, &status, nullptr, nullptr, nullptr, nullptr));
-    OK(rsc_contact_destroy(&contact));
-    OK(rsc_asperities_destroy(&on));
     return status;
 }
 
@@ -68,10 +59,9 @@ void rms_height() {
         const double wave = 0.01 * (std::cos(2 * kPi * (i - 16) / map.nx) + std::cos(2 * kPi * (j - 10) / map.ny));
         return 0.004 + 0.01 * map.x(i) + wave + (i == 16 && j == 10 ? 0.03 : 0);
     });
-    rsc_case* a_case = nullptr;
-    OK(rsc_case_create(&a_case));
-    OK(rsc_case_read(a_case, "&indentation boundary='periodic' / &solids R=Infinity, Infinity / &solver interaction='none' /"));
-    rsc_surface *surface = map.take(z, true), *copy = nullptr;
+    CaseHandle a_case = case_of("&indentation boundary='periodic' / &solids R=Infinity, Infinity / &solver interaction='none' /");
+    const SurfaceHandle surface = map.take(z, true);
+    SurfaceHandle copy;
     const auto goes_by = [&](const rsc_surface* s, double sigma) {
         CHECK(level_at(s, a_case, -2.99 * sigma) == RSC_LEVEL_CONVERGED);
         CHECK(level_at(s, a_case, -3.01 * sigma) == RSC_LEVEL_OUT_OF_VALIDITY);
@@ -92,9 +82,6 @@ void rms_height() {
     goes_by(copy, left);
     OK(rsc_case_set(a_case, "surface%sigma", "0.0125"));
     goes_by(copy, 0.0125);
-    OK(rsc_surface_destroy(&surface));
-    OK(rsc_surface_destroy(&copy));
-    OK(rsc_case_destroy(&a_case));
 }
 
 }  // namespace

@@ -2,13 +2,6 @@
 #include "rough/detection.hpp"
 #include "rough/synthesis.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstring>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "error.hpp"
 

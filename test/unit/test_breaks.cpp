@@ -1,6 +1,4 @@
 // Pits, spikes and steps of a map: found where they are, none where there are none; pits raised to the surface around.
-#include <cmath>
-
 #include "check.hpp"
 #include "rough/breaks.hpp"
 #include "rough/synthesis.hpp"

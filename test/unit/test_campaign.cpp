@@ -3,17 +3,6 @@
 
 #include <netcdf.h>
 #include <zlib.h>
-#include <csignal>
-
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "case/namelist_value.hpp"
 #include "case/registry.hpp"

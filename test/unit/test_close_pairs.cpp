@@ -1,10 +1,6 @@
 // Close pairs: all of them, each once, whatever the sizes, against the double loop; the same order at every call.
 #include "contact/close_pairs.hpp"
 
-#include <limits>
-#include <random>
-#include <tuple>
-
 #include "check.hpp"
 #include "contact/spots.hpp"
 

@@ -1,38 +1,26 @@
 // Contacts with a body that carries layers, through the library: kept in files, moved sideways, asked for deflections; asperities of a list.
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
-#include "rsc.h"
-#include "unit/contact_values.hpp"
+#include "unit/library.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
 
 struct Coated {
-    rsc_case* c = nullptr;
-    rsc_asperities* asperities = nullptr;
-    rsc_contact* contact = nullptr;
+    CaseHandle c;
+    AsperitiesHandle asperities;
+    ContactHandle contact;
     explicit Coated(const std::string& solids, const std::string& more = "") {
         const rsc::Asperities list = random_asperities(300, 0.01, 0.01, 5e-4, 0.4, 7);
-        CHECK(rsc_asperities_take(&asperities, static_cast<std::int64_t>(list.size()), list.x.data(), list.y.data(), list.z.data(),
-                                  list.radius.data(), nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
-        const std::string text = "&surface L=1 sigma=0.01 / &solver tolerance=1e-9 model='asperities' / &solids " + solids + " / " + more;
-        CHECK(rsc_case_create(&c) == RSC_SUCCESS && rsc_case_read(c, text.c_str()) == RSC_SUCCESS);
-        CHECK(rsc_contact_create_from_case(&contact, asperities, c) == RSC_SUCCESS);
-    }
-    ~Coated() {
-        rsc_contact_destroy(&contact);
-        rsc_asperities_destroy(&asperities);
-        rsc_case_destroy(&c);
+        asperities = take(list);
+        c = case_of("&surface L=1 sigma=0.01 / &solver tolerance=1e-9 model='asperities' / &solids " + solids + " / " + more);
+        contact = contact_on(asperities, c);
     }
 };
 
 double deflection_at(rsc_contact* contact, double x, double y) {
     double found = std::nan("");
-    CHECK(rsc_contact_deflection(contact, 1, &x, &y, &found) == RSC_SUCCESS);
+    OK(rsc_contact_deflection(contact, 1, &x, &y, &found));
     return found;
 }
 
@@ -58,19 +46,18 @@ void kept(const std::string& more, const Folder& folder) {
     Coated coated(body + " layer_thickness=0.05 layer_E=4e5 layer_nu=0.2", more);
     const double Z0 = 0.004;
     const double force = force_at(coated.contact, Z0);
-    rsc_contact* again = nullptr;
+    ContactHandle again;
     const std::string path = folder / "coated";
-    CHECK(rsc_contact_save(coated.contact, path.c_str()) == RSC_SUCCESS);
-    CHECK(rsc_contact_restore(&again, coated.asperities, path.c_str()) == RSC_SUCCESS);
+    OK(rsc_contact_save(coated.contact, path.c_str()));
+    OK(rsc_contact_restore(&again, coated.asperities, path.c_str()));
     for (const char* name : {"force", "contact_area", "energy", "contacts"}) CHECK(value(again, name) == value(coated.contact, name));
     CHECK(force > 0 && force_at(again, 0.003) == force_at(coated.contact, 0.003));
-    CHECK(rsc_contact_destroy(&again) == RSC_SUCCESS);
     force_at(coated.contact, Z0);
     if (!more.empty()) return;  // flats have no lateral force
     const double lateral = value(coated.contact, "lateral_force_x"), step = 1e-4;
     double energy[2];
     for (const int side : {0, 1}) {
-        CHECK(rsc_contact_move_tip(coated.contact, 0.5 + (side ? step : -step), 0.5) == RSC_SUCCESS);
+        OK(rsc_contact_move_tip(coated.contact, 0.5 + (side ? step : -step), 0.5));
         force_at(coated.contact, Z0);
         energy[side] = value(coated.contact, "energy");
     }

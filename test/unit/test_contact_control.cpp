@@ -1,11 +1,5 @@
 // What every contact does around its model's solutions: force control and separations between planes count all their work, accept one level
 // and no trial, and none that failed; the curve of two contacts counts its levels; forgetting is starting anew, bit by bit.
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"

@@ -1,11 +1,4 @@
 // The solver of elements against projected Gauss-Seidel on the full matrix, run until it stands: an independent way to the same minimum.
-
-#include <algorithm>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/solver/elements.hpp"

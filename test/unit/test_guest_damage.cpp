@@ -1,16 +1,13 @@
 // Damaged results and unusual files: what is read is what was written, or it is refused.
 #include <sys/stat.h>
 
-#include <cmath>
-#include <cstring>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
 #include "file/result.hpp"
 #include "file/whole_file.hpp"
 #include "read/inputs.hpp"
-#include "rsc.h"
+#include "unit/library.hpp"
 #include "unit/map_files.hpp"
 #include "unit/sample_result.hpp"
 #include "unit/temporary_folder.hpp"
@@ -33,7 +30,7 @@ std::vector<double> asperities_in(const std::string& path) {
     return all;
 }
 
-// One byte after the other is spoilt, all over the file: nothing that differs is read.
+// One damaged byte, at 150 places of the file: the file is refused every time.
 void test_damage(const Folder& folder, Format format) {
     const std::string path = folder / "result.nc", spoilt = folder / "spoilt.nc";
     write_result(sample::result(1), path, {format, 0, "made"});
@@ -97,30 +94,30 @@ void test_inputs(const Folder& folder) {
     }
 }
 
-// What netCDF4 leaves where nothing was measured is no height.
+// The fill value of netCDF4 is refused as a height.
 void test_fill_values() {
     std::vector<double> z(9);
     z[4] = 9.9692099683868690e+36;
-    rsc_surface* surface = nullptr;
+    SurfaceHandle surface;
     CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
     z[4] = static_cast<double>(9.9692099683868690e+36f);
     CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
 }
 
-// A force that no separation can be told apart for is refused; larger ones are met.
+// Forces that are too small to be resolved by the separation are refused; larger ones are reached.
 void test_small_forces() {
     const double x[] = {0.5}, z[] = {0.01}, r[] = {0.05};
-    rsc_asperities* asperities = nullptr;
-    rsc_contact* contact = nullptr;
-    CHECK(rsc_asperities_take(&asperities, 1, x, x, z, r, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
-    CHECK(rsc_contact_create(&contact, asperities, 1e5, 2.5, 0.5, 0.5, nullptr) == RSC_SUCCESS);
+    AsperitiesHandle asperities;
+    ContactHandle contact;
+    OK(rsc_asperities_take(&asperities, 1, x, x, z, r, nullptr, nullptr, nullptr, nullptr));
+    OK(rsc_contact_create(&contact, asperities, 1e5, 2.5, 0.5, 0.5, nullptr));
     int met = 0, told = 0;
     for (double N = 1; N > 1e-26; N *= 0.1) {
         double found = 0;
         const std::int32_t status = rsc_contact_press(contact, N, nullptr);
         CHECK(status == RSC_SUCCESS || status == -2);
         if (status == RSC_SUCCESS) {
-            CHECK(rsc_contact_value(contact, "force", &found) == RSC_SUCCESS);
+            OK(rsc_contact_value(contact, "force", &found));
             CHECK_RELATIVE(found, N, 2e-6);
             ++met;
         } else {
@@ -129,12 +126,11 @@ void test_small_forces() {
     }
     CHECK(met > 8 && told > 3);
     rsc_contact* gone = contact;
-    CHECK(rsc_contact_destroy(&contact) == RSC_SUCCESS);
+    OK(rsc_contact_destroy(&contact));
 #if !defined(__SANITIZE_ADDRESS__)
     CHECK(rsc_contact_press(gone, 1, nullptr) == -1 && rsc_contact_destroy(&gone) == -1);  // released
 #endif
-    CHECK(rsc_surface_moments(reinterpret_cast<rsc_surface*>(asperities), nullptr, nullptr, nullptr) == -1);
-    rsc_asperities_destroy(&asperities);
+    CHECK(rsc_surface_moments(reinterpret_cast<rsc_surface*>(asperities.get()), nullptr, nullptr, nullptr) == -1);
 }
 
 }  // namespace

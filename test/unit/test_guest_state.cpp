@@ -1,69 +1,48 @@
 // States as values: commit, roll back, copies and saves of contacts that yield; a sphere with friction that rolls; many contacts at once; runs
 // that are watched.
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
-#include "rsc.h"
-#include "unit/contact_values.hpp"
+#include "unit/library.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
 
 constexpr double kTolerance = 1e-5;  // ten times that of the levels
 
-struct Made {
-    rsc_case* c = nullptr;
-    rsc_asperities* asperities = nullptr;
-    rsc_contact* contact = nullptr;
-    explicit Made(const std::string& more) {
-        const std::string text =
-            "&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity,2.5 " + more;
-        CHECK(rsc_case_create(&c) == RSC_SUCCESS && rsc_case_read(c, text.c_str()) == RSC_SUCCESS);
-        CHECK(rsc_asperities_make(&asperities, c, 1) == RSC_SUCCESS);
-        CHECK(rsc_contact_create_from_case(&contact, asperities, c) == RSC_SUCCESS);
-    }
-    ~Made() {
-        rsc_contact_destroy(&contact);
-        rsc_asperities_destroy(&asperities);
-        rsc_case_destroy(&c);
-    }
-};
+const std::string kSurface = "&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity,2.5 ";
 
 // A step that was tried leaves no trace; a copy and a restored save go on as the original does.
 void test_yielding(const std::string& keys, const Folder& folder) {
-    Made made("hardness=1500 / " + keys);
-    rsc_contact *contact = made.contact, *copy = nullptr, *saved = nullptr, *fresh = nullptr;
+    Made made(kSurface + "hardness=1500 / " + keys);
+    rsc_contact* const contact = made.contact;
+    ContactHandle copy, saved;
     const std::string path = folder / "save";
     force_at(contact, 0.01);
     const double before = force_at(contact, 0.0102), work = value(contact, "plastic_work"), stiffness = value(contact, "stiffness");
     CHECK(before > 0 && work > 0);
-    CHECK(rsc_contact_commit(contact) == RSC_SUCCESS);
-    CHECK(rsc_contact_copy(&copy, contact) == RSC_SUCCESS);
-    CHECK(rsc_contact_save(contact, path.c_str()) == RSC_SUCCESS);
-    CHECK(rsc_contact_restore(&saved, made.asperities, path.c_str()) == RSC_SUCCESS);
-    for (rsc_contact* one : {contact, copy, saved}) {
+    OK(rsc_contact_commit(contact));
+    OK(rsc_contact_copy(&copy, contact));
+    OK(rsc_contact_save(contact, path.c_str()));
+    OK(rsc_contact_restore(&saved, made.asperities, path.c_str()));
+    for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
         CHECK_RELATIVE(value(one, "force"), before, 1e-15);
         CHECK_RELATIVE(value(one, "stiffness"), stiffness, 1e-3);
     }
     const double deeper = force_at(contact, 0.005), again = force_at(contact, 0.0102);
     CHECK(deeper > before && again < before);  // it has yielded further
-    CHECK(rsc_contact_create_from_case(&fresh, made.asperities, made.c) == RSC_SUCCESS);
+    const ContactHandle fresh = contact_on(made.asperities, made.c);
     force_at(fresh, 0.01), force_at(fresh, 0.0102);
     const double way_back = force_at(fresh, 0.0104);
-    CHECK(rsc_contact_rollback(contact) == RSC_SUCCESS);
+    OK(rsc_contact_rollback(contact));
     CHECK_RELATIVE(value(contact, "force"), before, 1e-15);
     CHECK_RELATIVE(value(contact, "plastic_work"), work, 1e-15);
     CHECK_RELATIVE(value(contact, "stiffness"), stiffness, 1e-3);
-    for (rsc_contact* one : {contact, copy, saved}) {
+    for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
         CHECK_RELATIVE(force_at(one, 0.0104), way_back, kTolerance);
         CHECK_RELATIVE(value(one, "plastic_work"), work, kTolerance);
         CHECK_RELATIVE(force_at(one, 0.005), deeper, kTolerance);
-        CHECK(rsc_contact_rollback(one) == RSC_SUCCESS);
+        OK(rsc_contact_rollback(one));
         CHECK_RELATIVE(force_at(one, 0.0104), way_back, kTolerance);
     }
-    for (rsc_contact** one : {&copy, &saved, &fresh}) rsc_contact_destroy(one);
 }
 
 struct Path {
@@ -80,18 +59,18 @@ Path state(const rsc_friction* friction) {
 // The force of the slide is bounded by mu N, what its energy falls by is lost, none is won; a move back to where the tip is does nothing, one to
 // other asperities leaves nothing of the slide.
 void test_rolling() {
-    Made made("/");
-    rsc_friction* friction = nullptr;
+    Made made(kSurface + "/");
+    FrictionHandle friction;
     constexpr double mu = 0.4, Z0 = 0.012;
-    CHECK(rsc_friction_create(&friction, made.contact, mu, 0.8) == RSC_SUCCESS);
-    CHECK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
-    CHECK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+    OK(rsc_friction_create(&friction, made.contact, mu, 0.8));
+    OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
+    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, nullptr, nullptr, nullptr, nullptr));
     const Path slid = state(friction);
     CHECK(slid.Qx > 0 && slid.tangential > 0 && rsc_friction_commit(friction) == RSC_SUCCESS);
     CHECK(rsc_friction_move_tip(friction, 0.5, 0.5) == RSC_SUCCESS && state(friction).Qx == slid.Qx);
     Path last = slid;
     for (int k = 1; k <= 20; ++k) {
-        CHECK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5) == RSC_SUCCESS);
+        OK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5));
         const Path now = state(friction);
         CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12));
         CHECK(now.tangential <= last.tangential * (1 + 1e-12) && now.lost >= last.lost);
@@ -99,17 +78,17 @@ void test_rolling() {
         last = now;
     }
     CHECK(last.Qx > 0 && last.Qx < slid.Qx);
-    rsc_contact* there = nullptr;
+    ContactHandle there;
     CHECK(rsc_contact_copy(&there, made.contact) == RSC_SUCCESS && rsc_contact_move_tip(there, 0.52, 0.5) == RSC_SUCCESS);
     CHECK_RELATIVE(last.N, force_at(there, Z0), kTolerance);
     CHECK(rsc_friction_move_tip(friction, 0.9, 0.1) == RSC_SUCCESS && state(friction).Qx == 0 && state(friction).tangential == 0);
-    CHECK(rsc_friction_rollback(friction) == RSC_SUCCESS);
+    OK(rsc_friction_rollback(friction));
     double N = 0, Qx = 0;
-    CHECK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr) == RSC_SUCCESS);
+    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr));
     CHECK_RELATIVE(N, slid.N, kTolerance);
     CHECK_RELATIVE(Qx, slid.Qx, kTolerance);
-    rsc_contact_destroy(&there);
-    rsc_friction_destroy(&friction);
+    OK(rsc_friction_update(friction, 0.9 * Z0, 2e-4, 1e-4, &N, nullptr, nullptr, nullptr));  // the tip is back, too
+    CHECK_RELATIVE(N, force_at(made.contact, 0.9 * Z0), kTolerance);
 }
 
 struct Watched {
@@ -125,7 +104,8 @@ std::int32_t watch(double done, double total, void* data) {
 void test_watched(const Folder& folder) {
     for (const char* realizations : {"1", "20"}) {
         const std::string file = folder / "run.nc";
-        Made made("/ &indentation steps=40 / &run realizations=" + std::string(realizations) + " / &output file='" + file + "' /");
+        Made made(kSurface + "/ &indentation steps=40 / &run realizations=" + std::string(realizations) + " / &output file='" + file +
+                  "' /");
         Watched once{0, 1, 0, 0}, never{0, 1 << 30, 0, 0};
         CHECK(rsc_case_run_watched(made.c, watch, &once, nullptr) == RSC_STOPPED && folder.files() <= 1);
         CHECK(once.calls == 1 && !std::ifstream(file));

@@ -4,30 +4,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <fstream>
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/interaction/pixel_products.hpp"
 #include "rough/parallel.hpp"
-#include "rsc.h"
 #include "run/prepare.hpp"
+#include "unit/library.hpp"
 
 namespace {
 
-rsc_case* small_case(const char* more) {
-    rsc_case* c = nullptr;
-    const std::string text = std::string("&surface n=256 L_lambda_l=4 L_lambda_s=32 / ") + more;
-    CHECK(rsc_case_create(&c) == RSC_SUCCESS && rsc_case_read(c, text.c_str()) == RSC_SUCCESS);
-    return c;
-}
+CaseHandle small_case(const char* more) { return case_of(std::string("&surface n=256 L_lambda_l=4 L_lambda_s=32 / ") + more); }
 
-// The exit status of a process of its own that does this; 128 + signal where it was ended, by an alarm if it hangs.
+// The exit status of a child process that runs `body`; 128 + signal if a signal ended it (an alarm after 60 s).
 int in_child(const std::function<int()>& body) {
     const pid_t child = fork();
     if (child == 0) {
@@ -39,29 +26,27 @@ int in_child(const std::function<int()>& body) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// Some 100 MB more than the process has: room for a few of the 200 threads asked for. 0: an answer, 1: a status.
+// With memory for only a few of the 200 threads requested. Returns 0 if all calls succeed, 1 if some report lack of memory.
 int with_little_memory() {
     long pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const rlim_t most = static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{100} << 20);
     const rlimit limit{most, most};
     if (setrlimit(RLIMIT_AS, &limit) != 0) return 9;
-    rsc_case* c = small_case("&run threads=200 /");
+    const CaseHandle c = small_case("&run threads=200 /");
     int refused = 0;
     for (int k = 1; k <= 4; ++k) {
-        rsc_surface* surface = nullptr;
-        rsc_asperities* asperities = nullptr;
+        SurfaceHandle surface;
+        AsperitiesHandle asperities;
         std::int32_t status = rsc_surface_synthesize(&surface, c, k);
         if (status == RSC_SUCCESS) status = rsc_asperities_find(&asperities, surface, c);
         if (status != RSC_SUCCESS && status != RSC_NO_MEMORY) return 2;
         refused |= status != RSC_SUCCESS;
-        rsc_surface_destroy(&surface);
-        rsc_asperities_destroy(&asperities);
     }
     return refused;
 }
 
-// Long loops that threads share out are left where the caller wants to stop, also in the middle.
+// True if a parallel loop can be stopped by the caller while it runs.
 bool stops(const std::function<void()>& loop) {
     usleep(60000);  // nobody is asked more often than every 50 ms
     try {
@@ -107,11 +92,10 @@ int with_one_processor() {
 }
 
 double height(const rsc_case* c) {
-    rsc_surface* surface = nullptr;
+    SurfaceHandle surface;
     std::vector<double> z(256 * 256);
-    CHECK(rsc_surface_synthesize(&surface, c, 1) == RSC_SUCCESS);
-    CHECK(rsc_surface_heights(surface, 256 * 256, z.data()) == RSC_SUCCESS);
-    rsc_surface_destroy(&surface);
+    OK(rsc_surface_synthesize(&surface, c, 1));
+    OK(rsc_surface_heights(surface, 256 * 256, z.data()));
     return z[777];
 }
 
@@ -133,22 +117,20 @@ void test_pieces() {
 }
 
 void test_more_threads_than_work() {
-    rsc_case* c = small_case("");
-    rsc_asperities* asperities = nullptr;
+    const CaseHandle c = small_case("");
+    AsperitiesHandle asperities;
     rsc_contact* contacts[2] = {};
-    CHECK(rsc_asperities_make(&asperities, c, 1) == RSC_SUCCESS);
-    for (auto& contact : contacts) CHECK(rsc_contact_create_from_case(&contact, asperities, c) == RSC_SUCCESS);
+    OK(rsc_asperities_make(&asperities, c, 1));
+    for (auto& contact : contacts) OK(rsc_contact_create_from_case(&contact, asperities, c));
     const double force[] = {1e-3, 2e-3};
     double few[2], many[2];
-    CHECK(rsc_contacts_press(2, contacts, force, few, nullptr, 1) == RSC_SUCCESS);
+    OK(rsc_contacts_press(2, contacts, force, few, nullptr, 1));
     CHECK(in_child([&] { return rsc_contacts_press(2, contacts, force, many, nullptr, 100000); }) == 0);
     for (auto& contact : contacts) rsc_contact_destroy(&contact);
-    rsc_asperities_destroy(&asperities);
-    rsc_case_destroy(&c);
 }
 
 void test_fork() {
-    rsc_case* c = small_case("&run threads=4 /");
+    const CaseHandle c = small_case("&run threads=4 /");
     const double before = height(c);  // the pool's threads are there now
     CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
     CHECK(height(c) == before);
@@ -160,15 +142,14 @@ void test_fork() {
     for (int k = 0; k < 5; ++k) CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
     done = true;
     other.join();
-    rsc_case_destroy(&c);
 }
 
 void test_lock() {
     CHECK(rsc_unlock() == RSC_NO_RESULT);
     CHECK(rsc_lock() == RSC_SUCCESS && rsc_lock() == RSC_SUCCESS);
-    rsc_case* c = small_case("");
+    const CaseHandle c = small_case("");
     height(c);  // makes plans of FFTW on the way
-    CHECK(rsc_unlock() == RSC_SUCCESS);
+    OK(rsc_unlock());
     std::atomic<bool> in{false};
     std::thread other([&] {
         rsc_lock();
@@ -177,10 +158,9 @@ void test_lock() {
     });
     usleep(50000);
     CHECK(!in);
-    CHECK(rsc_unlock() == RSC_SUCCESS);
+    OK(rsc_unlock());
     other.join();
     CHECK(in && rsc_unlock() == RSC_NO_RESULT);
-    rsc_case_destroy(&c);
 }
 
 }  // namespace

@@ -1,11 +1,4 @@
 // Shapes of the indenter against their definitions: derivatives by differences, bounds by sampling, symmetries; rankings under each as it moves.
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "contact/ranking.hpp"

@@ -2,16 +2,6 @@
 // numbers of an input differ from each other.
 #include <netcdf.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "read/input_netcdf.hpp"

@@ -1,13 +1,5 @@
 // What a case becomes before anything is pressed: levels, places, units, ranges and options, each by hand from the case's own numbers,
 // and what is refused just beyond its bound.
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"
@@ -56,6 +48,13 @@ Case of_map(const std::string& file) {
     c.output.pdf_levels = {2};
     c.solver.model = Model::asperities;
     return c;
+}
+
+// A duration is spread evenly over the levels, both ends included.
+void times() {
+    Case c = synthetic();
+    c.indentation.levels = {3, 2, 1, 0}, c.indentation.duration = 6;
+    CHECK((prepare(c).times == std::vector<double>{0, 2, 4, 6}));
 }
 
 void places() {
@@ -193,6 +192,7 @@ void maps() {
 }  // namespace
 
 TESTS {
+    times();
     places();
     maps();
 }

@@ -1,9 +1,5 @@
 // The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with other parameters; and everything that
 // asks for the nearest image: close pairs, spots, products.
-#include <numbers>
-#include <random>
-#include <tuple>
-
 #include "check.hpp"
 #include "contact/close_pairs.hpp"
 #include "contact/interaction/kernel.hpp"

@@ -1,8 +1,4 @@
 // Surfaces with a direction, with heights that are not Gaussian, and what is measured of them.
-#include <cmath>
-#include <complex>
-#include <numbers>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/detection.hpp"

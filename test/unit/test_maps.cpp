@@ -2,14 +2,6 @@
 // of them itself.
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <functional>
-#include <limits>
-#include <set>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "read/formats.hpp"
@@ -218,7 +210,7 @@ void sdf() {
     REFUSED(in_micrometres(write("t.sdf", packed)), "t.sdf: CheckType = 2: only 0 (none) is known");
     REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "mm"), "t.sdf: is no surface data file (ISO 25178-71)");
     REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channel 'Height'; only");
-    // What nobody knows.
+    // A file of an unknown format.
     REFUSED(in_micrometres(write("t.plu", std::string("PLU\0\1\2", 6))), "neither NetCDF, .gwy, .sdf nor text.");
 }
 

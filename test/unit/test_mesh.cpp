@@ -1,11 +1,4 @@
 // The mesh product against sums in long double, on every kind of point set.
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <thread>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/interaction/mesh.hpp"
 #include "error.hpp"

@@ -1,9 +1,4 @@
 // The namelist reader and the key registry: values, positions, messages, round trips, limits, studies, the command line.
-#include <algorithm>
-#include <bit>
-#include <string>
-#include <vector>
-
 #include "case/namelist_value.hpp"
 #include "case/read_case.hpp"
 #include "check.hpp"

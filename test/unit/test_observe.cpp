@@ -1,12 +1,4 @@
 // Observations: closed forms, maps, radial means, distributions and fits, and their addition over realizations.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"

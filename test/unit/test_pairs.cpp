@@ -1,12 +1,4 @@
 // Direct pair sums against sums in long double, for every instruction set this machine has.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <thread>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/interaction/pairs_kernel.hpp"

@@ -1,9 +1,4 @@
 // Pressures on pixels: Love's kernel against integration and its own far expansion, products by the tree against direct sums.
-
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"

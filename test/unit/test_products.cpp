@@ -1,12 +1,5 @@
 // Every product that the solver takes, against plain sums of the kernel: direct and mesh, free and repeating on oblong periods, without
 // interaction and with a smooth part; all points, most, few, one, none of them carrying forces.
-#include <cmath>
-#include <cstdio>
-#include <memory>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/interaction/products.hpp"
 

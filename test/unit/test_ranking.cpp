@@ -1,9 +1,4 @@
 // Asperities ranked under a sphere that moves: at every place the very ranking that a sphere put there has.
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/ranking.hpp"
 #include "physics/random_asperities.hpp"

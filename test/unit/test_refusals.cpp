@@ -1,10 +1,5 @@
 // Cases and command lines that are refused: the table test/data/refusals.txt, and what is too large for a table. What needs files is in
-// test_inputs.cpp, test_maps.cpp and cli/refusals.sh.
-#include <algorithm>
-#include <fstream>
-#include <string>
-#include <vector>
-
+// test_inputs.cpp, test_maps.cpp and cli/files.sh.
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"

@@ -1,12 +1,4 @@
 // The remarks at the end of a run, on both sides of each threshold; and the number of candidates that --check foresees.
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <functional>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "run/forecast.hpp"

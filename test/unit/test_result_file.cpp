@@ -3,19 +3,6 @@
 #include <netcdf.h>
 #include <unistd.h>
 
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <numbers>
-#include <set>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "case/units.hpp"
 #include "check.hpp"
 #include "error.hpp"

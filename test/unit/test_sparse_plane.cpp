@@ -2,8 +2,6 @@
 #include "check.hpp"
 #include "contact/interaction/sparse_plane.hpp"
 
-#include <random>
-
 using namespace rsc;
 
 namespace {

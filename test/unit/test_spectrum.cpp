@@ -3,12 +3,6 @@
 
 #include <Random123/philox.h>
 
-#include <cstdint>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/modes.hpp"

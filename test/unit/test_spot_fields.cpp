@@ -1,9 +1,4 @@
 // What the contact spots do beside N: the lowering of the surface around them, and the lateral force on the sphere.
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"

@@ -1,8 +1,4 @@
 // The union of elliptic spots against closed forms of circles, their affine images, and counting.
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "contact/spots.hpp"
 

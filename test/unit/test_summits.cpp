@@ -1,11 +1,4 @@
 // Summits between the points of the grid, against the Fourier sum itself and closed forms; the errors on measured maps.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/detection.hpp"

@@ -2,11 +2,6 @@
 #include "rough/surface.hpp"
 #include "rough/synthesis.hpp"
 
-#include <complex>
-#include <cstring>
-#include <numbers>
-#include <vector>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/form.hpp"

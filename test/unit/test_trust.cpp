@@ -1,9 +1,4 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points, means of levels that failed.
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <numbers>
-
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"

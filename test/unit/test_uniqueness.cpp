@@ -1,9 +1,6 @@
 // The proof of positive definiteness by shells never proves what is false, and is sharp enough to be useful; Lanczos.
 #include "contact/solver/uniqueness.hpp"
 
-#include <numbers>
-#include <random>
-
 #include "check.hpp"
 #include "contact/law/law.hpp"
 #include "contact/solver/lanczos.hpp"

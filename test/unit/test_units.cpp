@@ -3,11 +3,6 @@
 
 #include <netcdf.h>
 
-#include <cmath>
-#include <cstring>
-#include <set>
-#include <sstream>
-
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "error.hpp"

@@ -1,16 +1,5 @@
 // Maps in which everything differs from everything else (nx != ny, dx != dy, x0 != y0, heights without symmetry) against slow plain
 // computations, and what transposing, mirroring and rescaling them must do to every number that comes out.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <cstdint>
-#include <functional>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/defects.hpp"

@@ -1,10 +1,6 @@
-// A tip that goes round a surface that repeats: whole periods do not count, and nothing is felt of the border.
-#include <cmath>
-#include <string>
-#include <vector>
-
+// Tips on a periodic surface: a shift by whole periods changes nothing, and the border has no effect.
 #include "check.hpp"
-#include "rsc.h"
+#include "unit/library.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace {
@@ -12,36 +8,24 @@ namespace {
 constexpr int kN = 128;              // points along a side, of length 1
 constexpr double kTolerance = 1e-5;  // ten times that of the levels
 
-// A surface, and the same one with its points counted from the middle: places differ by half a period.
+// A surface, and the same one shifted by half a period.
 struct Round {
-    rsc_case* keys = nullptr;
-    rsc_asperities* on[2] = {};
+    CaseHandle keys;
+    AsperitiesHandle on[2];
     explicit Round(const std::string& more) {
-        const std::string text =
-            "&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity,2.5 " + more;
-        CHECK(rsc_case_create(&keys) == RSC_SUCCESS && rsc_case_read(keys, text.c_str()) == RSC_SUCCESS);
-        rsc_surface* surface = nullptr;
+        keys = case_of("&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity,2.5 " + more);
+        SurfaceHandle surface;
         std::vector<double> z(kN * kN), turned(kN * kN);
         CHECK(rsc_surface_synthesize(&surface, keys, 1) == RSC_SUCCESS && rsc_surface_heights(surface, kN * kN, z.data()) == RSC_SUCCESS);
-        rsc_surface_destroy(&surface);
         for (int j = 0; j < kN; ++j)
             for (int i = 0; i < kN; ++i)
                 turned[static_cast<std::size_t>((j + kN / 2) % kN * kN + (i + kN / 2) % kN)] = z[static_cast<std::size_t>(j * kN + i)];
         for (int k = 0; k < 2; ++k) {
-            CHECK(rsc_surface_take(&surface, kN, kN, 1.0 / kN, 1.0 / kN, 0, 0, 1, (k == 0 ? z : turned).data()) == RSC_SUCCESS);
-            CHECK(rsc_asperities_find(&on[k], surface, keys) == RSC_SUCCESS);
-            rsc_surface_destroy(&surface);
+            OK(rsc_surface_take(&surface, kN, kN, 1.0 / kN, 1.0 / kN, 0, 0, 1, (k == 0 ? z : turned).data()));
+            OK(rsc_asperities_find(&on[k], surface, keys));
         }
     }
-    ~Round() {
-        for (auto& one : on) rsc_asperities_destroy(&one);
-        rsc_case_destroy(&keys);
-    }
-    rsc_contact* contact(int k) const {
-        rsc_contact* made_now = nullptr;
-        CHECK(rsc_contact_create_from_case(&made_now, on[k], keys) == RSC_SUCCESS);
-        return made_now;
-    }
+    ContactHandle contact(int k) const { return contact_on(on[k], keys); }
 };
 
 const char* const kNames[] = {"force",    "contact_area", "stiffness",     "energy",       "lateral_force_x",
@@ -51,11 +35,11 @@ std::vector<double> answers(rsc_contact* contact) {
     std::vector<double> values;
     for (const char* name : kNames) {
         values.push_back(std::nan(""));
-        CHECK(rsc_contact_value(contact, name, &values.back()) == RSC_SUCCESS);
+        OK(rsc_contact_value(contact, name, &values.back()));
     }
     double w = 0;
     const double x = 0.03, y = 0.05;
-    CHECK(rsc_contact_deflection(contact, 1, &x, &y, &w) == RSC_SUCCESS);
+    OK(rsc_contact_deflection(contact, 1, &x, &y, &w));
     return values;
 }
 
@@ -69,10 +53,10 @@ double press(rsc_contact* contact, double x, double y, double Z0) {
 // round the second time as the first.
 void test_contact(const std::string& keys, bool elastic) {
     const Round round(keys);
-    rsc_contact *one = round.contact(0), *other = round.contact(1), *far = round.contact(0);
+    const ContactHandle one = round.contact(0), other = round.contact(1), far = round.contact(0);
     constexpr double Z0 = 0.012;
-    // With laws of summits between the points these are looked for anew only after a way.
-    for (rsc_contact* contact : {one, other, far}) CHECK(rsc_contact_move_tip(contact, 0.25, 0.25) == RSC_SUCCESS);
+    // Laws with summits between the points search for them again only after a longer move.
+    for (rsc_contact* contact : {one.get(), other.get(), far.get()}) OK(rsc_contact_move_tip(contact, 0.25, 0.25));
     const double places[][2] = {{0, 0}, {0.015625, 0.953125}, {0.984375, 0.5}, {0.25, 0.75}};
     for (const auto& [x, y] : places) {
         CHECK(press(one, x, y, Z0) > 0);
@@ -89,8 +73,8 @@ void test_contact(const std::string& keys, bool elastic) {
         }
         double w[2] = {};
         const double at[2][2] = {{x + 0.0625, y}, {x < 0.5 ? x + 0.5625 : x - 0.4375, y < 0.5 ? y + 0.5 : y - 0.5}};
-        CHECK(rsc_contact_deflection(one, 1, &at[0][0], &at[0][1], &w[0]) == RSC_SUCCESS);
-        CHECK(rsc_contact_deflection(other, 1, &at[1][0], &at[1][1], &w[1]) == RSC_SUCCESS);
+        OK(rsc_contact_deflection(one, 1, &at[0][0], &at[0][1], &w[0]));
+        OK(rsc_contact_deflection(other, 1, &at[1][0], &at[1][1], &w[1]));
         CHECK_RELATIVE(w[0], w[1], kTolerance);
     }
     if (elastic) {
@@ -103,51 +87,48 @@ void test_contact(const std::string& keys, bool elastic) {
                 CHECK_RELATIVE(N, first[k - 16], kTolerance);
         }
     }
-    for (rsc_contact** contact : {&one, &other, &far}) rsc_contact_destroy(contact);
 }
 
-// What yielded at the border is found again by a copy, by what was saved, and after a way round.
+// Spots that yielded at the border have yielded in a copy, in a saved contact, and after a shift by a period.
 void test_path(const std::string& keys) {
     const Round round(keys);
     const Folder folder;
     const std::string path = folder / "save";
-    rsc_contact *one = round.contact(0), *other = round.contact(1), *copy = nullptr, *saved = nullptr;
+    const ContactHandle one = round.contact(0), other = round.contact(1);
+    ContactHandle copy, saved;
     constexpr double Z0 = 0.01, back = 0.0105;
     press(one, 0, 0.9375, Z0), press(other, 0.5, 0.4375, Z0);
     double work = 0;
     CHECK(rsc_contact_value(one, "plastic_work", &work) == RSC_SUCCESS && work > 0);
-    CHECK(rsc_contact_copy(&copy, one) == RSC_SUCCESS);
-    CHECK(rsc_contact_save(one, path.c_str()) == RSC_SUCCESS);
-    CHECK(rsc_contact_restore(&saved, round.on[0], path.c_str()) == RSC_SUCCESS);
+    OK(rsc_contact_copy(&copy, one));
+    OK(rsc_contact_save(one, path.c_str()));
+    OK(rsc_contact_restore(&saved, round.on[0], path.c_str()));
     const double there = press(other, 0.5, 0.4375, back);
-    for (rsc_contact* contact : {copy, saved}) CHECK_RELATIVE(press(contact, 0, 0.9375, back), there, kTolerance);
+    for (rsc_contact* contact : {copy.get(), saved.get()}) CHECK_RELATIVE(press(contact, 0, 0.9375, back), there, kTolerance);
     for (const double x : {0.25, 0.5, 0.75}) press(one, x, 0.5, 0.03);  // too high to touch
     CHECK_RELATIVE(press(one, 1, -0.0625, back), there, kTolerance);
-    for (rsc_contact** contact : {&one, &other, &copy, &saved}) rsc_contact_destroy(contact);
 }
 
 // A wheel that rolls twice round: what it carries is what a contact carries there, its tangential force never exceeds mu N, and whole periods
 // from where it is it has not moved.
 void test_friction(const std::string& keys) {
     const Round round(keys);
-    rsc_contact *contact = round.contact(0), *there = round.contact(1);
-    rsc_friction* friction = nullptr;
+    const ContactHandle contact = round.contact(0), there = round.contact(1);
+    FrictionHandle friction;
     constexpr double mu = 0.4, Z0 = 0.01;
-    CHECK(rsc_friction_create(&friction, contact, mu, 0.8) == RSC_SUCCESS);
-    CHECK(rsc_friction_move_tip(friction, 1, 0) == RSC_SUCCESS);
+    OK(rsc_friction_create(&friction, contact, mu, 0.8));
+    OK(rsc_friction_move_tip(friction, 1, 0));
     double N = 0, Qx = 0, after = 0;
-    CHECK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS);
+    OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
     CHECK(rsc_friction_update(friction, Z0, 2e-4, 0, &N, &Qx, nullptr, nullptr) == RSC_SUCCESS && Qx > 0);
-    CHECK(rsc_friction_move_tip(friction, -4, 7) == RSC_SUCCESS);
+    OK(rsc_friction_move_tip(friction, -4, 7));
     CHECK(rsc_friction_update(friction, Z0, 2e-4, 0, nullptr, &after, nullptr, nullptr) == RSC_SUCCESS && after == Qx);
     for (int k = 1; k <= 16; ++k) {
-        CHECK(rsc_friction_move_tip(friction, k / 8.0, 0) == RSC_SUCCESS);
-        CHECK(rsc_friction_update(friction, Z0, 2e-4 + 1e-5 * k, 0, &N, &Qx, nullptr, nullptr) == RSC_SUCCESS);
+        OK(rsc_friction_move_tip(friction, k / 8.0, 0));
+        OK(rsc_friction_update(friction, Z0, 2e-4 + 1e-5 * k, 0, &N, &Qx, nullptr, nullptr));
         CHECK_RELATIVE(N, press(there, k / 8.0 + 0.5, 0.5, Z0), kTolerance);
         CHECK(std::abs(Qx) <= mu * N * (1 + 1e-12));
     }
-    rsc_friction_destroy(&friction);
-    for (rsc_contact** one : {&contact, &there}) rsc_contact_destroy(one);
 }
 
 }  // namespace

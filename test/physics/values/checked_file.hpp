@@ -3,14 +3,6 @@
 
 #include <netcdf.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "check.hpp"
 #include "result_reader.hpp"
 

@@ -1,14 +1,6 @@
 // Histograms, densities, moments and fits, from the contacts of all realizations.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "observe/fits.hpp"
 #include "physics/values/truth.hpp"
 

@@ -1,14 +1,6 @@
 // What a file says of itself, and of its levels.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "case/read_case.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/law/law.hpp"

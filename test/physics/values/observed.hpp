@@ -1,13 +1,6 @@
 // Surfaces, closed forms, maps and radial means.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "physics/values/levels.hpp"
 
 namespace values {

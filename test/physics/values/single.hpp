@@ -1,13 +1,6 @@
 // What files of one realization hold: asperities, contacts, heights, friction, a measured map, levels compared with elements.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/law/law.hpp"

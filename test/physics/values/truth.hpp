@@ -2,17 +2,6 @@
 // library's (run/job.hpp).
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include "check.hpp"
 #include "physics/elimination.hpp"
 #include "physics/values/checked_file.hpp"
