@@ -14,6 +14,14 @@ void Face::row(int n, double x0, double dx, double y, double* height) const {
     }
 }
 
+std::unique_ptr<BodyAbove> Face::transposed() const {
+    const Period &around = indenter_.around, &period = indenter_.period;
+    if (!indenter_.shape->round() || around.x != around.y || period.x != period.y) return nullptr;
+    Indenter other = indenter_;
+    std::swap(other.x0, other.y0);
+    return std::make_unique<Face>(other);
+}
+
 BodyAbove::Form Face::at(double x, double y) const {
     const auto [dx, dy] = indenter_.from_tip(x, y);
     Form form;

@@ -7,16 +7,17 @@
 
 namespace rsc {
 
-// The indenter as body above a surface in the search for summits. The indenter must outlive it.
+// The indenter as body above a surface in the search for summits.
 class Face final : public BodyAbove {
 public:
     explicit Face(const Indenter& indenter) : indenter_(indenter) {}
     void row(int n, double x0, double dx, double y, double* height) const override;
     Form at(double x, double y) const override;
+    std::unique_ptr<BodyAbove> transposed() const override;
     bool periodic() const override { return indenter_.period.finite() || indenter_.around.finite(); }
 
 private:
-    const Indenter& indenter_;
+    Indenter indenter_;
 };
 
 // Finds the summits of the surface minus the face of an indenter. Empty for asperities given as a list, without a surface.

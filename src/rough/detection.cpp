@@ -159,9 +159,11 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences,
                            const BodyAbove* above) {
-    if (!above && made_as_transpose(spectrum)) {  // no need to store the surface
-        const Asperities found =
-            make_asperities(transposed(spectrum), n, normalise, seed, realization, curvature, count, sampled, threads, detail, differences);
+    const bool mirror = made_as_transpose(spectrum);
+    const std::unique_ptr<BodyAbove> mirrored_above = mirror && above ? above->transposed() : nullptr;
+    if (mirror && (!above || mirrored_above)) {  // no need to store the surface
+        const Asperities found = make_asperities(transposed(spectrum), n, normalise, seed, realization, curvature, count, sampled, threads,
+                                                 detail, differences, mirrored_above.get());
         if (sampled) sampled->tensor = sampled->tensor.transposed();
         return mirrored(found, spectrum.L, n);
     }

@@ -19,6 +19,8 @@ public:
     virtual void row(int n, double x0, double dx, double y, double* height) const = 0;
     virtual Form at(double x, double y) const = 0;
     virtual bool periodic() const = 0;
+    // The body with x and y exchanged; null if it has to be taken point by point.
+    virtual std::unique_ptr<BodyAbove> transposed() const { return nullptr; }
 };
 
 // Method by which a summit is located.

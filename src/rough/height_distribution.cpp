@@ -64,7 +64,7 @@ double root(const Function& f, double low, double high) {
     if (at_low * at_high >= 0) return std::abs(at_low) < std::abs(at_high) ? low : high;
     std::uintmax_t steps = 60;
     const auto [a, b] =
-        boost::math::tools::toms748_solve(f, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(36), steps);
+        boost::math::tools::toms748_solve(f, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(20), steps);
     return 0.5 * (a + b);
 }
 

@@ -20,10 +20,10 @@ double distance(HeightShape got, HeightShape wish) {
 
 // Kept within Johnson's system, away from distributions of two values.
 HeightShape usable(HeightShape shape) {
-    shape.skewness = std::clamp(shape.skewness, -6.0, 6.0);
-    shape.kurtosis = std::clamp(shape.kurtosis, 1.2 * shape.skewness * shape.skewness + 1.3, 90.0);
-    return shape;
+    const double skewness = std::clamp(shape.skewness, -6.0, 6.0);
+    return {skewness, std::clamp(shape.kurtosis, 1.2 * skewness * skewness + 1.3, 90.0)};
 }
+HeightDistribution of_shape(HeightShape shape) { return HeightDistribution::of_moments(shape.skewness, shape.kurtosis); }
 
 // Modes of the half plane within an ellipse (and the band of the surface), stored in the columns of the caller.
 struct Modes {
@@ -57,52 +57,40 @@ public:
           row_stride_((m + 2 + 15) / 16 * 16 + 16) {
         store_ = allocate(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(stride_));
         rows_ = allocate(static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(row_stride_) / 2);
+        heights_ = allocate(static_cast<std::size_t>(m_) * static_cast<std::size_t>(row_stride_) / 2);
+        line_ = allocate(static_cast<std::size_t>(row_stride_) / 2);
         const auto lock = fftw_planning();
         auto* const c = reinterpret_cast<fftwf_complex*>(store_.get());
-        auto* const r = reinterpret_cast<float*>(rows_.get());
         auto* const rc = reinterpret_cast<fftwf_complex*>(rows_.get());
         up_.reset(fftwf_plan_dft_1d(m, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
         down_.reset(fftwf_plan_dft_1d(m, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
-        to_heights_.reset(fftwf_plan_dft_c2r_1d(m, rc, r, FFTW_ESTIMATE));
-        to_modes_.reset(fftwf_plan_dft_r2c_1d(m, r, rc, FFTW_ESTIMATE));
+        to_heights_.reset(fftwf_plan_dft_c2r_1d(m, rc, reinterpret_cast<float*>(heights_.get()), FFTW_ESTIMATE));
+        to_modes_.reset(fftwf_plan_dft_r2c_1d(m, reinterpret_cast<float*>(line_.get()), rc, FFTW_ESTIMATE));
         if (!up_ || !down_ || !to_heights_ || !to_modes_)
             throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
     }
 
-    // Iterates: heights are replaced by rank in a distribution, then the amplitudes of the modes are restored. The distribution is chosen
-    // from the moments reached so far; `measured` (optional) is the distribution for `wish`. The best phases are stored in the columns of
-    // the caller.
+    // From a Gaussian surface, or towards a measured distribution, heights are replaced by rank in a distribution and the amplitudes of the
+    // modes are restored. Newton's method follows, by which both moments reach the wish. The best phases are stored in the columns of the
+    // caller.
     HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
-        // Twins of a map come nearer, since all of them stop on the same, more Gaussian side of it.
-        const double near_enough = measured ? 0.3 : 1;
         take();
-        transform(up_);
-        HeightShape now, best, lost{0, 0};
+        HeightShape now = heights(), best = now;
         double nearest = HUGE_VAL;
-        now = shape(std::max(1, m_ / 128));  // enough to choose the first distribution
-        for (int round = 0; round <= rounds; ++round) {
-            // Share of a change of the distribution that remains after the amplitudes are restored; smaller in the first round from a
-            // Gaussian surface.
-            const bool first = gaussian && round == 0;
-            const double skewed = first ? 0.42 : kRemains, peaked = first ? 0.3 : kRemains;
-            const HeightShape ask = usable({now.skewness + (wish.skewness - now.skewness + lost.skewness) / skewed,
-                                            now.kurtosis + (wish.kurtosis - now.kurtosis + lost.kurtosis) / peaked});
-            change(ask, wish, measured);
-            transform(down_);
-            restore();
-            transform(up_);
-            const HeightShape got = shape();
-            const double off = distance(got, wish);
-            if (off < nearest) {
-                nearest = off, best = got;
-                kept_.assign(unit_.begin(), unit_.end());
-            }
-            if (off <= near_enough) break;
-            if (!first) {  // what is lost of a large first change says nothing about the next ones
-                lost.skewness += kRemains * (now.skewness + skewed * (ask.skewness - now.skewness) - got.skewness - lost.skewness);
-                lost.kurtosis += kRemains * (now.kurtosis + peaked * (ask.kurtosis - now.kurtosis) - got.kurtosis - lost.kurtosis);
-            }
-            now = got;
+        const double near_enough = measured || gaussian ? 0.3 : 1;
+        const bool replaced = measured || gaussian;
+        for (int round = 0;; ++round) {
+            const double off = distance(now, wish);
+            if ((round > 0 || !replaced) && off < nearest) nearest = off, best = now, kept_ = unit_;
+            if (round >= rounds || nearest <= near_enough) break;
+            if (round > 0 || !replaced)
+                step(wish, now);
+            else if (measured)
+                replace(*measured);
+            else  // shares of the changes that remain after the amplitudes are restored
+                replace(of_shape(
+                    usable({now.skewness + (wish.skewness - now.skewness) / 0.42, now.kurtosis + (wish.kurtosis - now.kurtosis) / 0.3})));
+            now = heights();
         }
         give();
         return best;
@@ -118,7 +106,7 @@ private:
     }
     static constexpr int kBlock = 16;  // rows at a time
     static constexpr int kBins = 1024;
-    static constexpr double kRemains = 0.6;
+    static constexpr double kLongest = 0.4;
 
     Complex* place(int kx, int ky) const { return store_.get() + kx * stride_ + (ky < 0 ? ky + m_ : ky); }
     void transform(const FftwfPlan& plan) {
@@ -127,53 +115,131 @@ private:
             fftwf_execute_dft(plan.get(), c, c);
         }
     }
-    // The column kx = 0 contains its own mirror image.
-    void mirror() {
-        for (int ky = 1; 2 * ky < m_; ++ky) *place(0, -ky) = std::conj(*place(0, ky));
-    }
-
     void take() {
         double square = 0;
         modes_.runs([&](int, int, int count, const std::complex<double>* c) {
             for (int i = 0; i < count; ++i) square += std::norm(c[i]);
         });
         const double scale = square > 0 ? 1 / std::sqrt(2 * square) : 1;
-        std::fill_n(store_.get(), columns_ * stride_, Complex());
-        amplitude_.clear();
-        modes_.runs([&](int kx, int ky, int count, const std::complex<double>* c) {
-            Complex* const to = place(kx, ky);
+        amplitude_.clear(), unit_.clear();
+        modes_.runs([&](int, int, int count, const std::complex<double>* c) {
             for (int i = 0; i < count; ++i) {
                 const double re = scale * c[i].real(), im = scale * c[i].imag();
-                to[i] = {static_cast<float>(re), static_cast<float>(im)};
                 amplitude_.push_back(static_cast<float>(std::sqrt(re * re + im * im)));
+                unit_.emplace_back();
+                direct(unit_.size() - 1, static_cast<float>(re), static_cast<float>(im));
             }
         });
-        unit_.resize(amplitude_.size());
-        mirror();
     }
 
-    // Restores the amplitudes of the modes.
-    void restore() {
+    // The heights of the phases unit_, and their moments.
+    HeightShape heights() {
         std::size_t k = 0;
-        kept_.resize(unit_.size());
-        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
-            const Complex* const from = place(kx, ky);
-            Complex* const to = unit_.data() + k;
-            for (int i = 0; i < count; ++i) {
-                const float re = from[i].real(), im = from[i].imag(), square = re * re + im * im;
-                const float inverse = 1 / std::sqrt(square);
-                to[i] = square > 1e-30f ? Complex(re * inverse, im * inverse) : Complex(1, 0);
-            }
-            k += static_cast<std::size_t>(count);
-        });
         std::fill_n(store_.get(), columns_ * stride_, Complex());
-        k = 0;
         modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
             Complex* const to = place(kx, ky);
             for (int i = 0; i < count; ++i) to[i] = {unit_[k + i].real() * amplitude_[k + i], unit_[k + i].imag() * amplitude_[k + i]};
             k += static_cast<std::size_t>(count);
         });
-        mirror();
+        for (int ky = 1; 2 * ky < m_; ++ky) *place(0, -ky) = std::conj(*place(0, ky));  // the column contains its own mirror image
+        transform(up_);
+        Sums sums;
+        auto* const all = reinterpret_cast<float*>(heights_.get());
+        auto* const data = reinterpret_cast<float*>(rows_.get());
+        for (int j = 0; j < m_; j += kBlock) {
+            const int count = std::min(kBlock, m_ - j);
+            for (int kx = 0; kx < columns_; ++kx) {
+                const Complex* const from = store_.get() + kx * stride_ + j;
+                for (int r = 0; r < count; ++r) {
+                    data[r * row_stride_ + 2 * kx] = from[r].real();
+                    data[r * row_stride_ + 2 * kx + 1] = from[r].imag();
+                }
+            }
+            for (int r = 0; r < count; ++r) {
+                float *const row = data + r * row_stride_, *const to = all + (j + r) * row_stride_;
+                std::fill(row + 2 * columns_, row + m_ + 2, 0.0f);
+                fftwf_execute_dft_c2r(to_heights_.get(), reinterpret_cast<fftwf_complex*>(row), to);
+                sums.add(to, m_);
+            }
+        }
+        return sums.shape();
+    }
+
+    // Fourier coefficients of a function of the heights, by column.
+    template <class Function>
+    void coefficients(Function of) {
+        const auto* const all = reinterpret_cast<const float*>(heights_.get());
+        auto *const data = reinterpret_cast<float*>(rows_.get()), *const line = reinterpret_cast<float*>(line_.get());
+        for (int j = 0; j < m_; j += kBlock) {
+            const int count = std::min(kBlock, m_ - j);
+            for (int r = 0; r < count; ++r) {
+                float* const row = data + r * row_stride_;
+                const float* const from = all + (j + r) * row_stride_;
+                for (int i = 0; i < m_; ++i) line[i] = of(from[i]);
+                fftwf_execute_dft_r2c(to_modes_.get(), line, reinterpret_cast<fftwf_complex*>(row));
+            }
+            for (int kx = 0; kx < columns_; ++kx) {
+                Complex* const to = store_.get() + kx * stride_ + j;
+                for (int r = 0; r < count; ++r) to[r] = {data[r * row_stride_ + 2 * kx], data[r * row_stride_ + 2 * kx + 1]};
+            }
+        }
+        transform(down_);
+    }
+
+    // Calls visit(k, coefficient) for the modes k = 0, 1, ...
+    template <class Visit>
+    void each(Visit visit) const {
+        std::size_t k = 0;
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
+            const Complex* const from = place(kx, ky);
+            for (int i = 0; i < count; ++i) visit(k++, from[i]);
+        });
+    }
+
+    void direct(std::size_t k, float re, float im) {
+        const float square = re * re + im * im, inverse = 1 / std::sqrt(square);
+        unit_[k] = square > 1e-30f ? Complex(re * inverse, im * inverse) : Complex(1, 0);
+    }
+
+    // Newton's method for both moments with the smallest change of heights that phases allow: p z^2 + q z^3 without the parts along the modes.
+    // How far a mode turns and what it loses along itself are taken exactly, because modes of small amplitude turn far.
+    void step(HeightShape wish, HeightShape now) {
+        const float scale = 1 / (static_cast<float>(m_) * static_cast<float>(m_));
+        const auto relative = [&](std::vector<Complex>& to) {  // the part across a mode is the imaginary one
+            to.resize(unit_.size());
+            each([&](std::size_t k, Complex c) {
+                const float x = unit_[k].real(), y = unit_[k].imag();
+                to[k] = {scale * (x * c.real() + y * c.imag()), scale * (x * c.imag() - y * c.real())};
+            });
+        };
+        coefficients([](float z) { return z * z; });
+        relative(second_);
+        coefficients([](float z) { return z * z * z; });
+        relative(third_);
+        // skewness = <z^3>, kurtosis = <z^4>; every mode counts twice.
+        const double s = (wish.skewness - now.skewness) / 6, t = (wish.kurtosis - now.kurtosis) / 8;
+        float p = 0, q = 0;
+        for (int i = 0; i < kSteps; ++i) {
+            Lanes sums[5];
+            for (std::size_t k = 0; k < unit_.size(); ++k) {
+                const float x = second_[k].imag(), y = third_[k].imag(), along = amplitude_[k], across = p * x + q * y;
+                const float length = std::sqrt(along * along + across * across), cosine = length > 0 ? along / length : 1;
+                const float lost = along * (1 - cosine),
+                            values[5] = {cosine * x * x, cosine * x * y, cosine * y * y, lost * second_[k].real(), lost * third_[k].real()};
+                for (int l = 0; l < 5; ++l) sums[l].v[k % 8] += values[l];
+            }
+            const double a = sums[0].sum(), b = sums[1].sum(), c = sums[2].sum(), determinant = a * c - b * b;
+            if (!(determinant > 0)) return;
+            const double s1 = s + sums[3].sum(), t1 = t + sums[4].sum();
+            p = static_cast<float>((c * s1 - b * t1) / determinant), q = static_cast<float>((a * t1 - b * s1) / determinant);
+            const double size = std::sqrt(2 * (p * p * a + 2 * p * q * b + q * q * c));
+            if (const float most = static_cast<float>(kLongest / size); most < 1) p *= most, q *= most;
+        }
+        for (std::size_t k = 0; k < unit_.size(); ++k) {
+            const float across = p * second_[k].imag() + q * third_[k].imag(), along = amplitude_[k], x = unit_[k].real(),
+                        y = unit_[k].imag();
+            direct(k, along * x - across * y, along * y + across * x);
+        }
     }
 
     void give() {
@@ -187,35 +253,11 @@ private:
         });
     }
 
-    // Calls visit() for the heights of every `step`-th row, from transformed columns; with `back`, the modified heights are stored.
-    template <class Visit>
-    void rows(int step, bool back, Visit visit) {
-        auto* const data = reinterpret_cast<float*>(rows_.get());
-        const int wide = step == 1 ? kBlock : 1;
-        for (int j = 0; j < m_; j += step * wide) {
-            const int count = std::min(wide, m_ - j);
-            for (int kx = 0; kx < columns_; ++kx) {
-                const Complex* const from = store_.get() + kx * stride_ + j;
-                for (int r = 0; r < count; ++r) {
-                    data[r * row_stride_ + 2 * kx] = from[r].real();
-                    data[r * row_stride_ + 2 * kx + 1] = from[r].imag();
-                }
-            }
-            for (int r = 0; r < count; ++r) {
-                float* const row = data + r * row_stride_;
-                auto* const complex = reinterpret_cast<fftwf_complex*>(row);
-                std::fill(row + 2 * columns_, row + m_ + 2, 0.0f);
-                fftwf_execute_dft_c2r(to_heights_.get(), complex, row);
-                visit(row);
-                if (back) fftwf_execute_dft_r2c(to_modes_.get(), row, complex);
-            }
-            for (int kx = 0; back && kx < columns_; ++kx) {
-                Complex* const to = store_.get() + kx * stride_ + j;
-                for (int r = 0; r < count; ++r) to[r] = {data[r * row_stride_ + 2 * kx], data[r * row_stride_ + 2 * kx + 1]};
-            }
-        }
-    }
-
+    struct Lanes {
+        double v[8] = {};
+        double sum() const { return std::accumulate(v, v + 8, 0.0); }
+    };
+    static constexpr int kSteps = 4;
     struct Sums {
         static constexpr int kLanes = 8;
         double m2[kLanes] = {}, m3[kLanes] = {}, m4[kLanes] = {};
@@ -240,55 +282,43 @@ private:
         double count = 0;
     };
 
-    // Moments of every `step`-th row, and the histogram of the heights, from at least 128 rows.
-    HeightShape shape(int step = 1) {
-        Sums sums;
-        std::fill(std::begin(bin_), std::end(bin_), 0);
-        int row = 0;
-        const int binned = std::max(1, m_ / (step * 128));
-        rows(step, false, [&](const float* z) {
-            sums.add(z, m_);
-            for (int i = 0; row % binned == 0 && i < m_; ++i) ++bin_[bin(z[i])];
-            ++row;
-        });
-        return sums.shape();
-    }
     // Bins over +-kRange rms heights; the outermost include all larger heights.
     static constexpr float kRange = 12, kPerUnit = kBins / (2 * kRange);
-    static std::size_t bin(float z) {
+    static std::size_t place_of(float z) {
         return static_cast<std::size_t>(std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins - 1)));
     }
 
-    void change(HeightShape ask, HeightShape wish, const HeightDistribution* measured) {
-        const HeightDistribution asked = HeightDistribution::of_moments(ask.skewness, ask.kurtosis);
-        const HeightShape at = usable(wish);
-        const HeightDistribution wished = measured ? HeightDistribution::of_moments(at.skewness, at.kurtosis) : asked;
+    // Heights replaced by rank.
+    void replace(const HeightDistribution& by) {
+        const auto* const all = reinterpret_cast<const float*>(heights_.get());
+        long bin[kBins] = {};
+        for (int j = 0; j < m_; j += std::max(1, m_ / 128))  // enough rows
+            for (int i = 0; i < m_; ++i) ++bin[place_of(all[j * row_stride_ + i])];
         double total = 0, below = 0;
-        for (const long count : bin_) total += static_cast<double>(count);
+        for (const long count : bin) total += static_cast<double>(count);
         float value[kBins + 1];
         for (std::size_t b = 0; b <= kBins; ++b) {
             const double p = std::clamp(below / total, 0.5 / total, 1 - 0.5 / total);
-            const double score = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p), z = asked(score);
-            value[b] = static_cast<float>(measured ? (*measured)(wished.normal(z)) : z);
-            if (b < kBins) below += static_cast<double>(bin_[b]);
+            using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+            value[b] = static_cast<float>(by(-std::numbers::sqrt2 * boost::math::erfc_inv(2 * p, Policy())));
+            if (b < kBins) below += static_cast<double>(bin[b]);
         }
-        rows(1, true, [&](float* z) {
-            for (int i = 0; i < m_; ++i) {
-                const float place = std::clamp((z[i] + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins));
-                const std::size_t b = std::min<std::size_t>(static_cast<std::size_t>(place), kBins - 1);
-                z[i] = value[b] + (value[b + 1] - value[b]) * (place - static_cast<float>(b));
-            }
+        coefficients([&](float z) {
+            const float at = std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins));
+            const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(at), kBins - 1);
+            return value[k] + (value[k + 1] - value[k]) * (at - static_cast<float>(k));
         });
+        each([&](std::size_t k, Complex c) { direct(k, c.real(), c.imag()); });
     }
 
     const Modes& modes_;
     int m_, columns_;
     std::ptrdiff_t stride_, row_stride_;  // strides of columns (complex numbers) and rows (real numbers)
-    Memory store_, rows_;
+    Memory store_, rows_, heights_, line_;
     FftwfPlan up_, down_, to_heights_, to_modes_;
     std::vector<float> amplitude_;  // amplitudes of the modes for an rms height of 1
     std::vector<Complex> unit_, kept_;
-    long bin_[kBins] = {};
+    std::vector<Complex> second_, third_;
 };
 
 // Number of points: enough for fourth powers if there are few modes; with many modes more are not required.
@@ -357,19 +387,35 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
         all.band = long_waves(all, all_of_it).first;
     }
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
-    const int m = points(all.band);
-    // Long waves are reshaped first, on a coarse grid. The short waves are still Gaussian and uncorrelated with them, so the moments of the
-    // sum are those of the long waves times powers of their share.
-    constexpr double most_of_it = 0.9, nearly_all = 0.95, flat = 2.8;
-    constexpr int many_rounds = 40, coarse_rounds = 7, fine_rounds = 20;
-    const auto [band, share] = long_waves(all, wish.kurtosis < flat ? nearly_all : most_of_it);
+    // The heights are given their moments by the long waves. The short ones are still Gaussian and uncorrelated with them, so the moments
+    // of the sum are those of the long waves times powers of their share. Close to the bound of the kurtosis and for long tails they must be nearly all.
+    constexpr double least_room = 0.9, longest_tail = 8, most_of_it = 0.9, nearly_all = 0.97;
+    HeightShape ask;
+    Band band;
+    double share = 0;
+    std::tie(band, share) = long_waves(all, most_of_it);
+    const auto of_long_waves = [&](HeightShape change) {
+        return HeightShape{change.skewness / (share * std::sqrt(share)), change.kurtosis / (share * share)};
+    };
+    const auto asked = [&] {
+        ask = of_long_waves({wish.skewness, wish.kurtosis - 3});
+        ask.kurtosis += 3;
+        return ask.kurtosis < longest_tail && ask.kurtosis - 1 - ask.skewness * ask.skewness > least_room;
+    };
+    if (!asked()) std::tie(band, share) = long_waves(all, nearly_all), asked();
     const Modes longest{whole, band, columns, stride, n};
-    const bool in_turn = 2 * points(band) <= m;
-    if (in_turn)
-        Field(longest, points(band))
-            .run(usable({wish.skewness / (share * std::sqrt(share)), 3 + (wish.kurtosis - 3) / (share * share)}), nullptr, true,
-                 coarse_rounds);
-    const HeightShape got = Field(all, m).run(wish, spectrum.heights.get(), !in_turn, in_turn ? fine_rounds : many_rounds);
+    constexpr int coarse_rounds = 4, corrections = 3, fine_rounds = 20;
+    Field coarse(longest, points(band)), fine(all, points(all.band));
+    HeightShape got;
+    bool near = false;
+    for (int i = 0; i < corrections && !near; ++i) {
+        coarse.run(usable(ask), nullptr, i == 0, coarse_rounds);
+        got = fine.run(wish, nullptr, false, 0);
+        near = distance(got, wish) <= 1;
+        const HeightShape more = of_long_waves({wish.skewness - got.skewness, wish.kurtosis - got.kurtosis});
+        ask.skewness += more.skewness, ask.kurtosis += more.kurtosis;
+    }
+    if (!near || spectrum.heights) got = fine.run(wish, spectrum.heights.get(), false, fine_rounds);
     for (int ky = 1; ky <= whole.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0
     return got;
 }

@@ -81,9 +81,13 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
         double* const rows = block[worker].get();
         const int first = b * wide, count = std::min(wide, n_ - first);
         other.rows(first, count, rows, stride, scratch[worker]);
-        for (int i = 0; i < n_; ++i) {
-            double* const to = whole_.row(i) + first;
-            for (int r = 0; r < count; ++r) to[r] = rows[r * stride + i];
+        for (int i = 0; i < n_; i += 2) {  // pairs of pairs: n is even
+            double *const to = whole_.row(i) + first, *const next = to + whole_.stride;
+            for (int r = 0; r < count; r += 2) {
+                const double *const from = rows + r * stride + i, *const below = from + stride;
+                const double a = from[0], b = below[0], c = from[1], d = below[1];
+                to[r] = a, to[r + 1] = b, next[r] = c, next[r + 1] = d;
+            }
         }
     });
 }

@@ -6,6 +6,7 @@
 #include "error.hpp"
 #include "file/netcdf_writer.hpp"
 #include "file/whole_file.hpp"
+#include "format.hpp"
 #include "observe/regimes.hpp"
 #include "read/inputs.hpp"
 #include "rough/parallel.hpp"
@@ -99,6 +100,25 @@ std::string twins_text(const Job& job, const std::string& result) {
     return kMark + effective_namelist(twins);
 }
 
+// States how far the rms slope of the twins is from the map's. The spectrum does not hold waves longer than the map, nor those shorter than
+// its wider grid step, and is scaled to the rms height of the map.
+static std::string other_slopes(const Measured& m) {
+    const MeasuredSpectrum& s = m.spectrum;
+    const double L = std::max(m.nx * m.dx, m.ny * m.dy), sigma = m.parameters.sq;
+    const bool directional = m.isotropy < kIsotropic;
+    const Spectrum twin =
+        directional
+            ? tabulated_spectrum(std::make_shared<PlaneSpectrum>(s.plane_wavenumber, MeasuredSpectrum::kAngles, s.plane_psd), L, sigma)
+            : tabulated_spectrum(std::make_shared<SpectrumTable>(s.wavenumber, s.psd), L, sigma);
+    const double slope = theoretical_moments(twin).rms_slope(), held = (directional ? twin.plane->sigma() : twin.table->sigma()) / sigma;
+    constexpr double told = 0.05;
+    if (std::abs(slope / m.parameters.sdq - 1) < told) return {};
+    return format(
+        "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a force differs about as much the "
+        "other way: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",
+        slope, m.parameters.sdq, 100 * held * held);
+}
+
 // Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also reports a file
 // of that name that was not written by rsc and is not replaced; empty for other surfaces, and for maps too small for a spectrum.
 static std::string write_twins(const Job& job, const std::string& result) {
@@ -107,7 +127,7 @@ static std::string write_twins(const Job& job, const std::string& result) {
     if (const std::string why = reason_to_leave(path, kTwins); !why.empty()) return "twins: " + path + ": " + why;
     write_whole(path, kTwins, twins_text(job, result));
     const char* const kept = job.measured->gaussian() ? "" : " and these heights; not kept: which waves carry the skewness, some 10 % of N";
-    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")";
+    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")" + other_slopes(*job.measured);
 }
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {

@@ -36,7 +36,7 @@ void made() {
         double lambda_l, lambda_s;
         int n;
     };
-    for (const Grid& grid : {Grid{24, 256, 1024}, {24, 512, 2048}, {4, 128, 1024}, {4, 64, 1024}, {4, 160, 1024}}) {
+    for (const Grid& grid : {Grid{24, 256, 1024}, {24, 512, 2048}, {4, 128, 1024}, {4, 64, 1024}, {8, 64, 256}}) {
         const Spectrum plain = spectrum_of(grid.lambda_l, grid.lambda_s);
         const auto surface = [&](const Spectrum& s) { synthesize(s, grid.n, Normalise::sample, 1, 1); };
         const auto summits = [&](const Spectrum& s) { make_asperities(s, grid.n, Normalise::sample, 1, 1, Curvature::geometric); };
@@ -46,7 +46,7 @@ void made() {
         for (const double aspect : {2.0, 4.0, 8.0}) {
             if (2 * std::sqrt(aspect) * grid.lambda_s >= grid.n) continue;
             std::printf("  aspect %g:", aspect);
-            for (const double direction : {0.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0}) {
+            for (const double direction : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 150.0, 165.0}) {
                 Spectrum s = plain;
                 s.aspect = aspect, s.direction = direction;
                 std::printf("  %g: %.2f %.2f", direction,
@@ -58,7 +58,7 @@ void made() {
             std::printf("  (wanted: 1.2)\n");
         }
         std::printf("  skewness, kurtosis:");
-        for (const HeightShape& shape : {HeightShape{-0.5, 3.5}, {-1, 4.5}, {0, 2.2}, {0, 5}, {0.6, 3.2}, {-2, 9}}) {
+        for (const HeightShape& shape : {HeightShape{0.5, 3.5}, {-0.5, 3.5}, {-1, 5}, {1, 4.5}, {0, 4}, {0, 2.5}, {-2, 9}}) {
             Spectrum s = plain;
             s.shape = shape;
             Moments got;
