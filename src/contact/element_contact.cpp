@@ -285,32 +285,71 @@ Level ElementContact::solve(double Z0) {
 }
 
 // Solves with the sum of the pressures given and Z0 as an additional unknown (Polonsky and Keer). Pixels are selected at a Z0 below the
-// expected one, which follows from a power law of N with the exponent of the last two levels.
+// expected one, which follows from a power law of N with the exponent of the last two levels. Without earlier levels rough solutions at
+// separations come first.
 std::optional<Level> ElementContact::solve_under(double N) {
     Impl& my = *impl_;
-    if (path_dependent() || my.bulge > 0 || my.past.empty()) return std::nullopt;
+    if (path_dependent() || my.bulge > 0) return std::nullopt;
     const double pixel = my.heights.dx * my.heights.dy;
     const auto force = [pixel](const Impl::Past& level) { return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0); };
+    const auto far = [&] {
+        if (my.past.empty()) return true;
+        const double last = force(my.past[0]);
+        return !(my.top > my.past[0].separation) || !(last > N / kMostTimes) || !(last < N * kMostTimes);
+    };
+    const auto levels = my.past;  // trials are no levels
+    const std::size_t since_move = my.since_move;
+    const bool cold = far();
+    if (cold) my.past.clear();
+    ElementsOutcome outcome;
+    const auto solved = [&](double tolerance, int iterations, std::optional<double> sum) {
+        const ElementsOutcome now = my.solver.solve(my.pixels, my.g0, tolerance, iterations, my.p, sum);
+        outcome = {now.converged, outcome.iterations + now.iterations, outcome.products + now.products, now.residual};
+    };
+    const auto give_up = [&] {
+        my.past = levels, my.since_move = since_move;
+        return std::nullopt;
+    };
+    if (cold) {  // a rough solution near N
+        constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3;
+        constexpr int rounds = 5, searches = 20;
+        double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(my.top), std::numeric_limits<double>::min());
+        while (force_at_most(depth) < N) depth *= 2;
+        for (int i = 0;; ++i) {
+            my.select(my.top - depth);
+            my.predict(my.top - depth);
+            solved(rough, rounds, std::nullopt);
+            my.remember(my.top - depth);
+            const double ratio = N / force(my.past[0]);
+            if (ratio < most_below && ratio > 1 / most_above) break;
+            if (i == searches) return give_up();
+            depth *= std::clamp(std::pow(ratio, 1 / 1.5), 1 / widest, widest);
+        }
+        my.past.resize(1);
+    }
+    if (far()) return give_up();
     const double N0 = force(my.past[0]), depth = my.top - my.past[0].separation;
-    if (!(depth > 0) || !(N0 > N / kMostTimes) || !(N0 < N * kMostTimes)) return std::nullopt;
-    double power = 1.5;  // of a sphere; larger for rough surfaces
+    double power = 1.5;  // of a sphere; larger for rough surfaces, 1 in full contact
     if (my.past.size() > 1) {
         const double grown = std::log(force(my.past[1]) / N0) / std::log((my.top - my.past[1].separation) / depth);
-        if (grown > power) power = grown;
+        if (grown >= 1) power = grown;
     }
     double expected = my.top - depth * std::pow(N / N0, 1 / power),
            lowest = expected - kMargin * std::abs(expected - my.past[0].separation);
+    if (cold) lowest = expected - kMargin * (my.top - expected);
     constexpr int trials = 4;
     for (int i = 0; i < trials; ++i) {
         my.select(lowest);
         my.predict(expected);
-        if (std::none_of(my.p.begin(), my.p.end(), [](double p) { return p > 0; })) return std::nullopt;
-        const ElementsOutcome outcome = my.solver.solve(my.pixels, my.g0, my.options.tolerance, my.options.max_iterations, my.p, N / pixel);
-        if (!outcome.converged) return std::nullopt;
+        if (std::none_of(my.p.begin(), my.p.end(), [](double p) { return p > 0; })) return give_up();
+        solved(my.options.tolerance, my.options.max_iterations, N / pixel);
+        if (!outcome.converged) return give_up();
         const double rise = my.solver.rise();
-        if (rise < 0) {
+        if (rise < 0) {  // points are missing; the next trial starts from this one
             expected = lowest + rise;
             lowest = expected - kMargin * std::abs(rise);
+            my.remember(expected);
+            my.past.resize(1);
             continue;
         }
         std::size_t kept = 0;  // drops candidates below Z0
@@ -319,10 +358,11 @@ std::optional<Level> ElementContact::solve_under(double N) {
             my.pixels[kept] = my.pixels[k], my.g0[kept] = my.g0[k] - rise, my.p[kept++] = my.p[k];
         }
         my.pixels.resize(kept), my.g0.resize(kept), my.p.resize(kept);
+        my.past = levels, my.since_move = since_move;
         my.remember(lowest + rise);
         return my.report(lowest + rise, outcome);
     }
-    return std::nullopt;
+    return give_up();
 }
 
 // Stores the last solution as a starting point for later levels.

@@ -256,6 +256,7 @@ const Part kParts[] = {
     {"close", bench_close},
     {"made", bench::made},
     {"layers", bench::layers},
+    {"coated_levels", bench::coated_levels, true},
     {"elements", bench::elements},
     {"elements_growth", bench::elements_growth},
     {"elements_finest", bench::elements_finest, true},

@@ -58,6 +58,8 @@ void element_flats();
 // bench_made.cpp
 void made();
 void layers();
+// bench_coated.cpp
+void coated_levels();
 // bench_observe.cpp
 void observe();
 void flats();

@@ -1,8 +1,6 @@
-// What a direction and heights that are not Gaussian cost where surfaces are made, and what layers cost where they are pressed: processor
-// times over those of the isotropic Gaussian surface and of the body without layers, in turns in one run.
+// What a direction and heights that are not Gaussian cost where surfaces are made: processor times over those of the isotropic Gaussian
+// surface, in turns in one run; and the tables of layers.
 #include "bench.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
 #include "contact/interaction/layers.hpp"
 #include "rough/detection.hpp"
 #include "rough/synthesis.hpp"
@@ -72,7 +70,7 @@ void made() {
 }
 
 void layers() {
-    std::printf("\nlayers: tables, and levels from 3 to 1 sigma over those of the same surface without layers\n");
+    std::printf("\nlayers: tables\n");
     const auto coated = [](double h, double E) {
         Indenter tip = kGold;
         tip.layers.count = 1;
@@ -87,43 +85,6 @@ void layers() {
         tip.layers.count = count;
         std::printf("  %d layers, E of the base %g: table in %.1f ms (wanted: 50)\n", count, E,
                     1e3 * shortest(3, [&] { make_layers(tip.layers, tip.E_star); }));
-    }
-    Spectrum s = spectrum_of(24, 512);
-    const Asperities a = make_asperities(s, 2048, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
-    s = spectrum_of(24, 128);
-    const HeightMap map = synthesize(s, 1024, Normalise::sample, 1, 1);
-    Indenter flat = kGold;
-    flat.shape = HUGE_VAL, flat.period = {1, 1};
-    for (const double h : {0.003, 0.01, 0.1, 1.0}) {
-        const Indenter tip = coated(h, 130.0e3);
-        Indenter coated_flat = flat;
-        coated_flat.layers = tip.layers;
-        const auto table = layers_of(tip.layers, tip.E_star);  // shared by all
-        SolverOptions options;
-        options.sigma = 0.01;
-        std::printf("  h/L = %g:", h);
-        for (const Method method : {Method::automatic, Method::direct, Method::mesh}) {
-            options.method = method;
-            for (const int levels : {3, 41}) {
-                const auto run = [&](const Indenter& of) {
-                    AsperityContact contact(a, of, options);
-                    for (int k = 0; k < levels; ++k) contact.at_separation(0.01 * (3 - 2.0 * k / (levels - 1)));
-                };
-                std::printf("  %s, %d levels %.2f", kMethodNames[static_cast<std::size_t>(method)], levels,
-                            beside(
-                                3, [&] { run(kGold); }, [&] { run(tip); }));
-            }
-        }
-        const auto by_elements = [&](const Indenter& of, double Z0) {
-            SolverOptions elements;
-            elements.max_iterations = 200;
-            make_element_contact(map, of, elements)->at_separation(Z0);
-        };
-        std::printf("  elements %.2f, between flats %.2f (wanted: 1.3)\n",
-                    beside(
-                        3, [&] { by_elements(kGold, 0.01); }, [&] { by_elements(tip, 0.01); }),
-                    beside(
-                        3, [&] { by_elements(flat, 0.01); }, [&] { by_elements(coated_flat, 0.01); }));
     }
 }
 

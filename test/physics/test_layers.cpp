@@ -313,7 +313,7 @@ void methods() {
         AsperityContact contact(asperities, tip, options);
         const Level level = contact.at_separation(0.012);
         CHECK(level.method == method);
-        same(contact, level, direct, truth, 1e-7);
+        same(contact, level, direct, truth, 1e-8);
     }
     options.method = Method::direct;
     const Level deep =
@@ -354,7 +354,7 @@ void repeating() {
     CHECK(truth.contacts > 50);
     for (const Method method : {Method::mesh, Method::dgesv}) {
         const auto contact = between_flats(body, method);
-        same(*contact, contact->at_separation(0.012), *direct, truth, 1e-7);
+        same(*contact, contact->at_separation(0.012), *direct, truth, 1e-8);
     }
     const auto alike = between_flats(body_of({{0.2, 3, 0.3}}, 3, 0.3), Method::direct),
                none = between_flats(body_of({}, 3, 0.3), Method::direct);

@@ -22,6 +22,7 @@ constexpr double kMiddle = 1 + 0.5 / kOctavePieces;
 constexpr std::size_t kBlock = SquareTable::kBlock;  // sources processed together
 
 struct Task {
+    std::size_t n;
     double inverse_square;
     const double *squares, *coefficient;
     double* value;
@@ -30,17 +31,17 @@ struct Task {
 RSC_ALWAYS_INLINE void table_body(const Task& task) {
     std::uint64_t piece[kBlock];
     double t[kBlock], sum[kBlock];
-    for (std::size_t j = 0; j < kBlock; ++j) {
+    for (std::size_t j = 0; j < task.n; ++j) {
         const auto bits = std::bit_cast<std::uint64_t>(1 + task.squares[j] * task.inverse_square);
         const std::uint64_t number = (bits >> kShift) - kFirst;
         piece[j] = number < kPieces ? number : kPieces - 1;
         t[j] = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
     }
-    for (std::size_t j = 0; j < kBlock; ++j) sum[j] = task.coefficient[kDegree * kPieces + piece[j]];
+    for (std::size_t j = 0; j < task.n; ++j) sum[j] = task.coefficient[kDegree * kPieces + piece[j]];
     for (int k = kDegree - 1; k >= 0; --k)
-        for (std::size_t j = 0; j < kBlock; ++j)
+        for (std::size_t j = 0; j < task.n; ++j)
             sum[j] = sum[j] * t[j] + task.coefficient[static_cast<std::size_t>(k) * kPieces + piece[j]];
-    for (std::size_t j = 0; j < kBlock; ++j) task.value[j] = sum[j];
+    for (std::size_t j = 0; j < task.n; ++j) task.value[j] = sum[j];
 }
 
 RSC_DISPATCH(table_values, table_body, (const Task& task), (task))
@@ -81,8 +82,8 @@ double SquareTable::at_square(double t2) const {
     return sum;
 }
 
-void SquareTable::values(const double* squares, double* value) const {
-    table_values({inverse_square_, squares, coefficient_.data(), value});
+void SquareTable::values(std::size_t n, const double* squares, double* value) const {
+    table_values({n, inverse_square_, squares, coefficient_.data(), value});
 }
 
 double SquareTable::moment(double t) const {
@@ -109,7 +110,7 @@ void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt,
         }
         for (std::size_t i = 0; i < (same ? j + count : n_targets); ++i) {
             for (std::size_t k = 0; k < kBlock; ++k) square[k] = (xt[i] - x[k]) * (xt[i] - x[k]) + (yt[i] - y[k]) * (yt[i] - y[k]);
-            values(square, value);
+            values(kBlock, square, value);
             double sum = 0;
             for (std::size_t k = 0; k < kBlock; ++k) sum += force[k] * value[k];
             to[i] += sum;

@@ -18,9 +18,9 @@ public:
 
     double unit() const { return unit_; }
     double at_square(double t2) const;
-    // Evaluates kBlock squares at once.
+    // Evaluates n <= kBlock squares at once.
     static constexpr std::size_t kBlock = 64;
-    void values(const double* squares, double* value) const;
+    void values(std::size_t n, const double* squares, double* value) const;
     // Integral of v t dt from 0 to t.
     double moment(double t) const;
     // to[i] += sum over j of f[j] v((xt[i] - xs[j])^2 + (yt[i] - ys[j])^2). The arrays must not overlap.

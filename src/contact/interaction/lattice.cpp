@@ -256,7 +256,7 @@ void Lattice::potential(std::size_t n_targets, const double* xt, const double* y
             square[k] = dx * dx + dy * dy, square[kBlock + k] = ex * ex + dy * dy;
             square[2 * kBlock + k] = dx * dx + ey * ey, square[3 * kBlock + k] = ex * ex + ey * ey;
         }
-        for (std::size_t image = 0; image < 4; ++image) smooth_->table().values(square + image * kBlock, s + image * kBlock);
+        for (std::size_t image = 0; image < 4; ++image) smooth_->table().values(kBlock, square + image * kBlock, s + image * kBlock);
         for (std::size_t k = 0; k < kBlock; ++k) to[k] += (s[k] + s[kBlock + k] + s[2 * kBlock + k] + s[3 * kBlock + k]) / near_;
     };
     static_assert(kBlock == SquareTable::kBlock);

@@ -1,6 +1,7 @@
 #include "contact/interaction/products.hpp"
 
 #include "contact/interaction/mesh.hpp"
+#include "contact/interaction/pair_matrix.hpp"
 #include "contact/interaction/pair_sums.hpp"
 
 namespace rsc {
@@ -8,7 +9,9 @@ namespace {
 
 class Direct final : public Products {
 public:
-    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), sums_(*kernel_) {}
+    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), sums_(*kernel_) {
+        if (!kernel_->none() && kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
+    }
 
     void set_points(int n, const double* x, const double* y) override {
         x_.assign(x, x + n);
@@ -18,12 +21,24 @@ public:
 
     void set_active(const std::vector<int>& active) override {
         if (!fresh_ && active == active_) return;
-        fresh_ = false;
+        const bool moved = std::exchange(fresh_, false);
         active_ = active;
-        gather(active_, xa_, ya_);
-        sums_.assign(active_.size(), xa_.data(), ya_.data());
         complement(static_cast<int>(x_.size()));
-        gather(passive_, xp_, yp_);
+        stored_ = matrix_ && !matrix_->too_large(active_.size(), passive_.size());
+        if (stored_) {
+            const bool again = matrix_->stale(active_.size());
+            if (again) matrix_->forget();
+            if (moved || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
+            select(active_, active_numbers_);
+            select(passive_, passive_numbers_);
+            matrix_->set_active(active_numbers_);
+        } else {
+            all_.clear();
+            gather(active_, xa_, ya_);
+            sums_.assign(active_.size(), xa_.data(), ya_.data());
+            gather(passive_, xp_, yp_);
+        }
+        active_phi_.resize(active_.size());
         passive_phi_.resize(passive_.size());
     }
 
@@ -31,23 +46,37 @@ public:
 
     void inner(const double* f, double* phi) override {
         ++count_;
-        if (precise_ || !sums_.has_single())
-            sums_.apply(f, phi);
-        else
+        const bool single = !precise_ && sums_.has_single();
+        if (stored_)
+            matrix_->among(single, f, phi);
+        else if (single)
             sums_.apply_single(f, phi);
+        else
+            sums_.apply(f, phi);
     }
 
-    void inner_passive(const double* f, double* phi) override { sums_.onto(!precise_, passive_.size(), xp_.data(), yp_.data(), f, phi); }
+    void inner_passive(const double* f, double* phi) override { onto_passive(!precise_ && sums_.has_single(), f, phi); }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
-        sums_.onto(true, static_cast<std::size_t>(n), x, y, f, phi);
+        const auto count = static_cast<std::size_t>(n);
+        if (stored_ && !matrix_->too_large(active_.size(), count)) {
+            number(count, x, y, other_numbers_);
+            return matrix_->onto(sums_.has_single(), f, other_numbers_, phi);
+        }
+        if (stored_) {
+            gather(active_, xa_, ya_);
+            sums_.assign(active_.size(), xa_.data(), ya_.data());
+        }
+        sums_.onto(true, count, x, y, f, phi);
     }
 
     void full(const double* f, double* phi) override {
         ++count_;
-        active_phi_.resize(active_.size());
-        sums_.apply(f, active_phi_.data());
-        sums_.onto(false, passive_.size(), xp_.data(), yp_.data(), f, passive_phi_.data());
+        if (stored_)
+            matrix_->among(false, f, active_phi_.data());
+        else
+            sums_.apply(f, active_phi_.data());
+        onto_passive(false, f, passive_phi_.data());
         for (std::size_t k = 0; k < active_.size(); ++k) phi[active_[k]] = active_phi_[k];
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[passive_[k]] = passive_phi_[k];
     }
@@ -56,6 +85,13 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
+    void onto_passive(bool single, const double* f, double* phi) {
+        if (stored_)
+            matrix_->onto(single, f, passive_numbers_, phi);
+        else
+            sums_.onto(single, passive_.size(), xp_.data(), yp_.data(), f, phi);
+    }
+
     void gather(const std::vector<int>& which, std::vector<double>& x, std::vector<double>& y) const {
         x.resize(which.size());
         y.resize(which.size());
@@ -65,10 +101,22 @@ private:
         }
     }
 
+    void number(std::size_t n, const double* x, const double* y, std::vector<std::uint32_t>& to) {
+        to.resize(n);
+        for (std::size_t k = 0; k < n; ++k) to[k] = matrix_->find(x[k], y[k]);
+    }
+    void select(const std::vector<int>& which, std::vector<std::uint32_t>& to) const {
+        to.resize(which.size());
+        for (std::size_t k = 0; k < which.size(); ++k) to[k] = all_[static_cast<std::size_t>(which[k])];
+    }
+
     bool precise_ = false;
-    bool fresh_ = true;  // true until set_active() is called for the current points
+    bool fresh_ = true;    // true until set_active() is called for the current points
+    bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
+    std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
     PairSums sums_;
+    std::optional<PairMatrix> matrix_;
 };
 
 }  // namespace
@@ -92,15 +140,28 @@ void Products::complement(int n) {
     }
 }
 
-// Periodic kernels have no single-precision sums and cost more per pair; a smooth part is evaluated from a table.
-double direct_rate(const Kernel& kernel) {
+// Periodic kernels have no single-precision sums and cost more per pair; a smooth part is evaluated from a table. Values of these kernels
+// are stored for as many contacts as memory allows.
+double direct_rate(const Kernel& kernel, std::size_t candidates) {
     if (kernel.lattice()) return 3e7;
-    return kernel.smooth() ? 4e8 : 6e9;
+    constexpr std::size_t stored = 4500;
+    return !kernel.smooth() || candidates < stored ? 6e9 : 4e8;
 }
 
 std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel) { return std::make_unique<Direct>(std::move(kernel)); }
 
 namespace {
+
+// True if sums over pairs are cheaper than a mesh that resolves the smooth part of the kernel, as for a thin layer.
+bool too_fine_a_mesh(const Kernel& kernel, std::size_t n, const double* x, const double* y, double error) {
+    if (!kernel.smooth() || kernel.lattice() || n == 0) return false;
+    const auto [west, east] = std::minmax_element(x, x + n);
+    const auto [south, north] = std::minmax_element(y, y + n);
+    const double width = *east - *west, height = *north - *south, side = std::max(width, height);
+    if (!(std::min(width, height) > 0)) return false;
+    const double pairs = static_cast<double>(n) * static_cast<double>(n);
+    return pairs / direct_rate(kernel, n) < MeshPotential::estimated_cost(n, error, width / height, kernel.smooth()->scale() / side);
+}
 
 // Products over the whole working set, with zero forces at passive points.
 class Mesh final : public Products {
@@ -117,17 +178,24 @@ public:
         inner_.reset();  // created on first use
         exact_.reset();
         among_.reset();
+        by_pairs_ = too_fine_a_mesh(*kernel_, size, x, y, inner_error_);
+        if (by_pairs_) return by_pairs().set_points(n, x, y);
         if (direct()) pairs_.assign(size, x, y);
     }
 
     void set_active(const std::vector<int>& active) override {
         active_ = active;
         complement(static_cast<int>(x_.size()));
+        if (by_pairs_) by_pairs().set_active(active);
     }
 
-    void set_precise(bool precise) override { precise_ = precise; }
+    void set_precise(bool precise) override {
+        precise_ = precise;
+        if (pair_products_) pair_products_->set_precise(precise);
+    }
 
     void inner(const double* f, double* phi) override {
+        if (by_pairs_) return ++count_, by_pairs().inner(f, phi);
         constexpr double few = 0.8;  // share of active points below which a separate mesh is faster
         if (!precise_ && static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
             ++count_;
@@ -139,11 +207,13 @@ public:
     }
 
     void inner_passive(const double* f, double* phi) override {
+        if (by_pairs_) return by_pairs().inner_passive(f, phi);
         everywhere(f, precise_);
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[k] = phi_[static_cast<std::size_t>(passive_[k])];
     }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
+        if (by_pairs_) return by_pairs().elsewhere(f, n, x, y, phi);
         const std::size_t sources = active_.size(), targets = static_cast<std::size_t>(n);
         std::vector<double> xa, ya;
         for (int k : active_) {
@@ -152,7 +222,7 @@ public:
         }
         constexpr double making = 3;  // cost of setting up a mesh and of one product, in products
         const double pairs = static_cast<double>(sources) * static_cast<double>(targets);
-        if (pairs / direct_rate(*kernel_) < making * MeshPotential::estimated_cost(sources + targets, kElsewhere)) {
+        if (pairs / direct_rate(*kernel_, sources) < making * MeshPotential::estimated_cost(sources + targets, kElsewhere)) {
             PairSums sums(*kernel_);
             sums.assign(sources, xa.data(), ya.data());
             sums.onto(true, targets, x, y, f, phi);
@@ -167,6 +237,7 @@ public:
     }
 
     void full(const double* f, double* phi) override {
+        if (by_pairs_) return ++count_, by_pairs().full(f, phi);
         everywhere(f, true);
         std::copy(phi_.begin(), phi_.end(), phi);
     }
@@ -180,6 +251,14 @@ private:
     bool direct() const { return full_error_ < kFinest; }
     // Error of products at other points.
     static constexpr double kElsewhere = 1e-5;
+
+    Products& by_pairs() {
+        if (!pair_products_) {
+            pair_products_ = make_direct_products(kernel_);
+            pair_products_->set_precise(precise_);
+        }
+        return *pair_products_;
+    }
 
     const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
         if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
@@ -213,7 +292,8 @@ private:
     }
 
     double full_error_, inner_error_;
-    bool precise_ = false;
+    bool precise_ = false, by_pairs_ = false;
+    std::unique_ptr<Products> pair_products_;
     std::vector<double> x_, y_, f_, phi_;
     FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;

@@ -48,8 +48,8 @@ protected:
     long count_ = 0;
 };
 
-// Pairs per second on one core in direct inner sums, for the choice of the method.
-double direct_rate(const Kernel& kernel);
+// Pairs per second on one core in direct inner sums among so many candidates, for the choice of the method.
+double direct_rate(const Kernel& kernel, std::size_t candidates);
 
 // Direct sums over pairs.
 std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel);

@@ -1,0 +1,234 @@
+#include "contact/interaction/pair_matrix.hpp"
+
+#include "rough/dispatch.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kMostValues = 8'000'000;  // of 12 bytes
+constexpr std::size_t kRows = 128;              // rows added in single precision before they are added in double precision
+
+// Elements begin ... end - 1 of kMany rows of the matrix: sum[k] += row[k] . force, and back += sum of f[k] row[k]. Products and sums are not
+// contracted, so that all instruction sets give the same bits.
+constexpr std::size_t kMany = 4;
+template <class Real>
+struct Rows {
+    std::size_t begin, end;
+    const Real* row[kMany];
+    Real f[kMany];
+    const Real* force;
+    Real* back;
+    Real* sum;
+};
+
+template <class Real, std::size_t rows, bool with_back>
+RSC_ALWAYS_INLINE void rows_body(const Rows<Real>& r) {
+    constexpr std::size_t W = 32 / sizeof(Real);
+    using V [[gnu::vector_size(32)]] = Real;
+    V sum[rows] = {};
+    std::size_t j = r.begin;
+    for (; j + W <= r.end; j += W) {
+        V force, back, g[rows];
+        __builtin_memcpy(&force, r.force + j, sizeof force);
+        if constexpr (with_back) __builtin_memcpy(&back, r.back + j, sizeof back);
+        for (std::size_t k = 0; k < rows; ++k) __builtin_memcpy(&g[k], r.row[k] + j, sizeof g[k]);
+        for (std::size_t k = 0; k < rows; ++k) sum[k] += g[k] * force;
+        if constexpr (with_back) {
+            for (std::size_t k = 0; k < rows; ++k) back += r.f[k] * g[k];
+            __builtin_memcpy(r.back + j, &back, sizeof back);
+        }
+    }
+    for (std::size_t k = 0; k < rows; ++k) {
+        Real total = r.sum[k];
+        for (std::size_t lane = 0; lane < W; ++lane) total += sum[k][lane];
+        for (std::size_t i = j; i < r.end; ++i) {
+            total += r.row[k][i] * r.force[i];
+            if constexpr (with_back) r.back[i] += r.f[k] * r.row[k][i];
+        }
+        r.sum[k] = total;
+    }
+}
+
+RSC_DISPATCH(both_many, (rows_body<double, kMany, true>), (const Rows<double>& rows), (rows))
+RSC_DISPATCH(both_many, (rows_body<float, kMany, true>), (const Rows<float>& rows), (rows))
+RSC_DISPATCH(both_one, (rows_body<double, 1, true>), (const Rows<double>& rows), (rows))
+RSC_DISPATCH(both_one, (rows_body<float, 1, true>), (const Rows<float>& rows), (rows))
+RSC_DISPATCH(sum_one, (rows_body<double, 1, false>), (const Rows<double>& rows), (rows))
+RSC_DISPATCH(sum_one, (rows_body<float, 1, false>), (const Rows<float>& rows), (rows))
+
+// value += near/d + shift
+struct Singular {
+    std::size_t n;
+    const double* squares;
+    double near, shift;
+    double* value;
+};
+RSC_ALWAYS_INLINE void singular_body(const Singular& s) {
+    for (std::size_t k = 0; k < s.n; ++k) s.value[k] += s.shift + s.near / std::sqrt(s.squares[k]);
+}
+RSC_DISPATCH(add_singular, singular_body, (const Singular& s), (s))
+
+std::size_t hash(double x, double y) {
+    const std::uint64_t a = std::bit_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15, b = std::bit_cast<std::uint64_t>(y);
+    const std::uint64_t mixed = (a ^ (a >> 29) ^ b) * 0xbf58476d1ce4e5b9;
+    return static_cast<std::size_t>(mixed ^ (mixed >> 32));
+}
+
+}  // namespace
+
+void PairMatrix::forget() {
+    points_.clear(), table_.clear(), active_.clear(), x_.clear(), y_.clear();
+    unit_ = 0, values_ = 0, small_ = 0;
+}
+
+bool PairMatrix::too_large(std::size_t active, std::size_t others) const { return active * (active / 2 + others) > kMostValues; }
+
+bool PairMatrix::stale(std::size_t active) {
+    constexpr int often = 16;
+    small_ = x_.size() > 2 * active + 256 ? small_ + 1 : 0;
+    return small_ > often || values_ > 2 * kMostValues;
+}
+
+void PairMatrix::grow() {
+    table_.assign(std::max<std::size_t>(1024, 4 * points_.size()), kNone);
+    table_.resize(std::bit_ceil(table_.size()), kNone);
+    for (std::uint32_t k = 0; k < points_.size(); ++k) {
+        std::size_t place = hash(points_[k].x, points_[k].y) & (table_.size() - 1);
+        while (table_[place] != kNone) place = (place + 1) & (table_.size() - 1);
+        table_[place] = k;
+    }
+}
+
+std::uint32_t PairMatrix::find(double x, double y) {
+    if (table_.size() < 2 * points_.size() + 2) grow();
+    for (std::size_t place = hash(x, y);; ++place) {
+        std::uint32_t& number = table_[place & (table_.size() - 1)];
+        if (number == kNone) {
+            number = static_cast<std::uint32_t>(points_.size());
+            points_.push_back({x, y, kNone, {}, {}});
+            return number;
+        }
+        if (points_[number].x == x && points_[number].y == y) return number;
+    }
+}
+
+// Computes the missing values of a point that is not a source.
+void PairMatrix::extend(Point& point) {
+    constexpr std::size_t kBlock = SquareTable::kBlock;
+    double square[kBlock], value[kBlock];
+    std::size_t from = point.exact.size();
+    const std::size_t all = x_.size();
+    if (from == all) return;
+    values_ += all - from;
+    point.exact.resize(all), point.rough.resize(all);
+    for (; from < all; from += std::min(kBlock, all - from)) {
+        const std::size_t count = std::min(kBlock, all - from);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double dx = x_[from + k] - point.x, dy = y_[from + k] - point.y;
+            square[k] = dx * dx + dy * dy;
+        }
+        kernel_->smooth()->table().values(count, square, value);
+        add_singular({count, square, kernel_->near(), kernel_->shift(), value});
+        // Coinciding points do not interact by 1/d.
+        for (std::size_t k = 0; k < count; ++k)
+            if (!(square[k] > 0)) value[k] = kernel_->self();
+        if (!(unit_ > 0)) unit_ = kernel_->near() / std::sqrt(square[0] > 0 ? square[0] : 1);
+        for (std::size_t k = 0; k < count; ++k) {
+            point.exact[from + k] = value[k];
+            point.rough[from + k] = static_cast<float>(value[k] / unit_);
+        }
+    }
+}
+
+void PairMatrix::set_active(const std::vector<std::uint32_t>& active) {
+    active_ = active;
+    for (const std::uint32_t k : active_) {
+        Point& point = points_[k];
+        if (point.source != kNone) continue;
+        extend(point);
+        point.source = static_cast<std::uint32_t>(x_.size());
+        x_.push_back(point.x), y_.push_back(point.y);
+    }
+    order_.resize(active_.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(),
+              [this](std::uint32_t a, std::uint32_t b) { return points_[active_[a]].source < points_[active_[b]].source; });
+}
+
+// Sets the forces by source; returns their unit.
+template <class Real>
+double PairMatrix::begin(Sums<Real>& sums, const double* f) {
+    double unit = 1;
+    if constexpr (std::is_same_v<Real, float>) {
+        double largest = 0;
+        for (std::size_t k = 0; k < active_.size(); ++k) largest = std::max(largest, std::abs(f[k]));
+        if (largest > 0) unit = largest;
+    }
+    sums.force.assign(x_.size(), 0);
+    for (std::size_t k = 0; k < active_.size(); ++k) sums.force[points_[active_[k]].source] = static_cast<Real>(f[k] / unit);
+    return unit;
+}
+
+template <class Real>
+void PairMatrix::symmetric(Sums<Real>& sums, double* phi) {
+    const std::size_t all = x_.size(), n = order_.size();
+    sums.back.assign(all, 0);
+    total_.assign(all, 0);
+    for (std::size_t k = 0; k < n; k += kMany) {
+        const std::size_t count = std::min(kMany, n - k);
+        Real sum[kMany] = {};
+        Rows<Real> rows{0, 0, {}, {}, sums.force.data(), sums.back.data(), sum};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Point& point = points_[active_[order_[k + i]]];
+            rows.row[i] = point.template row<Real>();
+            rows.f[i] = sums.force[point.source];
+        }
+        // The rows have increasing lengths; what they have in common is read together.
+        if (count == kMany) {
+            rows.end = points_[active_[order_[k]]].source;
+            both_many(rows);
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            both_one(
+                Rows<Real>{rows.end, points_[active_[order_[k + i]]].source, {rows.row[i]}, {rows.f[i]}, rows.force, rows.back, sum + i});
+        for (std::size_t i = 0; phi && i < count; ++i) phi[order_[k + i]] = static_cast<double>(sum[i]);
+        if ((k + kMany) % kRows == 0 || k + kMany >= n)
+            for (std::size_t j = 0; j < all; ++j) total_[j] += static_cast<double>(std::exchange(sums.back[j], Real(0)));
+    }
+}
+
+void PairMatrix::among(bool single, const double* f, double* phi) {
+    const double unit = single ? begin(rough_, f) * unit_ : begin(exact_, f);
+    if (single)
+        symmetric(rough_, phi);
+    else
+        symmetric(exact_, phi);
+    for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = unit * (phi[k] + total_[points_[active_[k]].source]) + kernel_->self() * f[k];
+}
+
+void PairMatrix::onto(bool single, const double* f, const std::vector<std::uint32_t>& targets, double* phi) {
+    bool sources = false;
+    for (const std::uint32_t k : targets) {
+        sources = sources || points_[k].source != kNone;
+        if (points_[k].source == kNone) extend(points_[k]);
+    }
+    const double unit = single ? begin(rough_, f) * unit_ : begin(exact_, f);
+    if (sources && single) symmetric(rough_, nullptr);
+    if (sources && !single) symmetric(exact_, nullptr);
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+        const Point& point = points_[targets[k]];
+        const std::size_t n = point.exact.size();
+        double sum = 0;
+        if (single) {
+            float part = 0;
+            sum_one(Rows<float>{0, n, {point.row<float>()}, {}, rough_.force.data(), nullptr, &part});
+            sum = static_cast<double>(part);
+        } else {
+            sum_one(Rows<double>{0, n, {point.row<double>()}, {}, exact_.force.data(), nullptr, &sum});
+        }
+        if (point.source != kNone) sum += total_[point.source];
+        phi[k] = unit * sum;
+    }
+}
+
+}  // namespace rsc

@@ -1,0 +1,63 @@
+// Force control of elements: the first level, levels far apart, and a map all of whose points carry load. A level under a force equals the
+// level at its separation, costs about as many products, and does not depend on the number of threads.
+#include <cmath>
+
+#include "check.hpp"
+#include "contact/element_contact.hpp"
+#include "rough/parallel.hpp"
+#include "rough/synthesis.hpp"
+
+using namespace rsc;
+
+namespace {
+
+struct Run {
+    std::vector<Level> levels;
+    long products = 0;
+};
+
+template <class At>
+Run run(const HeightMap& map, const Indenter& tip, const std::vector<double>& values, At at) {
+    SolverOptions options;
+    options.tolerance = 1e-8;
+    options.max_iterations = 200;
+    const auto contact = make_element_contact(map, tip, options);
+    Run all;
+    for (const double value : values) {
+        all.levels.push_back(at(*contact, value));
+        all.products += all.levels.back().products;
+    }
+    return all;
+}
+
+void compare(double R, const std::vector<double>& forces) {
+    Spectrum s;
+    s.L = 1, s.sigma = 1e-3, s.L_lambda_l = 4, s.L_lambda_s = 16;
+    const HeightMap map = synthesize(s, 128, Normalise::sample, 1, 1);
+    const Indenter tip{1e5, R, 0.5, 0.5};
+    const auto under_force = [](Contact& contact, double N) { return contact.at_force(N); };
+    const Run by_force = run(map, tip, forces, under_force);
+    std::vector<double> separations;
+    for (const Level& level : by_force.levels) separations.push_back(level.separation);
+    const Run by_separation = run(map, tip, separations, [](Contact& contact, double Z0) { return contact.at_separation(Z0); });
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+        CHECK(by_force.levels[k].status != LevelStatus::not_converged);
+        CHECK_RELATIVE(by_force.levels[k].force, forces[k], 1e-6);
+        CHECK_RELATIVE(by_separation.levels[k].force, forces[k], 1e-6);
+        CHECK_RELATIVE(by_force.levels[k].area, by_separation.levels[k].area, 1e-3);
+    }
+    CHECK(static_cast<double>(by_force.products) <= 1.3 * static_cast<double>(by_separation.products));
+    for (const int threads : {2, 3}) {
+        const LoopThreads loops(threads);
+        const Run again = run(map, tip, forces, under_force);
+        for (std::size_t k = 0; k < forces.size(); ++k) CHECK(again.levels[k].separation == by_force.levels[k].separation);
+    }
+}
+
+}  // namespace
+
+TESTS {
+    const double flat = std::numeric_limits<double>::infinity();
+    compare(5.0, {0.1, 1.0, 30.0, 1000.0});
+    compare(flat, {500.0, 1000.0, 3000.0, 10000.0});  // the last ones in full contact
+}
