@@ -313,8 +313,9 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * position: whole periods do not count, and rsc_contact_tip returns the position within the surface's rectangle. From the first move on
  * contacts continue across the border of such a surface, half a period to each side of the tip (elements: at least a quarter). On other
  * surfaces a position above the surface; for asperities from arrays without surface%L, no farther from them than the sphere's radius.
- * Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic, in which case the tip is not moved;
- * RSC_NO_MEMORY. */
+ * With solids%adhesion attached asperities follow on the straight way at the last separation; the next level includes their jumps. While
+ * elements attract the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
+ * RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
 /* Stores the state for rsc_contact_rollback: the tip, the last level and the loading history (solids%hardness, solids%adhesion). A new

@@ -66,6 +66,7 @@ rsc_contact::State rsc_contact::state() const { return {contact.indenter().x0, c
 
 void rsc_contact::go_back(const State& state) {
     const bool path = contact.path_dependent();
+    if (contact.pulls()) contact.forget();  // attached contacts would follow the tip
     put_tip(*this, state.x0, state.y0);
     known = state.known;
     if (path)
@@ -76,7 +77,7 @@ void rsc_contact::go_back(const State& state) {
 
 void rsc_contact::recall(const std::vector<double>& memory) {
     const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
-    if (known.level) put_tip(*this, known.x0, known.y0);
+    if (known.level && !contact.pulls()) put_tip(*this, known.x0, known.y0);
     contact.recall(memory, known.level ? &*known.level : nullptr);
     put_tip(*this, x0, y0);
     recalled = true;

@@ -7,6 +7,7 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kBefore = 5;  // numbers in memory() before the pairs
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -53,7 +54,7 @@ Level AdhesiveContact::Impl::report() {
             static_cast<double>(now.asperity.size()) * 0.25 * std::numbers::pi * options.mean_spacing * options.mean_spacing &&
         options.adhesion.range > 0 && options.mean_spacing > 0)
         l.status = graver(l.status, LevelStatus::out_of_validity);
-    l.jumps = jumps;
+    l.jumps = jumps + accepted.jumps;
     l.energy_lost = now.lost;
     l.least_force = now.least_force;
     slope = active.empty() ? 0.0 : here.change.force;
@@ -96,7 +97,7 @@ std::optional<Level> AdhesiveContact::solve_under(double N) {
     return my.report();
 }
 
-void AdhesiveContact::accept(Level&) { impl_->accepted = impl_->now; }
+void AdhesiveContact::accept(Level&) { impl_->accepted = impl_->now, impl_->accepted.jumps = 0; }
 
 double AdhesiveContact::stiffness() { return impl_->slope; }
 double AdhesiveContact::energy() const { return impl_->energy; }
@@ -108,10 +109,17 @@ const Asperities* AdhesiveContact::asperities() const { return &impl_->asperitie
 void AdhesiveContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
-    if (!my.accepted.asperity.empty())
-        throw Error(Failure::bad_input, "solids%adhesion: moving the tip while asperities are attached is not available yet");
+    if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
+    if (!my.accepted.asperity.empty()) {
+        if (!my.move(x0, y0))
+            throw Error(Failure::not_converged,
+                        "the path of the attached asperities to the new position of the tip is lost; it stays where it was");
+        return;
+    }
+    const AdhesivePath::Past past = my.accepted;
     my.indenter.move(x0, y0);
     forget_levels();
+    impl_->accepted = past;
 }
 
 void AdhesiveContact::forget_levels() {
@@ -122,7 +130,8 @@ void AdhesiveContact::forget_levels() {
 std::vector<double> AdhesiveContact::memory() const {
     const AdhesivePath::Past& past = impl_->accepted;
     if (past.separation == kInfinity) return {};
-    std::vector<double> numbers = {past.separation, past.lost, past.least_force};
+    const Indenter& tip = impl_->indenter;
+    std::vector<double> numbers = {tip.x0, tip.y0, past.separation, past.lost, past.least_force};
     for (std::size_t k = 0; k < past.asperity.size(); ++k)
         numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
     return numbers;
@@ -133,16 +142,21 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
     my.accepted = {};
     if (!memory.empty()) {
         AdhesivePath::Past& past = my.accepted;
-        bool sound = memory.size() % 2 == 1 && memory.size() >= 3;
+        bool sound = memory.size() % 2 == 1 && memory.size() >= kBefore;
         for (double value : memory) sound = sound && std::isfinite(value);
-        if (sound) past.separation = memory[0], past.lost = memory[1], past.least_force = memory[2];
-        for (std::size_t k = 3; sound && k + 1 < memory.size(); k += 2) {
+        if (sound) past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4];
+        for (std::size_t k = kBefore; sound && k + 1 < memory.size(); k += 2) {
             sound = memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && memory[k + 1] > 0;
             if (!sound) break;
             past.asperity.push_back(static_cast<int>(memory[k])), past.s.push_back(memory[k + 1]);
         }
         if (!sound) throw Error(Failure::bad_input, "the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
+        // The state is that of its own position of the tip, which may have moved since the last level.
+        if (memory[0] != my.indenter.x0 || memory[1] != my.indenter.y0) {
+            my.indenter.move(memory[0], memory[1]);
+            my.ranking.assign(my.asperities, my.indenter);
+        }
     }
     if (last) (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);
 }

@@ -22,15 +22,16 @@ public:
     double stiffness() override;
     // Elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached.
     double energy() const override;
-    // Throws Error(bad_input) if any asperity is attached: only the separation follows the path of attachments and detachments. Pull the
-    // bodies apart first.
+    // If asperities are attached, their state follows while the tip moves on a straight line at the separation of the last accepted level;
+    // they attach and detach on the way as on a path of separations. The next level includes these jumps. Throws Error(not_converged) if the
+    // path is lost; the tip then stays where it was. If none is attached, the next level is approached from above.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
     const Asperities* asperities() const override;
     bool path_dependent() const override { return true; }
     bool pulls() const override { return true; }
-    // Separation, dissipated energy, smallest force, and pairs of an attached asperity and its state.
+    // Position of the tip, separation, dissipated energy, smallest force, and pairs of an attached asperity and its state.
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
 

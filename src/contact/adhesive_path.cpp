@@ -12,10 +12,11 @@ constexpr double kTouching = 1e-8, kFold = 1e-4, kShortest = 1e-9;
 // Distance from touching, relative to the difference of the penetrations at attachment and detachment, from which a free asperity attaches
 // within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
-constexpr double kOnTheWay = 1e-7;  // residual of states between levels
+constexpr double kOnTheWay = 1e-7;                      // residual of states between levels
+constexpr double kRates = 1e-6, kRatesOnTheWay = 1e-4;  // accuracy of derivatives
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
 // (far and near).
-constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9;
+constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6, kClose = 4;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -47,10 +48,9 @@ void AdhesivePath::cover(double lowest) {
     const Vector s = here.s;
     for (int i : set.asperity) place[at(i)] = -1;
     set = {}, clearance.clear();
-    covered = lowest - margin;
+    covered = motion ? -kInfinity : lowest - margin;
     std::vector<int> fresh;
-    const std::size_t last = ranking.above(covered, fresh);
-    sticking.prepare(fresh);
+    const std::size_t last = motion ? 0 : ranking.above(covered, fresh);
     const auto add = [&](int i, double height) {
         place[at(i)] = set.size();
         set.asperity.push_back(i);
@@ -58,10 +58,17 @@ void AdhesivePath::cover(double lowest) {
         set.x.push_back(image.x), set.y.push_back(image.y);
         clearance.push_back(height);
     };
+    for (int i = 0; motion && i < static_cast<int>(asperities.size()); ++i) {
+        // The largest clearance on the way is at most that of the ends plus twice the bend, as on a parabola.
+        const double begin = clearance_at(i, 0), middle = clearance_at(i, 0.5), end = clearance_at(i, 1);
+        if (std::max(begin, end) + 2 * std::abs(middle - 0.5 * (begin + end)) <= motion->Z0 - margin) continue;
+        fresh.push_back(i), add(i, middle);
+    }
+    sticking.prepare(fresh);
     for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
     for (int i : attached)
         if (place[at(i)] < 0) add(i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
-    set.g0.resize(clearance.size());
+    set.g0.resize(clearance.size()), rate.assign(clearance.size(), -1.0);
     choose_products();
     attach(attached, s);
 }
@@ -88,11 +95,13 @@ void AdhesivePath::attach(const std::vector<int>& attached, const Vector& s) {
 // Finds the equilibrium of the attached asperities at Z near s.
 bool AdhesivePath::find(double Z, Vector s, Point& point, double accuracy) {
     ++steps;
-    for (std::size_t k = 0; k < clearance.size(); ++k) set.g0[k] = clearance[k] - Z;
-    if (!solver.solve(set, std::max(goal, accuracy), s)) return false;
+    set_gaps(Z);
+    if (!solver.solve(set, std::max(goal, accuracy), accuracy == 0, s)) return false;
+    point.exact = accuracy == 0;
     point.Z = Z;
     point.s = std::move(s);
     point.states = solver.states();
+    set_power(point);
     point.force = solver.force(), point.energy = solver.energy(), point.residual = solver.residual();
     point.u.clear();
     for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)] - sticking.touches());
@@ -118,7 +127,7 @@ double AdhesivePath::near(int position) const {
 }
 
 // Computes the derivatives of the last state with respect to Z.
-void AdhesivePath::complete(Point& point) { point.change = solver.change(); }
+void AdhesivePath::complete(Point& point) { point.change = solver.change(rate, point.exact ? kRates : kRatesOnTheWay); }
 
 // Finds an equilibrium at Z from states that are not in equilibrium: one by one, touching asperities are attached and those that shrink to
 // nothing are detached, or, where that cannot be followed, the one nearest to its own detachment.
@@ -166,11 +175,20 @@ bool AdhesivePath::settle(double Z, Vector s) {
     return false;
 }
 
+// Before a jump the state, known to be stable, is found exactly: small differences of large energies are lost in jumps.
+void AdhesivePath::sharpen() {
+    if (here.exact) return;
+    set_gaps(here.Z);
+    solver.sharpen(set, goal, here.s);
+    set_power(here);
+    here.force = solver.force(), here.energy = solver.energy(), here.exact = true;
+}
+
 // From the energy before the jump, which takes place at Z + ahead and is computed at Z.
 void AdhesivePath::jump(double Z, double energy_before, Vector s, double ahead) {
     if (!settle(Z, std::move(s))) lost_way = true;
     ++jumps;
-    now.lost += energy_before - (here.energy - ahead * here.force);
+    now.lost += energy_before - (here.energy - ahead * here.power);
     now.least_force = std::min(now.least_force, here.force);
 }
 
@@ -271,7 +289,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
     long left_there = 0;  // number of asperities detached at this separation because no step was short enough
     for (long guard = 0; here.Z != target; ++guard) {
         if (lost_way || guard > 1000000) return lost_way = true;
-        if (active.empty() && direction > 0) return false;
+        if (active.empty() && direction > 0 && !motion) return false;
         // Attaches an asperity that touches.
         const auto& passive = products->passive();
         std::optional<int> touching;
@@ -281,28 +299,39 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             if (rate <= 0) continue;
             if (here.u[p] >= -kTouching * scale(passive[p]) || (here.u[p] >= -near(passive[p]) && -here.u[p] < rate * step))
                 touching = passive[p], ahead = -direction * here.u[p] / rate;
-            step = std::min(step, -here.u[p] / rate);
+            // With the rate of the state before, quadratic extrapolation.
+            const double bend = known ? (rate - direction * before.change.u[p]) / std::abs(here.Z - before.Z) : 0.0;
+            step = std::min(step, -2 * here.u[p] / (rate + std::sqrt(std::max(rate * rate - 2 * bend * here.u[p], 0.0))));
         }
         if (touching) {
+            sharpen();
             Vector s = here.s;
             const auto k = std::lower_bound(active.begin(), active.end(), *touching) - active.begin();
             active.insert(active.begin() + k, *touching);
             s.insert(s.begin() + k, sticking.state_at(set.asperity[at(*touching)], sticking.touches()));
             products->set_active(active);
-            jump(here.Z, here.energy - ahead * here.force, std::move(s), ahead);
+            jump(here.Z, here.energy - ahead * here.power, std::move(s), ahead);
             known = false, shorter = 1;
             continue;
         }
         // Limits the step to a part of the distance to the next detachment; very close to it, the asperity is detached.
         double way = kInfinity;
         std::size_t weakest = 0;
+        here.left.assign(active.size(), kInfinity);
         for (std::size_t k = 0; k < active.size(); ++k) {
             const Sticking::State& state = here.states[k];
             const double rate = direction * here.change.s[k];
             if (!(rate < 0)) continue;
             const double own = (state.u - sticking.lets_go(set.asperity[at(active[k])])) / (state.du * -rate);
+            // The step may be longer if the distance expected at the state before was right.
+            const auto proved_share = [&](double end) {
+                here.left[k] = end;
+                if (!known || !(before.left[k] < kInfinity)) return 0.0;
+                const double length = std::abs(here.Z - before.Z);
+                return std::min(kLongestWay, 1 - kDoubt * std::abs(before.left[k] - length - end) / length * std::max(1.0, end / length));
+            };
             if (state.df >= 0) {
-                step = std::min(step, kNearWay * own);
+                step = std::min(step, std::max(kNearWay, proved_share(own)) * own);
                 continue;
             }
             double left = kInfinity, share = kFarWay;
@@ -311,16 +340,17 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
                 if (g < g_before) left = g * std::abs(here.Z - before.Z) / (g_before - g);
                 if (g < 0.3 * g_before) share = kNearWay;
             }
-            const double mine = std::min(kOwnWay * own, share * left);
-            if (const double end = std::min(own, left); end < kFold * scale(active[k])) {
+            const double end = std::min(own, left), most = proved_share(end);
+            if (end < kFold * scale(active[k])) {
                 if (end < way) way = end, weakest = k;
                 continue;
             }
-            step = std::min(step, mine);
+            step = std::min(step, std::max(std::min(kOwnWay * own, share * left), most * end));
         }
         if (way <= step) {
+            sharpen();
             const double Z = here.Z + direction * way;
-            const double energy_there = here.energy - direction * here.force * way - 2.0 / 3 * here.change.force * way * way;
+            const double energy_there = here.energy - direction * here.power * way - 2.0 / 3 * here.change.power * way * way;
             now.least_force = std::min(now.least_force, here.force);
             let_go(weakest, Z, energy_there);
             known = false, shorter = 1;
@@ -344,6 +374,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             // The same asperities attach again and detach again where stability cannot be decided, because contacts overlap.
             if (std::abs(here.Z - unstable_at) > kShortest * smallest) unstable_at = here.Z, left_there = 0;
             if (++left_there > 10 + static_cast<long>(active.size())) return lost_way = true;
+            sharpen();
             let_go(fastest, here.Z, here.energy);
             known = false, shorter = 1;
             continue;
@@ -360,7 +391,14 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         Vector start(here.s.size());
         for (std::size_t k = 0; k < start.size(); ++k) {
             const double least = sticking.least(set.asperity[at(active[k])]);
-            start[k] = std::max(here.s[k] + (Z - here.Z) * here.change.s[k], 0.5 * (here.s[k] + least));
+            // The rate of a state changes linearly; near detachment that of the penetration.
+            const int i = set.asperity[at(active[k])];
+            const double length = Z - here.Z, bend = known ? 0.5 * length * length / (here.Z - before.Z) : 0.0;
+            const double rate = here.change.s[k], before_rate = known ? before.change.s[k] : 0.0, du = here.states[k].du;
+            start[k] = std::max(here.s[k] + length * rate + bend * (rate - before_rate), 0.5 * (here.s[k] + least));
+            if (here.left[k] > kClose * std::abs(length)) continue;
+            const double u = here.states[k].u + length * du * rate + bend * (du * rate - (known ? before.states[k].du * before_rate : 0.0));
+            if (u > sticking.lets_go(i)) start[k] = sticking.state_at(i, u);
         }
         Point there;
         if (!find(Z, std::move(start), there, Z == target ? 0.0 : kOnTheWay)) {

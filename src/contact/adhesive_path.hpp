@@ -22,6 +22,7 @@ struct AdhesivePath : ContactBodies {
         Vector s;
         double lost = 0;         // energy dissipated since the beginning
         double least_force = 0;  // smallest force since the beginning
+        int jumps = 0;           // of moves of the tip since the last level
     };
 
     std::unique_ptr<Law> law;
@@ -40,6 +41,14 @@ struct AdhesivePath : ContactBodies {
     // Working set: asperities that may attach, and the attached ones.
     WorkingSet set;
     Vector clearance;
+    Vector rate;  // of g0 along the path
+    // The tip moves from `from` to `to` at the separation Z0. The path's coordinate Z is then its share of the way times `length`, the
+    // largest change of a clearance.
+    struct Motion {
+        Vec2 from, to;
+        double Z0 = 0, length = 1;
+    };
+    std::optional<Motion> motion;
     std::vector<int> place;                                    // position of an asperity in the set; -1: not in the set
     double covered = std::numeric_limits<double>::infinity();  // asperities with a clearance above this are in the set
     double margin = 0;        // height by which forces may raise an asperity, and the range of the attraction
@@ -52,7 +61,10 @@ struct AdhesivePath : ContactBodies {
         Vector u;  // penetrations of the others, relative to attachment
         std::vector<Sticking::State> states;
         double force = 0, energy = 0, residual = 0;
+        double power = 0;  // -dW/dZ
+        bool exact = false;
         AttachedSolver::Change change;
+        Vector left;  // expected distances of the attached to detachment
     };
     Point here;
 
@@ -65,11 +77,16 @@ struct AdhesivePath : ContactBodies {
     bool find(double Z, Vector s, Point& point, double accuracy = 0);
     void complete(Point& point);
     double raised() const;
+    void sharpen();
     bool settle(double Z, Vector s);
     void jump(double Z, double energy_before, Vector s, double ahead = 0);
     void let_go(std::size_t weakest, double Z, double energy_before);
     bool go(double target, std::optional<double> wanted);
     bool begin(double target);
+    void set_gaps(double Z);
+    void set_power(Point& point) const;
+    double clearance_at(int asperity, double share);  // with the tip at this share of its way
+    bool move(double x0, double y0);
     Point least_between(const Point& a, const Point& b);
     bool find_force(const Point& a, const Point& b, double wanted);
     double scale(int position) const { return -sticking.lets_go(set.asperity[static_cast<std::size_t>(position)]); }

@@ -13,7 +13,7 @@
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 using namespace rsc;
-using bench::kGold, bench::now, bench::peak_memory_mb, bench::shortest;
+using bench::kGold, bench::middle, bench::now, bench::peak_memory_mb, bench::shortest;
 
 namespace bench {
 
@@ -238,6 +238,29 @@ void bench_close() {
         time, with_huge / time, with_spread / time);
 }
 
+// A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the elastic levels down.
+void bench_adhesion() {
+    const Asperities a = surface(0.01, 1);
+    SolverOptions options;
+    options.sigma = 0.01;
+    Level last;
+    const auto levels = [&](double work) {
+        options.adhesion.work = work;
+        const auto contact = make_asperity_contact(a, kGold, options);
+        double jumps = 0;
+        for (int k = 0; k <= (work > 0 ? 200 : 100); ++k) {
+            last = contact->at_separation(options.sigma * (3 - 0.02 * std::min(k, 200 - k)));
+            jumps += last.jumps;
+        }
+        return jumps;
+    };
+    double jumps = 0;
+    const double elastic = middle(5, [&] { levels(0); }), loop = middle(5, [&] { jumps = levels(1e-4); });
+    std::printf(
+        "\nadhesion: 100 levels down and up %.2f s, %.0f jumps, 100 elastic levels %.3f s: %.1f times (wanted: 10); N %.9g, lost %.9g\n",
+        loop, jumps, elastic, loop / elastic, last.force, last.energy_lost);
+}
+
 }  // namespace
 
 struct Part {
@@ -254,6 +277,7 @@ const Part kParts[] = {
     {"largest", bench_largest},
     {"many", bench_many},
     {"close", bench_close},
+    {"adhesion", bench_adhesion},
     {"made", bench::made},
     {"layers", bench::layers},
     {"coated_levels", bench::coated_levels, true},

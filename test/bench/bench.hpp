@@ -25,6 +25,14 @@ inline double shortest(int runs, const std::function<void()>& work) {
     return best;
 }
 
+// The median of several runs.
+inline double middle(int runs, const std::function<void()>& work) {
+    std::vector<double> times;
+    for (int i = 0; i < runs; ++i) times.push_back(shortest(1, work));
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+}
+
 inline double peak_memory_mb() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

@@ -1,5 +1,6 @@
 #include "contact/solver/attached.hpp"
 
+#include "contact/solver/uniqueness.hpp"
 #include "rough/parallel.hpp"
 
 namespace rsc {
@@ -15,14 +16,19 @@ constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
 double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
-// MINRES for symmetric indefinite systems (Paige and Saunders, SIAM J. Numer. Anal. 12, 1975): |b - M x| <= accuracy |b|.
+// MINRES for symmetric indefinite systems (Paige and Saunders, SIAM J. Numer. Anal. 12, 1975): |b - M x| <= accuracy |b|. Starts from x, or
+// from 0 if it is empty.
 template <class Multiply>
 void minres(Multiply&& multiply, const Vector& b, double accuracy, Vector& x) {
     const std::size_t n = b.size();
-    x.assign(n, 0.0);
     Vector v = b, before(n, 0.0), next(n), w(n, 0.0), w_before(n, 0.0), w_next(n);
-    double beta = std::sqrt(dot(b, b)), left = beta, c = 1, c_before = 1, s = 0, s_before = 0;
-    const double goal = accuracy * beta;
+    const double goal = accuracy * std::sqrt(dot(b, b));
+    if (!x.empty()) {
+        multiply(x, next);
+        for (std::size_t i = 0; i < n; ++i) v[i] -= next[i];
+    }
+    if (x.empty() || !(dot(v, v) < dot(b, b))) x.assign(n, 0.0), v = b;
+    double beta = std::sqrt(dot(v, v)), left = beta, c = 1, c_before = 1, s = 0, s_before = 0;
     for (std::size_t k = 0; k < std::min<std::size_t>(2 * n + 10, kMostProducts) && std::abs(left) > goal && beta > 0; ++k) {
         for (double& value : v) value /= beta;
         multiply(v, next);
@@ -47,39 +53,71 @@ void minres(Multiply&& multiply, const Vector& b, double accuracy, Vector& x) {
 
 }  // namespace
 
-void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s) {
+double AttachedSolver::miss(const WorkingSet& set, const Vector& res) const {
+    double error2 = 0, size2 = 0, own = 0;
+    for (std::size_t k = 0; k < res.size(); ++k) {
+        const auto i = static_cast<std::size_t>(products_->active()[k]);
+        const Sticking::State& now = state_[k];
+        const double error = now.stiffness * res[k], gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
+        const double size = std::hypot(now.stiffness * law_.lets_go(set.asperity[i]), now.f);
+        error2 += error * error, size2 += size * size;
+        own = std::max(own, std::abs(error) / (size + kRounding * now.stiffness * gap));
+    }
+    return res.empty() ? 0.0 : std::max(std::sqrt(error2 / size2), kOwn * own);
+}
+
+void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full) {
     stopping_point();
     const std::vector<int>& active = products_->active();
     const std::size_t n = active.size();
-    state_.resize(n), f_.resize(n), res_.resize(n);
-    phi_.assign(static_cast<std::size_t>(set.size()), 0.0);
+    state_.resize(n), f_.resize(n), res_.resize(n), df_.assign(n, 0.0), out_.assign(n, 0.0);
     force_ = 0;
     for (std::size_t k = 0; k < n; ++k) {
         state_[k] = law_.at(set.asperity[static_cast<std::size_t>(active[k])], s[k]);
         f_[k] = state_[k].f;
         force_ += f_[k];
     }
-    if (n > 0) products_->full(f_.data(), phi_.data());
+    if (!full && std::includes(active.begin(), active.end(), reference_.begin(), reference_.end())) {
+        Vector f(n, 0.0);  // new ones had no force
+        for (std::size_t k = 0, j = 0; k < n && j < reference_.size(); ++k)
+            if (active[k] == reference_[j]) f[k] = f_reference_[j++];
+        reference_ = active, f_reference_ = std::move(f);
+    }
+    if (full || n == 0 || phi_reference_.empty() || active != reference_) {
+        reference_ = active, f_reference_ = f_;
+        phi_reference_.assign(static_cast<std::size_t>(set.size()), 0.0);
+        if (n > 0) products_->full(f_.data(), phi_reference_.data());
+    } else {
+        for (std::size_t k = 0; k < n; ++k) df_[k] = f_[k] - f_reference_[k];
+        products_->inner(df_.data(), out_.data());
+    }
+    phi_ = phi_reference_;
+    for (std::size_t k = 0; k < n; ++k) phi_[static_cast<std::size_t>(active[k])] += out_[k];
+    balance(set);
+}
+
+// From forces and phi_ of the present states: what the equations and the energy are off, with the elevations df_ by inner products in out_.
+void AttachedSolver::balance(const WorkingSet& set) {
+    const std::vector<int>& active = products_->active();
+    const std::size_t n = active.size();
     const double shift = products_->kernel().shift() * force_;
     for (double& phi : phi_) phi -= shift;
+    const double f2 = dot(f_, f_), share = f2 > 0 ? std::sqrt(dot(df_, df_) / f2) : 0.0;
     energy_ = 0;
-    double error2 = 0, size2 = 0, own = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const auto i = static_cast<std::size_t>(active[k]);
         const Sticking::State& now = state_[k];
         res_[k] = set.g0[i] - phi_[i] - now.u;
         energy_ += now.energy + now.f * (0.5 * phi_[i] + res_[k]);  // an error of second order in the residual
-        const double miss = now.stiffness * res_[k], gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
-        const double size = std::hypot(now.stiffness * law_.lets_go(set.asperity[i]), now.f);
-        error2 += miss * miss, size2 += size * size;
-        own = std::max(own, std::abs(miss) / (size + kRounding * now.stiffness * gap));
+        out_[k] = products_->inner_error() * (2 * std::abs(out_[k]) + share * std::abs(phi_[i]));
     }
-    residual_ = n > 0 ? std::max(std::sqrt(error2 / size2), kOwn * own) : 0.0;
+    residual_ = miss(set, res_), noise_ = miss(set, out_);
     weigh(0);
 }
 
 void AttachedSolver::weigh(double mu) {
     const std::size_t n = state_.size();
+    mu_ = mu;
     diagonal_.resize(n), p_.resize(n), to_s_.resize(n), in_.resize(n), out_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Sticking::State& now = state_[k];
@@ -102,14 +140,69 @@ void AttachedSolver::multiply(const Vector& y, Vector& image) {
 void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& ds) {
     Vector b(right.size());
     for (std::size_t k = 0; k < b.size(); ++k) b[k] = p_[k] * right[k];
+    for (std::size_t k = 0; k < ds.size(); ++k) ds[k] /= to_s_[k];
     minres([this](const Vector& y, Vector& image) { multiply(y, image); }, b, accuracy, ds);
     for (std::size_t k = 0; k < b.size(); ++k) ds[k] *= to_s_[k];
 }
 
-bool AttachedSolver::stable() {
+// True if I + B D is stable: D^-1 + B is positive definite. A proof for stiffer asperities holds for softer and fewer ones.
+bool AttachedSolver::apart(const WorkingSet& set) {
+    const Kernel& kernel = products_->kernel();
+    const std::vector<int>& active = products_->active();
     const std::size_t n = state_.size();
-    Vector right(n, -1.0), x;
-    solve_linear(right, 1e-6, change_);
+    stiffest_.resize(phi_.size(), 0.0);
+    bool covered = true;
+    for (std::size_t k = 0; k < n && covered; ++k) covered = state_[k].stiffness <= stiffest_[static_cast<std::size_t>(active[k])];
+    if (covered) return true;
+    std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
+    std::vector<double> x(n), y(n), a(n);
+    for (const double wider : {1.2, 1.0}) {
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto i = static_cast<std::size_t>(active[k]);
+            x[k] = set.x[i], y[k] = set.y[i], a[k] = wider * state_[k].stiffness / (2 * kernel.modulus());
+        }
+        if (!kernel.none() && !positive_definite_by_shells(x, y, a)) continue;
+        for (std::size_t k = 0; k < n; ++k) stiffest_[static_cast<std::size_t>(active[k])] = wider * state_[k].stiffness;
+        return true;
+    }
+    return false;
+}
+
+bool AttachedSolver::proved(const WorkingSet& set) {
+    constexpr int most = 6;
+    constexpr double certain = 1e-3;  // share of diag(u') v that must be left; products may have small errors
+    const std::vector<int>& active = products_->active();
+    const auto place = [&](std::size_t k) { return static_cast<std::size_t>(active[k]); };
+    if (products_->kernel().lattice() || !apart(set)) return false;
+    proof_.resize(phi_.size(), 0.0);
+    for (int round = 0; round < most; ++round) {
+        bool any = false, holds = true;
+        for (std::size_t k = 0; k < state_.size(); ++k) {
+            const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
+            in_[k] = 0;
+            if (df >= 0) continue;
+            if (!(du > 0)) return false;
+            in_[k] = proof_[place(k)] > 0 ? proof_[place(k)] : 1 / du, any = true;
+        }
+        if (!any) return true;
+        products_->inner(in_.data(), out_.data());
+        for (std::size_t k = 0; k < state_.size(); ++k) {
+            if (in_[k] == 0) continue;
+            const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
+            if (!(std::abs(df * out_[k]) + 2 * products_->inner_error() * std::abs(df) * std::abs(out_[k]) < (1 - certain) * du * in_[k]))
+                holds = false;
+            proof_[place(k)] = (1 - df * out_[k]) / du;
+        }
+        if (holds) return true;
+    }
+    return false;
+}
+
+bool AttachedSolver::stable(const WorkingSet& set) {
+    if (proved(set)) return true;
+    const std::size_t n = state_.size();
+    Vector right(n, -1.0), derivative, x;
+    solve_linear(right, 1e-6, derivative);
     const double shift = products_->kernel().shift();
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += in_[k] = state_[k].stiffness;
@@ -125,29 +218,57 @@ bool AttachedSolver::stable() {
         }
         return lowest > 0;
     };
-    if (crowded < 1 && positive(change_, -1)) return true;
+    if (crowded < 1 && positive(derivative, -1)) return true;
     solve_linear(right, 1e-6, x);
     return positive(x, 1);
 }
 
-bool AttachedSolver::solve(const WorkingSet& set, double tolerance, Vector& s) {
+void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
+    Vector ds;
+    solve_linear(res_, accuracy, ds);
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        const double least = law_.least(set.asperity[static_cast<std::size_t>(products_->active()[k])]);
+        const double next = std::clamp(s[k] + ds[k], (1 - kFarthest) * s[k], (1 + kFarthest) * s[k]);
+        s[k] = std::max(next, 0.5 * (s[k] + least));
+    }
+}
+
+void AttachedSolver::sharpen(const WorkingSet& set, double tolerance, Vector& s) {
+    evaluate(set, s, false);
+    for (int k = 0; k < 2 && residual_ > tolerance; ++k) {
+        step(set, 1e-3, s);
+        evaluate(set, s, false);
+    }
+    if (state_.empty() || noise_ == 0) return;
+    products_->set_precise(true);
+    products_->inner(f_.data(), out_.data());
+    products_->set_precise(false);
+    for (std::size_t k = 0; k < state_.size(); ++k) phi_[static_cast<std::size_t>(products_->active()[k])] = std::exchange(out_[k], 0.0);
+    balance(set);
+}
+
+bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s) {
     double best = 1e300;
     int worse = 0;
-    Vector ds;
-    for (int step = 0;; ++step) {
-        evaluate(set, s);
-        if (residual_ <= tolerance) return stable();
+    for (int k = 0;; ++k) {
+        evaluate(set, s, false);
+        const bool near = residual_ <= tolerance + 2 * noise_, stuck = residual_ >= 0.9 * best;
+        if ((near && noise_ > (exact ? 0.0 : 0.1 * tolerance)) || (stuck && noise_ > 0)) evaluate(set, s, true);
+        if (residual_ <= tolerance) {
+            if (!stable(set)) return false;
+            if (const auto& passive = products_->passive(); !df_.empty() && !passive.empty()) {
+                Vector more(passive.size());
+                products_->inner_passive(df_.data(), more.data());
+                for (std::size_t k = 0; k < more.size(); ++k) phi_[static_cast<std::size_t>(passive[k])] += more[k];
+            }
+            return true;
+        }
         if (residual_ < 0.9 * best)
             best = residual_, worse = 0;
         else
             ++worse;
-        if (step == kMostSteps || worse > 6 || !std::isfinite(residual_)) break;
-        solve_linear(res_, std::clamp(0.1 * residual_, 1e-6, 1e-2), ds);
-        for (std::size_t k = 0; k < s.size(); ++k) {
-            const double least = law_.least(set.asperity[static_cast<std::size_t>(products_->active()[k])]);
-            const double next = std::clamp(s[k] + ds[k], (1 - kFarthest) * s[k], (1 + kFarthest) * s[k]);
-            s[k] = std::max(next, 0.5 * (s[k] + least));
-        }
+        if (k == kMostSteps || worse > 6 || !std::isfinite(residual_)) break;
+        step(set, std::clamp(std::max(0.1 * residual_, exact ? 0.0 : 0.01 * tolerance / residual_), 1e-6, 1e-2), s);
     }
     weakest_ = 0;
     double nearest = 1e300;
@@ -164,14 +285,15 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
     Vector ds;
     double mu = 1;
     for (int step = 0; step < most; ++step) {
-        evaluate(set, s);
+        evaluate(set, s, true);
         double change = 2 * longest;
         for (int k = 0; k < 60 && change > longest; ++k) {
             weigh(mu);
-            if (!stable()) {
+            if (!stable(set)) {
                 mu *= 2;
                 continue;
             }
+            ds.clear();
             solve_linear(res_, 1e-3, ds);
             change = 0;
             for (std::size_t i = 0; i < s.size(); ++i) change = std::max(change, std::abs(ds[i]) / s[i]);
@@ -184,7 +306,7 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
         }
         if (change < near * std::min(1.0, 1 / mu)) {
             Vector end = s;
-            if (solve(set, tolerance, end)) {
+            if (solve(set, tolerance, true, end)) {
                 s = std::move(end);
                 return Relaxed{};
             }
@@ -194,15 +316,23 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
     return std::nullopt;
 }
 
-AttachedSolver::Change AttachedSolver::change() {
+AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accuracy) {
     Change c;
-    c.s = change_;
+    const std::vector<int>&active = products_->active(), &passive = products_->passive();
+    const auto at = [](int k) { return static_cast<std::size_t>(k); };
     const double shift = products_->kernel().shift();
-    Vector df(state_.size());
-    for (std::size_t k = 0; k < df.size(); ++k) c.force += df[k] = state_[k].df * c.s[k];
-    c.u.assign(products_->passive().size(), 0.0);
+    Vector right, df(state_.size());
+    before_.resize(phi_.size(), 0.0);
+    for (int k : active) right.push_back(rate[at(k)]), c.s.push_back(before_[at(k)]);
+    if (!right.empty()) solve_linear(right, accuracy, c.s);
+    for (std::size_t k = 0; k < df.size(); ++k) {
+        before_[at(active[k])] = c.s[k];
+        c.force += df[k] = state_[k].df * c.s[k];
+        c.power -= df[k] * right[k];
+    }
+    c.u.assign(passive.size(), 0.0);
     if (!df.empty()) products_->inner_passive(df.data(), c.u.data());
-    for (double& u : c.u) u = -1 - u + shift * c.force;
+    for (std::size_t k = 0; k < passive.size(); ++k) c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
     return c;
 }
 

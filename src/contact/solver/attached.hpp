@@ -9,8 +9,10 @@
 // and the Newton matrix is (I + B D) Q^-1 H: both become singular together. The off-diagonal elements of H are not positive, because a
 // larger contact pulls on its neighbours; hence H is positive definite if H x = b > 0 has a solution x > 0 (an M-matrix). The
 // derivative x = -ds/dZ0, right-hand side 1 in the Newton system, is tried first if contacts are not crowded: b = Q (I + B D)^-1 1 is positive if
-// the row sums of B D are below 1.
-// Otherwise b = q 1 is tried, with the right-hand side 1 + B D.
+// the row sums of B D are below 1. Otherwise b = q 1 is tried, with the right-hand side 1 + B D.
+// Before these a cheaper proof is tried. H is congruent to diag(f'/(q D)) + S^-1/D with S = I + D^1/2 B D^1/2. Let S be positive definite
+// (solver/uniqueness.hpp) and U be the asperities with f' < 0. Since (S^-1)_UU is at least (S_UU)^-1, it suffices that diag(u'/|f'|) - B_UU is
+// positive definite, and as B >= 0 that some v > 0 has u' v > |f'| B v on U. Such a v is found by fixed-point iteration from the last one.
 // For y = ds f'/p with p = sign(f') sqrt(D |f'|/(|f'| + q))
 // the systems are symmetric, with the matrix diag((f' + q)/(|f'| + q)) sign(f') + p B p. Its diagonal is positive for asperities that are
 // stable at a given force, negative for those stable only at a given separation. They are solved by MINRES (Paige and Saunders).
@@ -31,11 +33,17 @@ public:
 
     // Sets the products with B. The shift() of their kernel is subtracted, because the true B, which may raise points, is required. Their
     // points must be those of the set, and the active points the attached ones, when the functions below are called.
-    void use(Products& products) { products_ = &products; }
+    void use(Products& products) {
+        products_ = &products;
+        reference_.clear(), phi_reference_.clear(), before_.clear(), proof_.clear(), stiffest_.clear();
+    }
 
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false if none was found near; s is then
     // undefined, and weakest() is the position among the attached of the one that becomes unstable.
-    bool solve(const WorkingSet& set, double tolerance, std::vector<double>& s);
+    // `exact`: forces, phi() and energy() are those of a full product; otherwise its error is below a tenth of the tolerance.
+    bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s);
+    // Improves an equilibrium s, without a test of its stability, by at most two steps, and finds its energy with full products.
+    void sharpen(const WorkingSet& set, double tolerance, std::vector<double>& s);
     std::size_t weakest() const { return weakest_; }
     // For states s far from equilibrium: contacts grow and shrink slowly, downhill in the energy, until s is a stable equilibrium or an
     // asperity has shrunk to nothing; `gone` is then its position among the attached. Returns nothing if it does not end, for example on an
@@ -52,28 +60,40 @@ public:
     double energy() const { return energy_; }  // elastic energy of asperities and interaction minus w A: dW/dZ0 = -N
     double residual() const { return residual_; }
 
-    // Derivatives with respect to the separation, of the last stable equilibrium: ds/dZ0 of the attached, du/dZ0 of the others (Products::passive), dN/dZ0.
+    // Derivatives at the last stable equilibrium, to a relative accuracy, for given rates of g0 over the set (-1: with respect to the
+    // separation): of s of the attached, of u of the others (Products::passive), of N, and of the power -f'rate at constant rates.
     struct Change {
         std::vector<double> s, u;
-        double force = 0;
+        double force = 0, power = 0;
     };
-    Change change();
+    Change change(const std::vector<double>& rate, double accuracy);
 
 private:
-    void evaluate(const WorkingSet& set, const std::vector<double>& s);
-    // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy.
+    // Products are those of the change of the forces since the last full product, with the error noise_ in the residual, unless `full`.
+    void evaluate(const WorkingSet& set, const std::vector<double>& s, bool full);
+    void balance(const WorkingSet& set);
+    double miss(const WorkingSet& set, const std::vector<double>& res) const;   // norm of residuals
+    void step(const WorkingSet& set, double accuracy, std::vector<double>& s);  // Newton's method
+    // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy, starting from ds, or from 0 if it is empty.
     void solve_linear(const std::vector<double>& right, double accuracy, std::vector<double>& ds);
     void multiply(const std::vector<double>& y, std::vector<double>& image);
-    void weigh(double mu);  // computes the coefficients of the symmetric systems
-    bool stable();
+    void weigh(double mu);               // computes the coefficients of the symmetric systems
+    bool apart(const WorkingSet& set);   // S is positive definite
+    bool proved(const WorkingSet& set);  // stable by the cheaper proof
+    bool stable(const WorkingSet& set);
 
     const Sticking& law_;
     Products* products_ = nullptr;
     std::vector<Sticking::State> state_;
     std::vector<double> phi_, f_, res_;
-    double force_ = 0, energy_ = 0, residual_ = 0;
+    double force_ = 0, energy_ = 0, residual_ = 0, noise_ = 0;
     std::size_t weakest_ = 0;
-    std::vector<double> change_;               // ds/dZ0
+    double mu_ = 0;                       // of weigh()
+    std::vector<double> stiffest_;        // by position in the set: D up to which S is known to be positive definite
+    std::vector<double> before_, proof_;  // by position in the set: the last ds/dZ0 and v, starting points
+    // Last full product: active positions, forces, B f over the set, without shift(); and the present change of the forces.
+    std::vector<int> reference_;
+    std::vector<double> f_reference_, phi_reference_, df_;
     std::vector<double> diagonal_, p_, to_s_;  // of the symmetric systems; ds = to_s y
     std::vector<double> in_, out_;
 };
