@@ -55,6 +55,10 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
 // Additional errors of N and A on layers for contacts as wide as the top layer is thick.
 constexpr double kLayersForce = 0.5, kLayersArea = 0.4;
 
+// Additional error of N and A where a single summit carries much: the profile of its contact ends, at q a = pi, before the next terms of its
+// shape, unknown to the laws, average over several contacts (input/trust/trust.py, ALONE; fitted to smooth surfaces under a large ball).
+constexpr double kAlone = 0.15;
+
 // Mean contact radius, weighted by the forces.
 double mean_radius(const Level& level) {
     double sum = 0, force = 0;
@@ -95,6 +99,8 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
     const double by_layers = kLayersForce * deep * deep * deep;
     level.force_error_expected = bound(of_force) * (options.measured ? files_force : 1.0) + by_layers;
     level.area_error_expected = bound(of_area) * (options.measured ? files_area : 1.0) + kLayersArea * std::pow(deep, 1.5);
+    const double alone = kAlone * std::sqrt(x[2]) / level.contacts;
+    level.force_error_expected += alone, level.area_error_expected += alone;
     const double spikes = options.marks ? spike_share(level, *options.marks) : 0;
     level.force_error_expected += spikes, level.area_error_expected += spikes;
     // The cause is the predictor with the largest contribution above that of its most favourable value.
@@ -103,6 +109,7 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
         const double least = of_force[k] > 0 && k == 5 ? std::log(1e-2) : 0.0;
         if (const double part = of_force[k] * (x[k] - least); part > most) most = part, level.error_cause = static_cast<std::int32_t>(k);
     }
+    if (alone > kMuchError) level.error_cause = 6;
     if (spikes > kMuchError) level.error_cause = kErrorPredictors + 1;
     if (by_layers > kMuchError) level.error_cause = kErrorPredictors + 2;
 }
