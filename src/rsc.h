@@ -423,9 +423,11 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq. 3.42), continuous everywhere: at distance d from the middle
  * of a spot 3f/(8 E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside, f/(pi E* d) far away.
  * In the solver spots interact as points; the effect of their finite size, some a^2/(10 d^2), is included here only. With laws
- * other than 'hertz' a spot is replaced by a circle of the same area. contact: the contact; n: number of points, >= 0; x, y: places
- * [length]; deflection (out): positive down [length]. Errors: -1 null, or solids%adhesion; -2 negative; -3, -4 null with n > 0, or not
- * finite; -5 null with n > 0; RSC_NO_RESULT; RSC_NO_MEMORY. */
+ * other than 'hertz' a spot is replaced by a circle of the same area. With solids%adhesion the force is that of the same area without
+ * adhesion, and its tension is added: f/(2 E* a) inside, f/(pi E* a) asin(a/d) outside, for the force f < 0 of the tension, or with a range
+ * the field of Maugis's cohesive ring. Elements: the field of the pressures and tensions of all pixels. contact: the contact; n: number of
+ * points, >= 0; x, y: places [length]; deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or
+ * not finite; -5 null with n > 0; RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
 /* ---- many contacts, and contacts saved in files -------------------------------------------------- */

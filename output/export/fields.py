@@ -73,13 +73,14 @@ def write_png(path, x, y, fields, length, title):
     for axis, (name, (values, unit)) in zip(page.axes, fields.items()):
         scale, of = si("" if unit == "1" else unit)
         values = np.ma.masked_invalid(values * scale)
-        drawn = np.ma.masked_where(~(values > 0), values) if name in ("pressure", "contact") else values
-        top = float(np.ma.filled(np.percentile(drawn.compressed(), 99.5) if drawn.count() else 1.0, 1.0))  # excludes a few outliers
-        limits = {"pressure": (0, top), "gap": (0, top), "contact": (0, 1)}.get(name, (None, None))
+        pulls = name == "pressure" and bool((values < 0).any())  # adhesion: blue, and the pressure red
+        drawn = np.ma.masked_where(values == 0 if pulls else ~(values > 0), values) if name in ("pressure", "contact") else values
+        top = float(np.ma.filled(np.percentile(np.abs(drawn.compressed()) if pulls else drawn.compressed(), 99.5) if drawn.count() else 1.0, 1.0))  # excludes a few outliers
+        limits = {"pressure": (-top if pulls else 0, top), "gap": (0, top), "contact": (0, 1)}.get(name, (None, None))
         image = axis.imshow(drawn, extent=[x[0] - half[0], x[-1] + half[0], y[0] - half[1], y[-1] + half[1]], interpolation="nearest", vmin=limits[0], vmax=limits[1],
-                            cmap=COLOURS if name in ("pressure", "contact") else "viridis")
+                            cmap="coolwarm" if pulls else COLOURS if name in ("pressure", "contact") else "viridis")
         if name != "contact":
-            colour_bar(page.figure, image, axis, name, of, fraction=0.06, pad=0.03, aspect=20, extend="max" if name in ("pressure", "gap") and drawn.count() and drawn.max() > top else "neither")
+            colour_bar(page.figure, image, axis, name, of, fraction=0.06, pad=0.03, aspect=20, extend="both" if pulls else "max" if name in ("pressure", "gap") and drawn.count() and drawn.max() > top else "neither")
         axis.set_title(name)
         axis.locator_params(nbins=5)
         label(axis, "x", "$x$", dimension)

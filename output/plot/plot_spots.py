@@ -50,7 +50,7 @@ def pixels_of(result, step):
         return None
     at = np.flatnonzero(result["field_step"].astype(int) == step + 1) if "field_pressure" in result else np.array([], int)
     if at.size:
-        x, y, share = result["field_x"], result["field_y"], 1.0 * (result.window("field_pressure", int(at[0])) > 0)
+        x, y, share = result["field_x"], result["field_y"], 1.0 * (result.window("field_contact" if "field_contact" in result else "field_pressure", int(at[0])) > 0)
     elif "map_area_fraction" in result:
         x, y, share = result["x"], result["y"], np.nan_to_num(result.window("map_area_fraction", step))
     else:

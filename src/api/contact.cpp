@@ -376,8 +376,6 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
         if (n < 0) refuse(2, "n", "must not be negative");
-        if (contact->contact.pulls())
-            refuse(1, "contact", "has adhesion (solids%adhesion): the deflection around such spots is not available yet");
         if (n == 0) return;
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");

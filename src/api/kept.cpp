@@ -148,6 +148,9 @@ void visit_arrays(Level& level, Visit&& visit) {
     visit("asperity", level.asperity), visit("yields", level.yields);
     visit("x", level.x), visit("y", level.y), visit("f", level.f), visit("a", level.a), visit("u", level.u);
     visit("pixel", level.pixels.index), visit("pixel_contact", level.pixels.contact), visit("pixel_pressure", level.pixels.pressure);
+    LevelTractions& t = level.tractions;
+    visit("attached_x", t.x), visit("attached_y", t.y), visit("attached_a", t.a), visit("attached_c", t.c);
+    visit("attached_pressed", t.pressed), visit("attached_pulled", t.pulled), visit("pixel_cohesive", level.pixels.cohesive);
 }
 
 void put_state(Entries& to, const std::string& prefix, const rsc_contact::State& state) {
@@ -165,7 +168,7 @@ void put_state(Entries& to, const std::string& prefix, const rsc_contact::State&
         to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
     });
     const LevelPixels& p = level.pixels;
-    to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy};
+    to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy, p.tension};
 }
 
 rsc_contact::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
@@ -177,7 +180,7 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
     const Numbers& pixels = from.of(prefix + "level.pixels");
-    if (known.size() != 8 || pixels.size() != 5) throw Error(Failure::bad_input, kBroken);
+    if (known.size() != 8 || (pixels.size() != 5 && pixels.size() != 6)) throw Error(Failure::bad_input, kBroken);
     Level level;
     level.separation = known[0];
     state.known = {{}, known[1], known[2], known[3], {known[4], known[5]}, {known[6], known[7]}};
@@ -187,16 +190,22 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
         if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
     }
     visit_arrays(level, [&](const char* name, auto& values) {
-        for (const double value : from.of(prefix + "level." + name))
-            values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
+        const auto found = from.numbers.find(prefix + "level." + name);
+        if (found == from.numbers.end()) return;
+        for (const double value : found->second) values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
     });
     level.pixels.columns = static_cast<int>(pixels[0]);
     level.pixels.x0 = pixels[1], level.pixels.y0 = pixels[2], level.pixels.dx = pixels[3], level.pixels.dy = pixels[4];
+    if (pixels.size() == 6) level.pixels.tension = pixels[5];
     const auto& points = contact.on->points;
     const int places = points ? points->nx * points->ny : static_cast<int>(contact.contact.asperities()->size());
     const auto outside = [&](int k) { return k < 0 || k >= places; };
     const std::size_t n = level.asperity.size();
-    if (std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
+    const LevelTractions& t = level.tractions;
+    for (const auto* values : {&t.y, &t.a, &t.c, &t.pressed, &t.pulled})
+        if (values->size() != t.x.size()) throw Error(Failure::bad_input, kBroken);
+    if (std::any_of(level.pixels.cohesive.begin(), level.pixels.cohesive.end(), outside) ||
+        std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
         std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) || level.x.size() != n || level.y.size() != n ||
         level.f.size() != n || level.a.size() != n || level.u.size() != n)
         throw Error(Failure::bad_input, kBroken);

@@ -123,7 +123,6 @@ private:
         refuse(s.adhesion_range > 0 && !by_elements(c_) && c_.asperities.law == LawKind::fourth_order, "asperities%law",
                "with adhesion_range > 0 law = 'fourth_order' is not available yet; give 'hertz' or 'elliptic'");
         refuse(!(s.adhesion_range > 0) && by_elements(c_), "solids%adhesion_range", "model = 'elements' needs adhesion_range > 0");
-        refuse(!c_.output.fields.empty(), "output%fields", "fields of contacts with adhesion are not available yet");
         refuse(c_.compare.listed() && !(s.adhesion_range > 0), "compare%levels", "elements need adhesion_range > 0");
         refuse(c_.solver.method == Method::dgesv, "solver%method", "method = 'dgesv' does not support tensile forces; give another method");
         refuse(c_.indentation.selection == Selection::paper, "indentation%selection",

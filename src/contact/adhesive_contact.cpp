@@ -42,6 +42,10 @@ Level AdhesiveContact::Impl::report() {
         const Sticking::State state = sticking.at(i, now.s[k]);
         if (state.area > 0)
             l.add_contact(i, asperities.x[at(i)], asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
+        l.tractions.x.push_back(asperities.x[at(i)]), l.tractions.y.push_back(asperities.y[at(i)]);
+        l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi)),
+            l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
+        l.tractions.pressed.push_back(state.pressed), l.tractions.pulled.push_back(state.f - state.pressed);
         cohesive += state.outer - state.area;
         l.force += state.f;
         l.area += state.area;

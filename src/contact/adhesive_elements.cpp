@@ -225,9 +225,10 @@ Level State::solve(double Z) {
         if (!on[at(i)]) continue;
         now.attracting.push_back(i);
         attraction += s0 * (z0 - gap[k]);
-        if (!(q[at(i)] > 0)) tension += s0, ++cohesive;
+        if (!(q[at(i)] > 0)) tension += s0, ++cohesive, level.pixels.cohesive.push_back(i);
     }
     add_pixels(level, heights, indenter, kInfinity, touching, std::move(pressures), s0);
+    level.pixels.tension = -s0;
     level.force -= pixel * tension;
     level.cohesive_area = pixel * static_cast<double>(cohesive);
     level.cohesive_resolution = resolution();

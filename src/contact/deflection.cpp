@@ -1,5 +1,9 @@
 #include "contact/deflection.hpp"
 
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/math/special_functions/ellint_2.hpp>
+#include <boost/math/special_functions/ellint_d.hpp>
+
 namespace rsc {
 namespace {
 
@@ -35,21 +39,49 @@ double spot_deflection(double force, double radius, double distance, double E_st
     return near * force / distance * sum;
 }
 
+double tension_deflection(double force, double a, double c, double d, double E_star) {
+    const double near = Substrate(E_star).near(), e = std::sqrt((c - a) * (c + a)), pi = std::numbers::pi;
+    // Integral of the Abel transform, which is 1 up to a.
+    const double whole = e > 0 ? 0.5 * (a + c * c * std::atan2(e, a) / e) : a, inside = 0.5 * pi * near * force / whole;
+    if (d <= a) return inside;
+    double sum = std::asin(a / d);
+    if (e > 0 && d <= c) {
+        const double k = d / c;
+        sum += c / e * (boost::math::ellint_2(k) - boost::math::ellint_2(k, sum));
+    } else if (e > 0) {
+        const double k = c / d, begin = std::asin(a / c);
+        sum += c * k / e *
+               (boost::math::ellint_1(k) - boost::math::ellint_d(k) - boost::math::ellint_1(k, begin) + boost::math::ellint_d(k, begin));
+    }
+    return 2 / pi * inside * sum;
+}
+
 double deflection(const Level& level, const Kernel& kernel, double x, double y) {
     const Period period = kernel.period();
     const Substrate& body = kernel.substrate();
     const auto images = [&](double dx, double dy) { return kernel.lattice() ? body.near() * kernel.lattice()->rest(dx, dy) : 0.0; };
     double sum = 0;
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-        const double dx = period.nearest_x(x - pixels.x(k)), dy = period.nearest_y(y - pixels.y(k));
-        sum += pixels.pressure[k] * (body.under_pixel(dx, dy, pixels.dx, pixels.dy) + pixels.dx * pixels.dy * images(dx, dy));
-    }
+    const auto add_pixel = [&](std::int32_t index, double pressure) {
+        const double dx = period.nearest_x(x - pixels.x_of(index)), dy = period.nearest_y(y - pixels.y_of(index));
+        sum += pressure * (body.under_pixel(dx, dy, pixels.dx, pixels.dy) + pixels.dx * pixels.dy * images(dx, dy));
+    };
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) add_pixel(pixels.index[k], pixels.pressure[k]);
+    for (const std::int32_t k : pixels.cohesive) add_pixel(k, pixels.tension);
     if (!pixels.index.empty()) return sum;
-    for (std::size_t k = 0; k < level.f.size(); ++k) {
-        const double dx = period.nearest_x(x - level.x[k]), dy = period.nearest_y(y - level.y[k]), d = std::sqrt(dx * dx + dy * dy);
-        sum += spot_deflection(level.f[k], level.a[k], d, body.modulus()) + level.f[k] * (body.smooth_at(d) + images(dx, dy));
-    }
+    const auto add_spot = [&](double at_x, double at_y, double force, auto&& own) {
+        const double dx = period.nearest_x(x - at_x), dy = period.nearest_y(y - at_y), d = std::sqrt(dx * dx + dy * dy);
+        sum += own(d) + force * (body.smooth_at(d) + images(dx, dy));
+    };
+    const LevelTractions& t = level.tractions;
+    for (std::size_t k = 0; k < t.x.size(); ++k)
+        add_spot(t.x[k], t.y[k], t.pressed[k] + t.pulled[k], [&](double d) {
+            return (t.a[k] > 0 ? spot_deflection(t.pressed[k], t.a[k], d, body.modulus()) : 0.0) +
+                   tension_deflection(t.pulled[k], t.a[k], t.c[k], d, body.modulus());
+        });
+    if (!t.x.empty()) return sum;
+    for (std::size_t k = 0; k < level.f.size(); ++k)
+        add_spot(level.x[k], level.y[k], level.f[k], [&](double d) { return spot_deflection(level.f[k], level.a[k], d, body.modulus()); });
     return sum;
 }
 

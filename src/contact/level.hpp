@@ -86,20 +86,31 @@ struct LevelValues {
 
 // Boundary elements: pixels under pressure, row by row. Empty for asperities.
 struct LevelPixels {
-    int columns = 0;                    // columns of the map
-    double x0 = 0, y0 = 0;              // centre of the first pixel of the map [length]
-    double dx = 0, dy = 0;              // sides of a pixel [length]
-    std::vector<std::int32_t> index;    // row * columns + column, 0-based
-    std::vector<std::int32_t> contact;  // index of the contact to which it belongs
-    std::vector<double> pressure;       // [force/length^2]
-    double x(std::size_t k) const { return x0 + index[k] % columns * dx; }
-    double y(std::size_t k) const { return y0 + index[k] / columns * dy; }
+    int columns = 0;                     // columns of the map
+    double x0 = 0, y0 = 0;               // centre of the first pixel of the map [length]
+    double dx = 0, dy = 0;               // sides of a pixel [length]
+    std::vector<std::int32_t> index;     // row * columns + column, 0-based
+    std::vector<std::int32_t> contact;   // index of the contact to which it belongs
+    std::vector<double> pressure;        // [force/length^2]
+    std::vector<std::int32_t> cohesive;  // adhesion: pixels that are attracted without contact, row by row
+    double tension = 0;                  // their traction [force/length^2]
+    double x_of(std::int32_t pixel) const { return x0 + pixel % columns * dx; }
+    double y_of(std::int32_t pixel) const { return y0 + pixel / columns * dy; }
+    double x(std::size_t k) const { return x_of(index[k]); }
+    double y(std::size_t k) const { return y_of(index[k]); }
 };
 
 // Plastic residual of boundary elements: the points that are permanently lowered, row by row.
 struct ResidualProfile {
     std::vector<double> x, y, depth;  // [length]
     double dx = 0, dy = 0;            // sides of a pixel [length]
+};
+
+// Adhesive asperities, in contact or attracted before it: the traction of each is a Hertz pressure of the force `pressed` over the contact
+// radius a, and a tension of the force `pulled` (negative) up to the radius c >= a: that of a flat punch if c = a (JKR), otherwise that of a
+// cohesive ring (contact/deflection.hpp). Empty without adhesion.
+struct LevelTractions {
+    std::vector<double> x, y, a, c, pressed, pulled;
 };
 
 // A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
@@ -110,6 +121,7 @@ struct Level : LevelValues {
     std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
     std::vector<double> u;      // penetration with interaction [length]
     LevelPixels pixels;
+    LevelTractions tractions;
     std::vector<double> own_area;  // area of an elliptic spot not covered by earlier spots; the sum is the area of the union; empty: pi a^2
     std::vector<int> yields;       // nonzero if the contact yields (hardness); empty or one per contact
 

@@ -9,7 +9,11 @@ namespace rsc {
 namespace {
 
 // Pressures by point index, row * nx + column.
-using Pressures = std::map<std::int64_t, double>;
+struct Load {
+    double pressure = 0;
+    bool touches = false;
+};
+using Pressures = std::map<std::int64_t, Load>;
 
 // Columns and rows first .. last.
 struct Range {
@@ -27,9 +31,11 @@ Range points_within(double origin, double step, int n, double low, double high) 
 
 int wrapped(int i, int n) { return (i % n + n) % n; }
 
-void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Level& level, std::size_t k) {
-    const double x = level.x[k], y = level.y[k], a = level.a[k];
-    const bool uniform = k < level.yields.size() && level.yields[k];
+// Adds a force over the points within the radius a, or the nearest point, in proportion to shape(1 - d^2/a^2) at the distance d.
+// If `whole`, the integral of the shape over the disc, is positive, points with 1 - d^2/a^2 < edge share equally what the others leave of it.
+template <class Shape>
+void add_disc(Pressures& all, const HeightMap& map, bool repeats, double x, double y, double a, double force, double contact, Shape&& shape,
+              double whole = 0, double edge = 0) {
     const auto range = [&](double origin, double step, int n, double centre) {
         const Range r{static_cast<int>(std::ceil((centre - a - origin) / step)),
                       static_cast<int>(std::floor((centre + a - origin) / step))};
@@ -38,29 +44,60 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Level& l
     const Range columns = range(map.x0, map.dx, map.nx, x), rows = range(map.y0, map.dy, map.ny, y);
     Pressures spot;
     double sum = 0;
+    std::vector<Load*> outermost;
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) {
-            const double t = 1 - (std::pow(map.x0 + i * map.dx - x, 2) + std::pow(map.y0 + j * map.dy - y, 2)) / (a * a);
+            const double d2 = std::pow(map.x0 + i * map.dx - x, 2) + std::pow(map.y0 + j * map.dy - y, 2), t = 1 - d2 / (a * a);
             if (!(t > 0)) continue;
-            const double p = uniform ? 1 : std::sqrt(t);
-            spot[std::int64_t{wrapped(j, map.ny)} * map.nx + wrapped(i, map.nx)] += p;
+            const double p = whole > 0 && t < edge ? 0 : shape(t);
+            Load& here = spot[std::int64_t{wrapped(j, map.ny)} * map.nx + wrapped(i, map.nx)];
+            here.pressure += p;
+            here.touches = here.touches || d2 < contact * contact;
             sum += p;
+            if (whole > 0 && t < edge) outermost.push_back(&here);
         }
+    const double rest = std::max(whole / (map.dx * map.dy) - sum, 0.0);
+    for (Load* load : outermost) load->pressure += rest / static_cast<double>(outermost.size());
+    if (!outermost.empty()) sum += rest;
     if (!(sum > 0)) {
         const auto nearest = [&](double origin, double step, int n, double centre) {
             const int i = static_cast<int>(std::round((centre - origin) / step));
             return repeats ? wrapped(i, n) : std::clamp(i, 0, n - 1);
         };
-        spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, y)} * map.nx + nearest(map.x0, map.dx, map.nx, x), sum = 1.0}};
+        sum = 1;
+        spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, y)} * map.nx + nearest(map.x0, map.dx, map.nx, x), {1.0, contact > 0}}};
     }
-    for (const auto& [point, p] : spot) all[point] += level.f[k] * p / (sum * map.dx * map.dy);
+    for (const auto& [point, load] : spot) {
+        Load& here = all[point];
+        here.pressure += force * load.pressure / (sum * map.dx * map.dy);
+        here.touches = here.touches || load.touches;
+    }
 }
 
 Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     Pressures all;
-    for (std::size_t k = 0; k < level.pixels.index.size(); ++k) all[level.pixels.index[k]] = level.pixels.pressure[k];
+    for (std::size_t k = 0; k < level.pixels.index.size(); ++k) all[level.pixels.index[k]] = {level.pixels.pressure[k], true};
+    for (const std::int32_t k : level.pixels.cohesive) all[k] = {level.pixels.tension, false};
     if (!all.empty()) return all;
-    for (std::size_t k = 0; k < level.f.size(); ++k) add_spot(all, map, repeats, level, k);
+    const auto hertz = [](double t) { return std::sqrt(t); };
+    const LevelTractions& at = level.tractions;
+    for (std::size_t k = 0; k < at.x.size(); ++k) {
+        const double a = at.a[k], c = at.c[k];
+        if (a > 0) add_disc(all, map, repeats, at.x[k], at.y[k], a, at.pressed[k], a, hertz);
+        const auto tension = [&](double t) {
+            if (c == a) return 1 / std::sqrt(t);
+            return 2 / std::numbers::pi * std::atan2(std::sqrt(c * c - a * a), std::sqrt(std::max(a * a - (1 - t) * c * c, 0.0)));
+        };
+        // The tension of JKR is infinite at the edge: points within a step of it have the mean there.
+        add_disc(all, map, repeats, at.x[k], at.y[k], c, at.pulled[k], a, tension, c == a ? 2 * std::numbers::pi * a * a : 0,
+                 2 * std::max(map.dx, map.dy) / c);
+    }
+    if (!at.x.empty()) return all;
+    for (std::size_t k = 0; k < level.f.size(); ++k) {
+        const bool uniform = k < level.yields.size() && level.yields[k];
+        add_disc(all, map, repeats, level.x[k], level.y[k], level.a[k], level.f[k], level.a[k],
+                 [&](double t) { return uniform ? 1.0 : std::sqrt(t); });
+    }
     return all;
 }
 
@@ -78,7 +115,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
                 std::fill_n(row, map.nx, 0.0);
                 const std::int64_t begin = std::int64_t{j} * map.nx;
                 for (auto k = pressures.lower_bound(begin); k != pressures.end() && k->first < begin + map.nx; ++k)
-                    row[k->first - begin] = k->second / body.modulus();
+                    row[k->first - begin] = k->second.pressure / body.modulus();
             },
             [&](int j, const double* row) {
                 if (j < rows.first || j > rows.last) return;
@@ -92,7 +129,8 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
     std::vector<Pixel> sources, where;
     std::vector<double> p;
     double raised = 0;
-    for (const auto& [point, value] : pressures) {
+    for (const auto& [point, load] : pressures) {
+        const double value = load.pressure;
         sources.push_back({static_cast<int>(point % map.nx), static_cast<int>(point / map.nx)});
         p.push_back(value);
         raised += body.bulge() * value * map.dx * map.dy;  // uniform offset included in the products, subtracted below
@@ -150,12 +188,14 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     for (std::size_t s = 0; s < levels.size(); ++s) {
         const Level& level = *levels[s].level;
         std::vector<double> p(points, 0.0);
-        for (const auto& [point, value] : pressures[s]) {
+        std::vector<std::int32_t> touches(points, 0);
+        for (const auto& [point, load] : pressures[s]) {
             const int i = static_cast<int>(point % map.nx) - columns.first, j = static_cast<int>(point / map.nx) - rows.first;
-            if (i >= 0 && i < columns.size() && j >= 0 && j < rows.size()) p[at(j) * f.x.size() + at(i)] = value;
+            if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
+            p[at(j) * f.x.size() + at(i)] = load.pressure;
+            touches[at(j) * f.x.size() + at(i)] = load.touches;
         }
-        if (asked.contact)
-            for (const double value : p) f.contact.push_back(value > 0);
+        if (asked.contact) f.contact.insert(f.contact.end(), touches.begin(), touches.end());
         if (asked.gap) {
             std::vector<double> gap(points, 0.0);
             if (interaction != Interaction::none) gap = deflections(map, indenter, pressures[s], columns, rows);
@@ -169,7 +209,9 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
                 const std::size_t i = k % f.x.size(), j = k / f.x.size();
                 const double z = map(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
                 gap[k] += level.separation - indenter.clearance(f.x[i], f.y[j], z);
-                gap[k] = p[k] > 0 ? 0 : std::isfinite(gap[k]) ? std::max(gap[k], 0.0) : kNotComputed;  // NaN outside a map of the indenter
+                gap[k] = touches[k]              ? 0
+                         : std::isfinite(gap[k]) ? std::max(gap[k], 0.0)
+                                                 : kNotComputed;  // NaN outside a map of the indenter
             }
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }

@@ -45,6 +45,31 @@ void test_yielding(const std::string& keys, const Folder& folder) {
     }
 }
 
+// With adhesion, a contact that is saved after a move of its tip goes on from there, with the deflections of its tension.
+void test_moved(const std::string& keys, const Folder& folder) {
+    Made made("adhesion=0.5 " + keys + " / &compare levels='none' /");
+    rsc_contact *contact = made.contact, *saved = nullptr;
+    const std::string path = folder / "save";
+    force_at(contact, 0.01);
+    CHECK(rsc_contact_commit(contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_move_tip(contact, 0.55, 0.48) == RSC_SUCCESS);
+    const double moved = force_at(contact, 0.01);
+    CHECK(moved != 0 && rsc_contact_commit(contact) == RSC_SUCCESS);
+    CHECK(rsc_contact_save(contact, path.c_str()) == RSC_SUCCESS);
+    CHECK(rsc_contact_restore(&saved, made.asperities, path.c_str()) == RSC_SUCCESS);
+    CHECK_RELATIVE(value(saved, "force"), moved, 1e-15);
+    const double x[] = {0.5, 0.552}, y[] = {0.5, 0.481};
+    double before[2], after[2];
+    CHECK(rsc_contact_deflection(contact, 2, x, y, before) == RSC_SUCCESS && rsc_contact_deflection(saved, 2, x, y, after) == RSC_SUCCESS);
+    for (int k = 0; k < 2; ++k) CHECK_RELATIVE(after[k], before[k], 1e-15);
+    for (rsc_contact* one : {contact, saved}) CHECK(rsc_contact_move_tip(one, 0.47, 0.5) == RSC_SUCCESS);
+    for (const double Z : {0.01, 0.013, 0.008}) {
+        CHECK_RELATIVE(force_at(saved, Z), force_at(contact, Z), kTolerance);
+        CHECK_RELATIVE(value(saved, "energy_lost"), value(contact, "energy_lost"), 10 * kTolerance);
+    }
+    rsc_contact_destroy(&saved);
+}
+
 struct Path {
     double N = 0, Qx = 0, Qy = 0, tangential = 0, lost = 0;
 };
@@ -121,6 +146,7 @@ void test_watched(const Folder& folder) {
 TESTS {
     test_yielding("", Folder());
     test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
+    for (const char* range : {"", "adhesion_range=2e-4"}) test_moved(range, Folder());
     test_rolling();
     test_watched(Folder());
 }

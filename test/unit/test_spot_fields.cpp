@@ -78,7 +78,7 @@ void test_fields() {
     const double E_star = 7e4;
     for (const double dy : {0.01, 0.03}) {
         Level level;
-        level.pixels = {10, 0.1, 0.2, 0.02, dy, {3, 4, 13, 44}, {0, 0, 0, 1}, {100, 300, 200, 50}};
+        level.pixels = {10, 0.1, 0.2, 0.02, dy, {3, 4, 13, 44}, {0, 0, 0, 1}, {100, 300, 200, 50}, {}, 0};
         for (const auto& [x, y] : {std::pair{0.16, 0.2}, {0.17, 0.2 + dy}, {0.3, 0.5}, {-1.0, 0.1}}) {
             double sum = 0;
             for (std::size_t k = 0; k < 4; ++k)

@@ -87,6 +87,7 @@ Sticking::State Sticking::bare(int asperity, double s) const {
     const double A = law_.area(asperity, s), h = std::sqrt(w_ * A / D), lh = law_.widening(asperity, s) * h;
     state.u = s - 2 * h;
     state.f = f0 - 2 * h * D;
+    state.pressed = f0;
     state.du = 1 - lh;
     state.df = D * (1 - 3 * lh);
     state.stiffness = D;
@@ -116,6 +117,7 @@ Sticking::State Sticking::attracting(const Limits& of, double s) const {
     state.u = apart ? 0.5 * c * c / r - 4 * s0 * c / (pi * E) - z0_ : a * a / r - 2 * s0 * e / E;
     const double root = 0.5 * (a * e + c * c * alpha);  // int_0^a sqrt(c^2 - t^2) dt
     state.f = 2 * E * a * (state.u - a * a / (3 * r)) - 4 * s0 * (0.25 * pi * c * c - root);
+    state.pressed = 4 * E * a * a * a / (3 * r);
     // Derivatives with respect to c at a constant gap z0 at c: u_a da = G_c/(2 beta/pi) dc.
     const double u_c = -2 * s0 * c / (E * e);
     const double G_c = c / r - u_c * 2 * beta / pi + 2 / pi * ((a * e / c - c * alpha) / r - 2 * s0 / E * (1 - a / c));

@@ -42,6 +42,7 @@ public:
         double stiffness = 0;   // D: df/du at a fixed contact area
         double energy = 0;      // elastic energy minus w A; in equilibrium its derivative with respect to u is f
         double area = 0;
+        double pressed = 0;   // force of the law at this area; f - pressed is the tension
         double outer = 0;     // area including the cohesive ring
         bool beyond = false;  // the radius is constant
     };

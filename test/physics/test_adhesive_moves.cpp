@@ -1,0 +1,78 @@
+// A tip that moves sideways over attached asperities that interact: its work over a closed cycle is the energy lost.
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "adhesive_paths.hpp"
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "contact/lateral.hpp"
+
+using namespace rsc;
+
+namespace {
+
+// Moves the tip along x at the separation Z, and returns the work of the lateral force. Where no asperity attaches or detaches, the work of a
+// step is also the change of the energy. Jumps are found by going back to the memory and halving the way.
+double work_of_move(Contact& contact, double Z, double end, int& jumps) {
+    double work = 0;
+    constexpr double longest = 4e-3, least = 1e-9, precise = 1e-10;
+    const auto force_at = [&](double x, Level& level) {
+        contact.move_tip(x, 0.5);
+        level = contact.at_separation(Z);
+        return -lateral_force(contact.indenter(), level).x;
+    };
+    const std::function<void(double, int)> go = [&](double to, int depth) {
+        const double from = contact.indenter().x0, middle = 0.5 * (from + to), width = to - from;
+        const std::vector<double> memory = contact.memory();
+        Level begin, half, last;
+        const double f = force_at(from, begin), energy = contact.energy(), g = force_at(to, last), change = contact.energy() - energy;
+        const bool jump = last.energy_lost != begin.energy_lost;
+        contact.recall(memory, &begin);
+        if (jump && std::abs(width) < least) {
+            work += 0.5 * width * (f + g);
+            (void)force_at(to, last);
+            ++jumps;
+            return;
+        }
+        const double m = force_at(middle, half), simpson = width * (f + 4 * m + g) / 6;
+        if (jump || (std::abs(simpson - 0.5 * width * (f + g)) > precise && depth < 30)) {
+            contact.recall(memory, &begin);
+            go(middle, depth + 1);
+            go(to, depth + 1);
+            return;
+        }
+        CHECK_CLOSE(simpson, change, 0.1 * precise);
+        work += simpson;
+        (void)force_at(to, last);
+    };
+    while (contact.indenter().x0 != end) {
+        const double rest = end - contact.indenter().x0;
+        go(std::abs(rest) < longest ? end : contact.indenter().x0 + std::copysign(longest, rest), 0);
+    }
+    return work;
+}
+
+void test_cycle() {
+    for (const double range : {0.0, 0.002}) {
+        const RandomAsperities system = random_asperities(6, 31, 0.2);
+        SolverOptions options;
+        options.tolerance = 1e-12;
+        options.adhesion = {system.w, range};
+        const auto contact = make_asperity_contact(system.asperities, {5.0, 5.0, 0.1, 0.5}, options);
+        const double Z = 0.006;
+        (void)contact->at_separation(Z);
+        int jumps = 0;
+        (void)work_of_move(*contact, Z, 0.9, jumps), (void)work_of_move(*contact, Z, 0.1, jumps);
+        const double energy = contact->energy(), lost = contact->at_separation(Z).energy_lost;
+        jumps = 0;
+        const double work = work_of_move(*contact, Z, 0.9, jumps) + work_of_move(*contact, Z, 0.1, jumps);
+        CHECK(jumps >= 2);
+        CHECK_RELATIVE(contact->energy(), energy, 1e-7);
+        CHECK_RELATIVE(work, contact->at_separation(Z).energy_lost - lost, 1e-5);
+    }
+}
+
+}  // namespace
+
+TESTS { test_cycle(); }
