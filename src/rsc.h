@@ -313,8 +313,9 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * position: whole periods do not count, and rsc_contact_tip returns the position within the surface's rectangle. From the first move on
  * contacts continue across the border of such a surface, half a period to each side of the tip (elements: at least a quarter). On other
  * surfaces a position above the surface; for asperities from arrays without surface%L, no farther from them than the sphere's radius.
- * With solids%adhesion attached asperities follow on the straight way at the last separation; the next level includes their jumps. While
- * elements attract the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
+ * With solids%adhesion attached asperities follow on the straight way at the last separation, on a periodic surface the shortest one; the
+ * next level includes their jumps. While elements attract, or asperities are attached near the edge of a body (a punch), the tip cannot be
+ * moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
  * RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
@@ -336,7 +337,7 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
 
 /* Computes the contact at a separation. The result depends on the separation and the tip only; with solids%hardness or
  * solids%adhesion also on the levels before (with adhesion it follows from the last level under prescribed separation). A level near
- * the last one is computed faster; the last one itself is not computed again.
+ * the last one is computed faster; the last one itself is not computed again, except with adhesion.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate; RSC_NO_MEMORY,
  * RSC_INTERNAL, after which the contact has no result. */

@@ -220,11 +220,11 @@ int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation) 
 int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force) {
     return on(contact, "contact", 2, [&] {
         require_finite(separation, 2, "separation");
-        // The present level is not computed again.
+        // The present level is not computed again, unless the state may have changed on a way of the tip there and back.
         const rsc::Indenter& tip = contact->contact.indenter();
         const auto& known = contact->known;
         const bool same = known.level && known.level->separation == separation && known.x0 == tip.x0 && known.y0 == tip.y0 &&
-                          (!contact->contact.relaxes() || known.level->time == contact->contact.time());
+                          !contact->contact.pulls() && (!contact->contact.relaxes() || known.level->time == contact->contact.time());
         if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
         put(force, contact->known.level->force);
         tell_convergence(*contact);

@@ -7,7 +7,7 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kBefore = 5;  // numbers in memory() before the pairs
+constexpr std::size_t kBefore = 6;  // numbers in memory() before the pairs
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -135,7 +135,7 @@ std::vector<double> AdhesiveContact::memory() const {
     const AdhesivePath::Past& past = impl_->accepted;
     if (past.separation == kInfinity) return {};
     const Indenter& tip = impl_->indenter;
-    std::vector<double> numbers = {tip.x0, tip.y0, past.separation, past.lost, past.least_force};
+    std::vector<double> numbers = {tip.x0, tip.y0, past.separation, past.lost, past.least_force, static_cast<double>(past.jumps)};
     for (std::size_t k = 0; k < past.asperity.size(); ++k)
         numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
     return numbers;
@@ -146,9 +146,10 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
     my.accepted = {};
     if (!memory.empty()) {
         AdhesivePath::Past& past = my.accepted;
-        bool sound = memory.size() % 2 == 1 && memory.size() >= kBefore;
+        bool sound = memory.size() % 2 == 0 && memory.size() >= kBefore;
         for (double value : memory) sound = sound && std::isfinite(value);
-        if (sound) past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4];
+        if (sound)
+            past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4], past.jumps = static_cast<int>(memory[5]);
         for (std::size_t k = kBefore; sound && k + 1 < memory.size(); k += 2) {
             sound = memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && memory[k + 1] > 0;
             if (!sound) break;

@@ -1,5 +1,6 @@
 // The path of adhesive asperities while the tip moves at one separation.
 #include "contact/adhesive_path.hpp"
+#include "error.hpp"
 
 namespace rsc {
 namespace {
@@ -35,14 +36,54 @@ void AdhesivePath::set_power(Point& point) const {
 }
 
 // Follows the accepted state while the tip moves on a straight line at the accepted separation. Returns false if the path is lost; the
-// accepted state is then unchanged.
+// accepted state and the tip are then unchanged, as after an exception. On a surface that repeats the way is the shortest one, and is
+// taken in pieces that are short against the period, so that images of asperities are the nearest ones all along.
 bool AdhesivePath::move(double x0, double y0) {
+    const Indenter old = indenter;
+    const Past before = accepted;
+    const auto place_tip = [&](const Indenter& tip) {
+        motion.reset();
+        indenter = tip;
+        ranking.assign(asperities, indenter);
+    };
+    Vec2 way{x0 - old.x0, y0 - old.y0};
+    int pieces = 1;
+    if (const Period& period = old.repeats; period.finite()) {
+        constexpr double pieces_of_period = 8;
+        way = {period.nearest_x(way.x), period.nearest_y(way.y)};
+        pieces =
+            std::max(1, static_cast<int>(std::ceil(pieces_of_period * std::max(std::abs(way.x) / period.x, std::abs(way.y) / period.y))));
+    }
+    const auto position = [&](int k) { return Vec2{old.x0 + way.x * k / pieces, old.y0 + way.y * k / pieces}; };
+    bool done = true;
+    try {
+        for (int k = 0; k < pieces && done; ++k) {
+            done = move_piece(position(k), position(k + 1));
+            Indenter tip = old;
+            tip.move(position(k + 1).x, position(k + 1).y);
+            place_tip(tip);
+        }
+    } catch (...) {
+        accepted = before;
+        place_tip(old);
+        throw;
+    }
+    if (!done) accepted = before;
+    Indenter tip = old;
+    if (done) tip.move(x0, y0);
+    place_tip(tip);
+    return done;
+}
+
+bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
     begin(accepted.separation);
     if (lost_way) return false;
-    const Indenter old = indenter;
-    indenter.move(x0, y0);
-    motion = Motion{{old.x0, old.y0}, {x0, y0}, accepted.separation};
+    indenter.move(from.x, from.y);
+    motion = Motion{from, to, accepted.separation};
     cover(0);
+    if (motion->edge)
+        throw Error(Failure::bad_input,
+                    "a body with an edge cannot be moved while asperities are attached near its edge: pull it off first");
     double length = 0;
     for (int i : set.asperity) {
         const double middle = clearance_at(i, 0.5);
@@ -50,12 +91,11 @@ bool AdhesivePath::move(double x0, double y0) {
     }
     if (length > 0) motion->length = length;
     const bool done = find(0, here.s, here) && (complete(here), go(motion->length, std::nullopt), !lost_way) && here.Z == motion->length;
-    if (done) now = past(), now.separation = motion->Z0, now.jumps += jumps, accepted = now;
-    motion.reset();
-    indenter = old;
-    if (done) indenter.move(x0, y0);
-    ranking.assign(asperities, indenter);
-    return done;
+    Past left = past();
+    left.separation = motion->Z0, left.jumps += jumps;
+    if (!done || !std::isfinite(left.lost) || !std::isfinite(left.least_force)) return false;
+    accepted = now = left;
+    return true;
 }
 
 }  // namespace rsc

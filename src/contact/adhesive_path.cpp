@@ -60,8 +60,10 @@ void AdhesivePath::cover(double lowest) {
     };
     for (int i = 0; motion && i < static_cast<int>(asperities.size()); ++i) {
         // The largest clearance on the way is at most that of the ends plus twice the bend, as on a parabola.
-        const double begin = clearance_at(i, 0), middle = clearance_at(i, 0.5), end = clearance_at(i, 1);
-        if (std::max(begin, end) + 2 * std::abs(middle - 0.5 * (begin + end)) <= motion->Z0 - margin) continue;
+        const double begin = clearance_at(i, 0), middle = clearance_at(i, 0.5), end = clearance_at(i, 1),
+                     bend = 2 * std::abs(middle - 0.5 * (begin + end));
+        if (std::max({begin, middle, end}) + (std::isfinite(bend) ? bend : 0.0) <= motion->Z0 - margin) continue;
+        motion->edge = motion->edge || !std::isfinite(bend);
         fresh.push_back(i), add(i, middle);
     }
     sticking.prepare(fresh);

@@ -47,6 +47,7 @@ struct AdhesivePath : ContactBodies {
     struct Motion {
         Vec2 from, to;
         double Z0 = 0, length = 1;
+        bool edge = false;  // asperities that may attach lie outside the body somewhere on the way
     };
     std::optional<Motion> motion;
     std::vector<int> place;                                    // position of an asperity in the set; -1: not in the set
@@ -87,6 +88,7 @@ struct AdhesivePath : ContactBodies {
     void set_power(Point& point) const;
     double clearance_at(int asperity, double share);  // with the tip at this share of its way
     bool move(double x0, double y0);
+    bool move_piece(Vec2 from, Vec2 to);
     Point least_between(const Point& a, const Point& b);
     bool find_force(const Point& a, const Point& b, double wanted);
     double scale(int position) const { return -sticking.lets_go(set.asperity[static_cast<std::size_t>(position)]); }

@@ -297,18 +297,22 @@ std::optional<Level> ElementContact::solve_under(double N) {
         const double last = force(my.past[0]);
         return !(my.top > my.past[0].separation) || !(last > N / kMostTimes) || !(last < N * kMostTimes);
     };
-    const auto levels = my.past;  // trials are no levels
-    const std::size_t since_move = my.since_move;
+    struct Levels {  // trials are no levels: restored at the end, also after an exception
+        Impl& my;
+        decltype(my.past) past = my.past;
+        std::size_t since_move = my.since_move;
+        bool restored = false;
+        void restore() {
+            if (!std::exchange(restored, true)) my.past = std::move(past), my.since_move = since_move;
+        }
+        ~Levels() { restore(); }
+    } levels{my};
     const bool cold = far();
     if (cold) my.past.clear();
     ElementsOutcome outcome;
     const auto solved = [&](double tolerance, int iterations, std::optional<double> sum) {
         const ElementsOutcome now = my.solver.solve(my.pixels, my.g0, tolerance, iterations, my.p, sum);
         outcome = {now.converged, outcome.iterations + now.iterations, outcome.products + now.products, now.residual};
-    };
-    const auto give_up = [&] {
-        my.past = levels, my.since_move = since_move;
-        return std::nullopt;
     };
     if (cold) {  // a rough solution near N
         constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3;
@@ -322,12 +326,12 @@ std::optional<Level> ElementContact::solve_under(double N) {
             my.remember(my.top - depth);
             const double ratio = N / force(my.past[0]);
             if (ratio < most_below && ratio > 1 / most_above) break;
-            if (i == searches) return give_up();
+            if (i == searches) return std::nullopt;
             depth *= std::clamp(std::pow(ratio, 1 / 1.5), 1 / widest, widest);
         }
         my.past.resize(1);
     }
-    if (far()) return give_up();
+    if (far()) return std::nullopt;
     const double N0 = force(my.past[0]), depth = my.top - my.past[0].separation;
     double power = 1.5;  // of a sphere; larger for rough surfaces, 1 in full contact
     if (my.past.size() > 1) {
@@ -341,9 +345,9 @@ std::optional<Level> ElementContact::solve_under(double N) {
     for (int i = 0; i < trials; ++i) {
         my.select(lowest);
         my.predict(expected);
-        if (std::none_of(my.p.begin(), my.p.end(), [](double p) { return p > 0; })) return give_up();
+        if (std::none_of(my.p.begin(), my.p.end(), [](double p) { return p > 0; })) return std::nullopt;
         solved(my.options.tolerance, my.options.max_iterations, N / pixel);
-        if (!outcome.converged) return give_up();
+        if (!outcome.converged) return std::nullopt;
         const double rise = my.solver.rise();
         if (rise < 0) {  // points are missing; the next trial starts from this one
             expected = lowest + rise;
@@ -358,11 +362,11 @@ std::optional<Level> ElementContact::solve_under(double N) {
             my.pixels[kept] = my.pixels[k], my.g0[kept] = my.g0[k] - rise, my.p[kept++] = my.p[k];
         }
         my.pixels.resize(kept), my.g0.resize(kept), my.p.resize(kept);
-        my.past = levels, my.since_move = since_move;
+        levels.restore();
         my.remember(lowest + rise);
         return my.report(lowest + rise, outcome);
     }
-    return give_up();
+    return std::nullopt;
 }
 
 // Stores the last solution as a starting point for later levels.

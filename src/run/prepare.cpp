@@ -81,7 +81,8 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
     const auto& keys = settings.surface;
     const bool part = windowed && keys.window[0];
     // Of two maps one may be a text file, to which alone these keys apply.
-    const bool for_other = !settings.indenter.file.empty() && !is_text_map(path) && (!windowed || is_text_map(settings.indenter.file));
+    const std::string other = windowed ? settings.indenter.file : keys.source == Source::heights ? map_file(keys.file, 1) : "";
+    const bool for_other = !other.empty() && is_text_map(other) && !is_text_map(path);
     Surface surface;
     surface.map = read_heights(path, L, settings.run.length_unit, channel, part ? Missing::fill : keys.missing,
                                for_other ? TextMap{} : TextMap{keys.height_unit, keys.pixel});

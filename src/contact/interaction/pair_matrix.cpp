@@ -86,7 +86,7 @@ bool PairMatrix::too_large(std::size_t active, std::size_t others) const { retur
 bool PairMatrix::stale(std::size_t active) {
     constexpr int often = 16;
     small_ = x_.size() > 2 * active + 256 ? small_ + 1 : 0;
-    return small_ > often || values_ > 2 * kMostValues;
+    return small_ > often || values_ > kMostValues;
 }
 
 void PairMatrix::grow() {

@@ -173,7 +173,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
     constexpr double certain = 1e-3;  // share of diag(u') v that must be left; products may have small errors
     const std::vector<int>& active = products_->active();
     const auto place = [&](std::size_t k) { return static_cast<std::size_t>(active[k]); };
-    if (products_->kernel().lattice() || !apart(set)) return false;
+    if (products_->kernel().lattice() || products_->kernel().smooth() || !apart(set)) return false;  // the proof needs B >= 0
     proof_.resize(phi_.size(), 0.0);
     for (int round = 0; round < most; ++round) {
         bool any = false, holds = true;
@@ -199,8 +199,13 @@ bool AttachedSolver::proved(const WorkingSet& set) {
 }
 
 bool AttachedSolver::stable(const WorkingSet& set) {
-    if (proved(set)) return true;
     const std::size_t n = state_.size();
+    for (std::size_t k = 0; k < n; ++k)
+        if (1 + state_[k].stiffness * products_->kernel().self() <= 0) {  // sinks in by itself on a soft layer: no minimum of the energy
+            weakest_ = k;
+            return false;
+        }
+    if (proved(set)) return true;
     Vector right(n, -1.0), derivative, x;
     solve_linear(right, 1e-6, derivative);
     const double shift = products_->kernel().shift();
