@@ -25,7 +25,7 @@ constexpr double kGrown = 2, kShrunk = 0.75;
 
 OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave)
     : read_(!job.spectrum) {
-    if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution
+    if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution (contact/adhesive_elements.cpp)
     if (read_) {
         if (std::min(map.nx, map.ny) < kFewestPoints || (map.periodic && (map.nx % 2 != 0 || map.ny % 2 != 0))) return;
         map_ = every_second_point(map);

@@ -244,8 +244,10 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
     const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) { return l.force_error_expected >= 0; });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
-    out << format("level %td: N = %.4g %s +- %s, A = %.4g %s2 +- %s: bounds valid in nine of ten cases\n", levels.rend() - last,
-                  last->force, f, percent(last->force_error_expected).c_str(), last->area, l, percent(last->area_error_expected).c_str());
+    const std::string area =
+        last->area_error_expected >= 0 ? format(", A = %.4g %s2 +- %s", last->area, l, percent(last->area_error_expected).c_str()) : "";
+    out << format("level %td: N = %.4g %s +- %s%s: bounds valid in nine of ten cases\n", levels.rend() - last, last->force, f,
+                  percent(last->force_error_expected).c_str(), area.c_str());
 }
 
 // The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that relax.

@@ -79,7 +79,7 @@ double pull_off_error(double lambda, double resolution) {
     const double end = truth.at(truth.last()).u;  // negative
     const int steps = 16;
     double least = 0;
-    int jumps = 0;
+    int jumps = 0, inside = 0, compared = 0;
     for (int k = 0; k <= steps; ++k) {
         const double u = 1.15 * end * k / steps;
         level = contact->at_separation(-u);
@@ -90,8 +90,12 @@ double pull_off_error(double lambda, double resolution) {
             // First order in h/z0: an edge may rest anywhere within a pixel, where the traction s0 acts or not.
             CHECK_CLOSE(level.force, truth.pressed(u).f, 0.35 / resolution * unit);
             CHECK_CLOSE(level.a.at(0), truth.pressed(u).a, h);
+            inside += std::abs(level.force - truth.pressed(u).f) <= level.force_error_expected * std::abs(level.force);
+            ++compared;
+            CHECK(level.force_error_expected * std::abs(level.force) < 0.5 / resolution * unit);
         }
     }
+    CHECK(inside >= 0.9 * compared);  // of the expected error
     level = contact->at_separation(2 * reach);
     jumps += level.jumps;
     CHECK(jumps == 1);
