@@ -181,6 +181,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, 
         c.failed += !found;
         const auto error = [&](double model, double elements) { return found && elements != 0 ? model / elements - 1 : kNotComputed; };
         ComparedLevel row{static_cast<std::int32_t>(step), truth.separation, truth.force, truth.area, truth.area_pixels, truth.residual};
+        row.force_error_expected = truth.force_error_expected;
         if (own) row.force_error_expected = own->force, row.area_error_expected = own->area;
         row.contacts = truth.contacts, row.columns = reference.map().nx, row.rows = reference.map().ny;
         if (!by_force) row.force_error = error(level.force, truth.force);

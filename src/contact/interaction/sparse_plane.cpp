@@ -88,14 +88,13 @@ double PixelStencil::sum() const {
     return all;
 }
 
-SparsePlane::SparsePlane(int nx, int ny) : nx_(nx), ny_(ny), stride_(at(nx + 2 * kMargin + 7) / 8 * 8), plane_(nullptr, release) {}
+SparsePlane::SparsePlane(int nx, int ny) : nx_(nx), ny_(ny), stride_(at(nx + 2 * kMargin + 7) / 8 * 8) {}
 
-void SparsePlane::release(float* p) { HeightMap::Free()(reinterpret_cast<double*>(p)); }
+void SparsePlane::Free::operator()(float* p) const noexcept { HeightMap::Free()(reinterpret_cast<double*>(p)); }
 
 // Writes value(k) for the pixels k of row j, and repeats them in the margins.
 template <class F>
-void SparsePlane::place(int j, const PixelSet& set, F&& value) {
-    float* const row = plane_.get() + at(j) * stride_ + kMargin;
+void SparsePlane::place(float* row, int j, const PixelSet& set, F&& value) const {
     for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
         const int i = set.column[k];
         const float v = value(k);
@@ -105,26 +104,32 @@ void SparsePlane::place(int j, const PixelSet& set, F&& value) {
     }
 }
 
+// Works on bands of rows, each of which is copied together with the rows within reach, so that the values remain in the cache.
 void SparsePlane::convolve(const PixelStencil& stencil, const PixelSet& set, const float* x, float* y, int threads) {
-    if (!plane_) {
-        const std::size_t n = stride_ * at(ny_) / 2;
-        plane_.reset(reinterpret_cast<float*>(allocate_doubles(n, "the pressures on some pixels")));
-        std::fill_n(plane_.get(), 2 * n, 0.0f);
+    for (std::size_t count = most_threads(threads); bands_.size() < count;) {
+        const std::size_t n = stride_ * at(kBand + 2 * kMostReach) / 2;
+        bands_.emplace_back(reinterpret_cast<float*>(allocate_doubles(n, "the pressures on some pixels")));
+        std::fill_n(bands_.back().get(), 2 * n, 0.0f);
     }
-    parallel_for(ny_, kRows, threads, [&](int j) { place(j, set, [&](std::size_t k) { return x[k]; }); });
     const int reach = stencil.reach();
-    parallel_for(ny_, kRows, threads, [&](int j) {
-        const float* rows[2 * kMostReach + 1];
-        if (set.rows[at(j)] == set.rows[at(j) + 1]) return;
-        for (int b = -reach; b <= reach; ++b) rows[b + reach] = plane_.get() + at(((j + b) % ny_ + ny_) % ny_) * stride_ + kMargin;
-        for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1];) {
-            const int first = set.column[k];
-            float values[kWide];
-            convolve_eight(reach, stencil.taps_.data(), rows, first, values);
-            for (; k < set.rows[at(j) + 1] && set.column[k] < first + static_cast<int>(kWide); ++k) y[k] = values[set.column[k] - first];
+    parallel_for((ny_ + kBand - 1) / kBand, 1, threads, [&](int band, std::size_t worker) {
+        const int first = band * kBand, end = std::min(first + kBand, ny_);
+        if (set.rows[at(first)] == set.rows[at(end)]) return;
+        const auto row = [&](int j) { return bands_[worker].get() + at(j - first + reach) * stride_ + kMargin; };
+        const auto of_plane = [&](int j) { return (j % ny_ + ny_) % ny_; };
+        for (int j = first - reach; j < end + reach; ++j) place(row(j), of_plane(j), set, [&](std::size_t k) { return x[k]; });
+        for (int j = first; j < end; ++j) {
+            const float* rows[2 * kMostReach + 1];
+            for (int b = -reach; b <= reach; ++b) rows[b + reach] = row(j + b);
+            for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1];) {
+                const int from = set.column[k];
+                float values[kWide];
+                convolve_eight(reach, stencil.taps_.data(), rows, from, values);
+                for (; k < set.rows[at(j) + 1] && set.column[k] < from + static_cast<int>(kWide); ++k) y[k] = values[set.column[k] - from];
+            }
         }
+        for (int j = first - reach; j < end + reach; ++j) place(row(j), of_plane(j), set, [](std::size_t) { return 0.0f; });
     });
-    parallel_for(ny_, kRows, threads, [&](int j) { place(j, set, [](std::size_t) { return 0.0f; }); });
 }
 
 bool SplitPixels::suits(int nx, int ny, double aspect, const Share& share) {

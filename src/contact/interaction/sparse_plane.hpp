@@ -37,13 +37,17 @@ public:
 
 private:
     static constexpr int kMargin = kMostReach + 8;
-    static void release(float* p);
+    static constexpr int kBand = 32;
+    struct Free {
+        void operator()(float* p) const noexcept;
+    };
     template <class F>
-    void place(int j, const PixelSet& set, F&& value);
+    void place(float* row, int j, const PixelSet& set, F&& value) const;
 
     int nx_, ny_;
     std::size_t stride_;
-    std::unique_ptr<float, void (*)(float*)> plane_;  // zero between calls; margins repeat the columns of the other side
+    // Some rows for each thread, zero between calls; margins repeat the columns of the other side.
+    std::vector<std::unique_ptr<float[], Free>> bands_;
 };
 
 // K of PeriodicPixels with dx = 1, to 0.3 % of the largest product (2 % with an aspect of 1.2, 3 % with layers): the part of each mode with erfc(s k)

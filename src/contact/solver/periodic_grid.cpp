@@ -145,52 +145,53 @@ void PeriodicGrid::multiply(const std::vector<double>& x, std::vector<double>& K
         multiply_by(inner_, x, Kx);
 }
 
-// Calls visit(i, position, w) for the pixels of row j in the set, and with position -1 for penetrating pixels outside it.
-template <class F>
-void PeriodicGrid::penetrating(int j, F&& visit) const {
-    const float* const inner = inner_.row(j);
-    const double* const exact = exact_ ? fine_->row(j) : nullptr;
-    std::size_t k = rows_[at(j)];
-    const std::size_t end = rows_[at(j) + 1];
-    for (int i = 0; i < nx_; ++i) {
-        const int upto = k < end ? column_[k] : nx_;
-        for (; i < upto; ++i) {
-            const double w = unit_ * (exact ? exact[i] : static_cast<double>(inner[i])) - heights_(j, i) + Z0_;
-            if (w < 0) visit(i, -1, w);
-        }
-        if (k == end) break;
-        visit(i, static_cast<std::ptrdiff_t>(k), w_[k]);
-        ++k;
-    }
-}
-
+// Also collects the penetrating pixels for renew().
 double PeriodicGrid::outside() {
-    partial_.resize(at(ny_));
+    partial_.resize(at(ny_)), outside_.resize(at(ny_));
     parallel_for(ny_, kRows, threads(), [&](int j) {
+        const float* const inner = inner_.row(j);
+        const double* const exact = exact_ ? fine_->row(j) : nullptr;
+        std::vector<Penetration>& found = outside_[at(j)];
+        found.clear();
         double part = 0;
-        penetrating(j, [&](int, std::ptrdiff_t k, double w) { part += k < 0 ? w * w : 0.0; });
+        int i = 0;
+        for (std::size_t k = rows_[at(j)]; k <= rows_[at(j) + 1]; ++k, ++i) {
+            const int upto = k < rows_[at(j) + 1] ? column_[k] : nx_;
+            for (; i < upto; ++i) {
+                const double w = unit_ * (exact ? exact[i] : static_cast<double>(inner[i])) - heights_(j, i) + Z0_;
+                if (w < 0) part += w * w, found.push_back({i, w});
+            }
+        }
         partial_[at(j)] = part;
     });
     return std::accumulate(partial_.begin(), partial_.end(), 0.0);
 }
 
-// Renews the set: pixels under pressure, and penetrating pixels without pressure.
+// Renews the set: pixels under pressure, and penetrating pixels without pressure. Those outside the set were collected by outside().
 void PeriodicGrid::renew() {
-    const auto belongs = [&](std::ptrdiff_t k, double w) { return w < 0 || p_[static_cast<std::size_t>(k)] > 0; };
+    const auto belongs = [&](std::size_t k) { return w_[k] < 0 || p_[k] > 0; };
     std::vector<std::size_t> rows(at(ny_) + 1, 0);
-    parallel_for(ny_, kRows, threads(),
-                 [&](int j) { penetrating(j, [&](int, std::ptrdiff_t k, double w) { rows[at(j) + 1] += belongs(k, w); }); });
+    parallel_for(ny_, kRows, threads(), [&](int j) {
+        rows[at(j) + 1] = outside_[at(j)].size();
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) rows[at(j) + 1] += belongs(k);
+    });
     for (int j = 0; j < ny_; ++j) rows[at(j) + 1] += rows[at(j)];
     const std::size_t n = rows.back();
     std::vector<std::int32_t> column(n);
     std::vector<double> p(n), w(n), z(n);
     parallel_for(ny_, kRows, threads(), [&](int j) {
         std::size_t next = rows[at(j)];
-        penetrating(j, [&](int i, std::ptrdiff_t k, double gap) {
-            if (!belongs(k, gap)) return;
-            column[next] = i, z[next] = heights_(j, i), w[next] = gap;
-            p[next++] = k < 0 ? 0.0 : p_[static_cast<std::size_t>(k)];
-        });
+        const auto add = [&](std::int32_t i, double pressure, double gap) {
+            column[next] = i, p[next] = pressure, w[next] = gap;
+            z[next++] = heights_(j, i);
+        };
+        auto other = outside_[at(j)].begin();
+        const auto end = outside_[at(j)].end();
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) {
+            for (; other != end && other->column < column_[k]; ++other) add(other->column, 0, other->w);
+            if (belongs(k)) add(column_[k], p_[k], w_[k]);
+        }
+        for (; other != end; ++other) add(other->column, 0, other->w);
     });
     rows_ = std::move(rows), column_ = std::move(column);
     p_ = std::move(p), w_ = std::move(w), z_ = std::move(z);

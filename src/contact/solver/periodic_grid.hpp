@@ -62,8 +62,6 @@ private:
     void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
     template <class Real>
     void multiply_by(PeriodicPixels<Real>& pixels, const std::vector<double>& x, std::vector<double>& Kx);
-    template <class F>
-    void penetrating(int j, F&& visit) const;
     double outside() override;
     void renew() override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
@@ -85,6 +83,11 @@ private:
     bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
     std::vector<std::int32_t> column_;  // of the set
     std::vector<double> partial_;
+    struct Penetration {
+        std::int32_t column;
+        double w;
+    };
+    std::vector<std::vector<Penetration>> outside_;  // by row: penetrating pixels outside the set, from the last outside()
 };
 
 }  // namespace rsc
