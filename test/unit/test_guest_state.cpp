@@ -47,27 +47,69 @@ void test_yielding(const std::string& keys, const Folder& folder) {
 
 // With adhesion, a contact that is saved after a move of its tip goes on from there, with the deflections of its tension.
 void test_moved(const std::string& keys, const Folder& folder) {
-    Made made("adhesion=0.5 " + keys + " / &compare levels='none' /");
-    rsc_contact *contact = made.contact, *saved = nullptr;
+    Made made(kSurface + "adhesion=0.5 " + keys + " / &compare levels='none' /");
+    rsc_contact* const contact = made.contact;
+    ContactHandle saved;
     const std::string path = folder / "save";
     force_at(contact, 0.01);
-    CHECK(rsc_contact_commit(contact) == RSC_SUCCESS);
-    CHECK(rsc_contact_move_tip(contact, 0.55, 0.48) == RSC_SUCCESS);
+    OK(rsc_contact_commit(contact));
+    OK(rsc_contact_move_tip(contact, 0.55, 0.48));
     const double moved = force_at(contact, 0.01);
     CHECK(moved != 0 && rsc_contact_commit(contact) == RSC_SUCCESS);
-    CHECK(rsc_contact_save(contact, path.c_str()) == RSC_SUCCESS);
-    CHECK(rsc_contact_restore(&saved, made.asperities, path.c_str()) == RSC_SUCCESS);
+    OK(rsc_contact_save(contact, path.c_str()));
+    OK(rsc_contact_restore(&saved, made.asperities, path.c_str()));
     CHECK_RELATIVE(value(saved, "force"), moved, 1e-15);
     const double x[] = {0.5, 0.552}, y[] = {0.5, 0.481};
     double before[2], after[2];
-    CHECK(rsc_contact_deflection(contact, 2, x, y, before) == RSC_SUCCESS && rsc_contact_deflection(saved, 2, x, y, after) == RSC_SUCCESS);
+    OK(rsc_contact_deflection(contact, 2, x, y, before));
+    OK(rsc_contact_deflection(saved, 2, x, y, after));
     for (int k = 0; k < 2; ++k) CHECK_RELATIVE(after[k], before[k], 1e-15);
-    for (rsc_contact* one : {contact, saved}) CHECK(rsc_contact_move_tip(one, 0.47, 0.5) == RSC_SUCCESS);
+    for (rsc_contact* one : {contact, saved.get()}) OK(rsc_contact_move_tip(one, 0.47, 0.5));
     for (const double Z : {0.01, 0.013, 0.008}) {
         CHECK_RELATIVE(force_at(saved, Z), force_at(contact, Z), kTolerance);
         CHECK_RELATIVE(value(saved, "energy_lost"), value(contact, "energy_lost"), 10 * kTolerance);
     }
-    rsc_contact_destroy(&saved);
+}
+
+// Ways of the tip over attached asperities: a level after a way there and back is that of the new state; a copy on the way has its jumps; a
+// step over the border of a surface that repeats takes the short way; bodies with an edge are refused.
+void test_ways() {
+    const std::string soft =
+        "&surface n=256 L=2 sigma=1e-3 L_lambda_l=8 L_lambda_s=32 / &compare levels='none' / "
+        "&solids E=2,Infinity nu=0.49,0 adhesion=2e-5 R=Infinity,";
+    Made made(soft + "50 /");
+    rsc_contact* const contact = made.contact;
+    const auto move = [&](double x) { OK(rsc_contact_move_tip(contact, x, 1.0)); };
+    move(0.9);
+    const double first = force_at(contact, 0.0);
+    move(1.2), move(0.9);
+    ContactHandle copy;
+    OK(rsc_contact_copy(&copy, contact));
+    const double back = force_at(contact, 0.0);
+    CHECK(value(contact, "jumps") > 0 && std::abs(back / first - 1) > 0.1);
+    CHECK_RELATIVE(force_at(contact, 1e-12), back, kTolerance);
+    CHECK_RELATIVE(force_at(copy, 0.0), back, kTolerance);
+    copy = {};
+
+    double x = 0;
+    const auto over_border = [&](int steps) {
+        OK(rsc_contact_rollback(contact));
+        for (int k = 1; k <= steps; ++k) move(1.96 + 0.08 * k / steps);
+        OK(rsc_contact_tip(contact, &x, nullptr));
+        CHECK_CLOSE(x, 0.04, 1e-12);
+        return force_at(contact, 2.0e-3);
+    };
+    move(1.96);
+    force_at(contact, 2.0e-3);
+    OK(rsc_contact_commit(contact));
+    const double lost = value(contact, "energy_lost"), at_once = over_border(1), lost_at_once = value(contact, "energy_lost");
+    CHECK_RELATIVE(over_border(4), at_once, kTolerance);
+    CHECK_RELATIVE(value(contact, "energy_lost"), lost_at_once, 1e-4);
+    CHECK(lost_at_once < 1.2 * lost);  // the long way would lose eight times as much
+
+    Made punch(soft + "Infinity / &indenter shape='punch' radius=0.3 /");
+    force_at(punch.contact, 0.0);
+    CHECK(rsc_contact_move_tip(punch.contact, 1.1, 1.0) == -2 && says("edge"));
 }
 
 struct Path {
@@ -147,6 +189,7 @@ TESTS {
     test_yielding("", Folder());
     test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
     for (const char* range : {"", "adhesion_range=2e-4"}) test_moved(range, Folder());
+    test_ways();
     test_rolling();
     test_watched(Folder());
 }
