@@ -313,10 +313,10 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * position: whole periods do not count, and rsc_contact_tip returns the position within the surface's rectangle. From the first move on
  * contacts continue across the border of such a surface, half a period to each side of the tip (elements: at least a quarter). On other
  * surfaces a position above the surface; for asperities from arrays without surface%L, no farther from them than the sphere's radius.
- * With solids%adhesion attached asperities follow on the straight way at the last separation, on a periodic surface the shortest one; the
- * next level includes their jumps. While elements attract, or asperities are attached near the edge of a body (a punch), the tip cannot be
- * moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
- * RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
+ * With solids%adhesion the state of attached asperities is followed while the tip moves on a straight line (the shortest one on a periodic
+ * surface) at the last separation; the next level includes the jumps on this path. While elements attract, or asperities are attached near
+ * the edge of a body (a punch), the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is
+ * not periodic; RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
 /* Stores the state for rsc_contact_rollback: the tip, the last level and the loading history (solids%hardness, solids%adhesion). A new
@@ -424,11 +424,11 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq. 3.42), continuous everywhere: at distance d from the middle
  * of a spot 3f/(8 E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside, f/(pi E* d) far away.
  * In the solver spots interact as points; the effect of their finite size, some a^2/(10 d^2), is included here only. With laws
- * other than 'hertz' a spot is replaced by a circle of the same area. With solids%adhesion the force is that of the same area without
- * adhesion, and its tension is added: f/(2 E* a) inside, f/(pi E* a) asin(a/d) outside, for the force f < 0 of the tension, or with a range
- * the field of Maugis's cohesive ring. Elements: the field of the pressures and tensions of all pixels. contact: the contact; n: number of
- * points, >= 0; x, y: places [length]; deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4 null with n > 0, or
- * not finite; -5 null with n > 0; RSC_NO_RESULT; RSC_NO_MEMORY. */
+ * other than 'hertz' a spot is replaced by a circle of the same area. With solids%adhesion f is the force at the same area without
+ * adhesion, and the deflection by the tension is added: t/(2 E* a) inside, t/(pi E* a) asin(a/d) outside, for the force t < 0 of the
+ * tension, or with a range that of Maugis's cohesive ring. Elements: the field of the pressures and tensions of all pixels. contact: the
+ * contact; n: number of points, >= 0; x, y: places [length]; deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4
+ * null with n > 0, or not finite; -5 null with n > 0; RSC_NO_RESULT; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
 
 /* ---- many contacts, and contacts saved in files -------------------------------------------------- */

@@ -51,7 +51,7 @@ std::string limited_text(std::istream& in, const std::string& name) {
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
         text.append(buffer, static_cast<std::size_t>(in.gcount()));
         if (text.size() > namelist::kLargestText)
-            bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+            bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes, the limit for a case");
     }
     if (in.bad()) bad_input(name + ": cannot be read");
     return text;
@@ -134,7 +134,7 @@ Reading read_namelist(std::string_view text) {
 
 ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
     if (text.size() > namelist::kLargestText)
-        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes: no case is");
+        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes, the limit for a case");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
         bad_input(name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))

@@ -117,7 +117,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     if (!my.accepted.asperity.empty()) {
         if (!my.move(x0, y0))
             throw Error(Failure::not_converged,
-                        "the path of the attached asperities to the new position of the tip is lost; it stays where it was");
+                        "the path of the attached asperities to the new position of the tip is lost; the tip stays where it was");
         return;
     }
     const AdhesivePath::Past past = my.accepted;
@@ -157,7 +157,7 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
         }
         if (!sound) throw Error(Failure::bad_input, "the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
-        // The state is that of its own position of the tip, which may have moved since the last level.
+        // The state belongs to the stored position of the tip, which may differ from that of the last level.
         if (memory[0] != my.indenter.x0 || memory[1] != my.indenter.y0) {
             my.indenter.move(memory[0], memory[1]);
             my.ranking.assign(my.asperities, my.indenter);

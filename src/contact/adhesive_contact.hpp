@@ -22,9 +22,10 @@ public:
     double stiffness() override;
     // Elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached.
     double energy() const override;
-    // If asperities are attached, their state follows while the tip moves on a straight line at the separation of the last accepted level;
-    // they attach and detach on the way as on a path of separations. The next level includes these jumps. Throws Error(not_converged) if the
-    // path is lost; the tip then stays where it was. If none is attached, the next level is approached from above.
+    // If asperities are attached, their state is followed while the tip moves on a straight line at the separation of the last accepted
+    // level; they attach and detach on the way as on a path of separations. The next level includes these jumps. Throws
+    // Error(not_converged) if the path is lost; the tip then stays where it was. If none is attached, the next level is approached from
+    // above.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;

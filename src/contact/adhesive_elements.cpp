@@ -16,8 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCoarsest = 0.5;  // smallest ratio of z0 to the side of a pixel
 constexpr double kResolved = 2;    // smallest ratio of a level within the range of validity
-// Expected error of N, relative to the force of the traction s0 on all points that attract, times z0/h: edges rest on points. Errors of
-// separate contacts cancel on average (measured: test/README).
+// Expected error of N, relative to the force of the traction s0 on all points that attract, times z0/h: edges are resolved to
+// a pixel only. Errors of separate contacts cancel on average (measured: test/README).
 constexpr double kEdgeError = 0.13;
 constexpr double kJump = 0.1;         // least dissipated energy of a jump, relative to w times its area
 constexpr double kFewest = 8;         // and least number of its points

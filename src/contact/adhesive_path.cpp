@@ -59,7 +59,7 @@ void AdhesivePath::cover(double lowest) {
         clearance.push_back(height);
     };
     for (int i = 0; motion && i < static_cast<int>(asperities.size()); ++i) {
-        // The largest clearance on the way is at most that of the ends plus twice the bend, as on a parabola.
+        // Bound of the clearance along the way, by a parabola through its ends and middle.
         const double begin = clearance_at(i, 0), middle = clearance_at(i, 0.5), end = clearance_at(i, 1),
                      bend = 2 * std::abs(middle - 0.5 * (begin + end));
         if (std::max({begin, middle, end}) + (std::isfinite(bend) ? bend : 0.0) <= motion->Z0 - margin) continue;
@@ -177,7 +177,7 @@ bool AdhesivePath::settle(double Z, Vector s) {
     return false;
 }
 
-// Before a jump the state, known to be stable, is found exactly: small differences of large energies are lost in jumps.
+// Improves the state before a jump, known to be stable: the dissipated energy is a small difference of large energies.
 void AdhesivePath::sharpen() {
     if (here.exact) return;
     set_gaps(here.Z);
@@ -260,7 +260,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             if (rate <= 0) continue;
             if (here.u[p] >= -kTouching * scale(passive[p]) || (here.u[p] >= -near(passive[p]) && -here.u[p] < rate * step))
                 touching = passive[p], ahead = -direction * here.u[p] / rate;
-            // With the rate of the state before, quadratic extrapolation.
+            // Quadratic extrapolation, if the rate at the previous state is known.
             const double bend = known ? (rate - direction * before.change.u[p]) / std::abs(here.Z - before.Z) : 0.0;
             step = std::min(step, -2 * here.u[p] / (rate + std::sqrt(std::max(rate * rate - 2 * bend * here.u[p], 0.0))));
         }
@@ -284,7 +284,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             const double rate = direction * here.change.s[k];
             if (!(rate < 0)) continue;
             const double own = (state.u - sticking.lets_go(set.asperity[at(active[k])])) / (state.du * -rate);
-            // The step may be longer if the distance expected at the state before was right.
+            // The step may be longer if the distance predicted at the previous state was accurate.
             const auto proved_share = [&](double end) {
                 here.left[k] = end;
                 if (!known || !(before.left[k] < kInfinity)) return 0.0;
@@ -352,7 +352,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         Vector start(here.s.size());
         for (std::size_t k = 0; k < start.size(); ++k) {
             const double least = sticking.least(set.asperity[at(active[k])]);
-            // The rate of a state changes linearly; near detachment that of the penetration.
+            // The rate of s is extrapolated linearly; near detachment that of the penetration u.
             const int i = set.asperity[at(active[k])];
             const double length = Z - here.Z, bend = known ? 0.5 * length * length / (here.Z - before.Z) : 0.0;
             const double rate = here.change.s[k], before_rate = known ? before.change.s[k] : 0.0, du = here.states[k].du;

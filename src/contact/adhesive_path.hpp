@@ -22,7 +22,7 @@ struct AdhesivePath : ContactBodies {
         Vector s;
         double lost = 0;         // energy dissipated since the beginning
         double least_force = 0;  // smallest force since the beginning
-        int jumps = 0;           // of moves of the tip since the last level
+        int jumps = 0;           // during moves of the tip since the last level
     };
 
     std::unique_ptr<Law> law;

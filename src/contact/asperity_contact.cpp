@@ -91,7 +91,7 @@ struct AsperityContact::Impl : ContactBodies {
     NewtonOutcome solve_by_paper(Fallback& why_not);
     bool one_solution() const {
         const auto& [v, force, slope] = solution;
-        // A spot wider than a soft layer can support its own sinking in (self() < 0): no minimum of the energy.
+        // On a soft layer self() < 0: a spot wider than the layer can be unstable by itself (no minimum of the energy).
         if (std::any_of(slope.begin(), slope.end(), [&](double rate) { return 1 + rate * kernel->self() <= 0; })) return false;
         return has_one_solution(*law, *kernel, candidates.set.asperity, candidates.set.x, candidates.set.y, v, force, slope);
     }

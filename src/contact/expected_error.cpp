@@ -55,8 +55,9 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
 // Additional errors of N and A on layers for contacts as wide as the top layer is thick.
 constexpr double kLayersForce = 0.5, kLayersArea = 0.4;
 
-// Additional error of N and A where a single summit carries much: the profile of its contact ends, at q a = pi, before the next terms of its
-// shape, unknown to the laws, average over several contacts (input/trust/trust.py, ALONE; fitted to smooth surfaces under a large ball).
+// Additional error of N and A if few summits carry the force: the laws omit the next terms of a summit's shape, which matter towards the
+// end of its profile (q a = pi) and average out only over several contacts (input/trust/trust.py, ALONE; fitted to smooth surfaces under a
+// large ball).
 constexpr double kAlone = 0.15;
 
 // Mean contact radius, weighted by the forces.

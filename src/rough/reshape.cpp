@@ -71,8 +71,7 @@ public:
     }
 
     // From a Gaussian surface, or towards a measured distribution, heights are replaced by rank in a distribution and the amplitudes of the
-    // modes are restored. Newton's method follows, by which both moments reach the wish. The best phases are stored in the columns of the
-    // caller.
+    // modes are restored. Newton's method then brings both moments to the wish. The best phases are stored in the caller's columns.
     HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
         take();
         HeightShape now = heights(), best = now;
@@ -202,7 +201,7 @@ private:
     }
 
     // Newton's method for both moments with the smallest change of heights that phases allow: p z^2 + q z^3 without the parts along the modes.
-    // How far a mode turns and what it loses along itself are taken exactly, because modes of small amplitude turn far.
+    // The rotation of a mode, and the loss along its old direction, are not linearised, because modes of small amplitude rotate far.
     void step(HeightShape wish, HeightShape now) {
         const float scale = 1 / (static_cast<float>(m_) * static_cast<float>(m_));
         const auto relative = [&](std::vector<Complex>& to) {  // the part across a mode is the imaginary one
@@ -387,8 +386,9 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
         all.band = long_waves(all, all_of_it).first;
     }
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
-    // The heights are given their moments by the long waves. The short ones are still Gaussian and uncorrelated with them, so the moments
-    // of the sum are those of the long waves times powers of their share. Close to the bound of the kurtosis and for long tails they must be nearly all.
+    // At first only the long waves are changed. The short ones remain Gaussian and uncorrelated with them, so the skewness and excess
+    // kurtosis of the sum are those of the long waves times powers of their share. Close to the bound of the kurtosis and for long tails
+    // the share must be nearly 1.
     constexpr double least_room = 0.9, longest_tail = 8, most_of_it = 0.9, nearly_all = 0.97;
     HeightShape ask;
     Band band;

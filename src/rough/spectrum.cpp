@@ -188,7 +188,7 @@ void validate(const Spectrum& s) {
     if (!std::isfinite(s.direction)) refuse("direction must be finite", s.direction);
     if (!(shortest_wave(s) <= kMostModes))
         refuse("the shortest wave across the direction, as L/lambda, must be at most 46340", shortest_wave(s));
-    // Only close to the bounds it takes the search for a distribution to tell whether there is one.
+    // Whether a distribution exists is in doubt only close to the bounds; there it is searched for.
     const bool usual =
         std::abs(s.shape.skewness) < 6 && s.shape.kurtosis <= 90 && s.shape.kurtosis > s.shape.skewness * s.shape.skewness + 2;
     if (!s.gaussian() && !s.heights && !usual) HeightDistribution::of_moments(s.shape.skewness, s.shape.kurtosis);

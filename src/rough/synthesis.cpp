@@ -83,7 +83,7 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
         other.rows(first, count, rows, stride, scratch[worker]);
         for (int i = 0; i < n_; i += 2) {  // pairs of pairs: n is even
             double *const to = whole_.row(i) + first, *const next = to + whole_.stride;
-            // The lines are too far apart for the processor to foresee them.
+            // The stride is too large for the hardware prefetcher.
             const double* const soon = whole_.row(std::min(i + 8, n_ - 2)) + first;
             for (int r = 0; r < count; r += 8) __builtin_prefetch(soon + r, 1), __builtin_prefetch(soon + whole_.stride + r, 1);
             for (int r = 0; r < count; r += 2) {

@@ -114,8 +114,8 @@ static std::string other_slopes(const Measured& m) {
     constexpr double told = 0.05;
     if (std::abs(slope / m.parameters.sdq - 1) < told) return {};
     return format(
-        "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a force differs about as much the "
-        "other way: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",
+        "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a given force differs about as much in "
+        "the opposite direction: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",
         slope, m.parameters.sdq, 100 * held * held);
 }
 

@@ -1,4 +1,4 @@
-// What a layer costs at a level: processor time of 100 levels from 4 to 1 sigma over that of the same surface without layers, medians of 5
+// Cost of a layer at a level: processor time of 100 levels from 4 to 1 sigma over that of the same surface without layers, medians of 5
 // in turns in one run. Contacts and the tables of layers are made beforehand.
 #include <cstdio>
 #include <string>

@@ -1,4 +1,4 @@
-// What a direction and heights that are not Gaussian cost where surfaces are made: processor times over those of the isotropic Gaussian
+// Cost of anisotropy and of non-Gaussian heights in making surfaces: processor times over those of the isotropic Gaussian
 // surface, in turns in one run; and the tables of layers.
 #include "bench.hpp"
 #include "contact/interaction/layers.hpp"

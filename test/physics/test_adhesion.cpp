@@ -199,7 +199,8 @@ void test_moves() {
     CHECK(jumps > 10);
 }
 
-// However a move is cut, it ends in the same state, with the same loss; and one asperity loses as much as by the separations of the same clearances.
+// A move cut into several ends in the same state with the same energy lost; for one asperity this energy is that of a path of separations
+// with the same clearances.
 void test_moves_cut() {
     const RandomAsperities system = random_asperities(12, 21, 0.2);
     const Indenter tip{kE, 10.0, 0.5, 0.5};

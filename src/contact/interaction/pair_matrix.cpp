@@ -129,7 +129,7 @@ void PairMatrix::extend(Point& point) {
         }
         kernel_->smooth()->table().values(count, square, value);
         add_singular({count, square, kernel_->near(), kernel_->shift(), value});
-        // Coinciding points do not interact by 1/d.
+        // The singular part 1/d does not apply to coinciding points.
         for (std::size_t k = 0; k < count; ++k)
             if (!(square[k] > 0)) value[k] = kernel_->self();
         if (!(unit_ > 0)) unit_ = kernel_->near() / std::sqrt(square[0] > 0 ? square[0] : 1);

@@ -17,10 +17,10 @@ public:
     std::uint32_t find(double x, double y);
     // Sets the points that carry force.
     void set_active(const std::vector<std::uint32_t>& active);
-    // True if the values for the active points and so many others take too much memory.
+    // True if the values for the given numbers of active and other points take too much memory.
     bool too_large(std::size_t active, std::size_t others) const;
-    // Called before set_active(). True if for some time so few of the sources have carried force that products are slow, or too much memory
-    // is in use; forget() is then best.
+    // Called before set_active(). True if forget() pays: for some time few of the sources have carried force, so that products are slow, or
+    // too much memory is in use.
     bool stale(std::size_t active);
     // Removes all points and values.
     void forget();

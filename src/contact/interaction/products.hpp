@@ -48,7 +48,7 @@ protected:
     long count_ = 0;
 };
 
-// Pairs per second on one core in direct inner sums among so many candidates, for the choice of the method.
+// Pairs per second on one core in direct inner sums among the given number of candidates, for the choice of the method.
 double direct_rate(const Kernel& kernel, std::size_t candidates);
 
 // Direct sums over pairs.

@@ -96,7 +96,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full)
     balance(set);
 }
 
-// From forces and phi_ of the present states: what the equations and the energy are off, with the elevations df_ by inner products in out_.
+// Residual, energy and noise from forces and phi_ of the present states; on entry out_ holds the elevations by df_ from inner products.
 void AttachedSolver::balance(const WorkingSet& set) {
     const std::vector<int>& active = products_->active();
     const std::size_t n = active.size();
