@@ -4,6 +4,8 @@
 
 #include <fftw3.h>
 
+#include <random>
+
 #include "contact/asperity_contact.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/spots.hpp"
