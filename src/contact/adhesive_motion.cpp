@@ -58,9 +58,14 @@ bool AdhesivePath::move(double x0, double y0) {
     bool done = true;
     try {
         for (int k = 0; k < pieces && done; ++k) {
-            done = move_piece(position(k), position(k + 1));
             Indenter tip = old;
-            tip.move(position(k + 1).x, position(k + 1).y);
+            done = move_piece(position(k), position(k + 1));
+            if (!done)
+                accepted = before;
+            else if (k + 1 < pieces)
+                tip.move(position(k + 1).x, position(k + 1).y);
+            else
+                tip.move(x0, y0);
             place_tip(tip);
         }
     } catch (...) {
@@ -68,10 +73,6 @@ bool AdhesivePath::move(double x0, double y0) {
         place_tip(old);
         throw;
     }
-    if (!done) accepted = before;
-    Indenter tip = old;
-    if (done) tip.move(x0, y0);
-    place_tip(tip);
     return done;
 }
 

@@ -27,6 +27,19 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
     return {a, std::pow(10.0, -3.5 + 1.5 * uniform(generator))};
 }
 
+inline rsc::SolverOptions sticky(double w, double range) {
+    rsc::SolverOptions options;
+    options.tolerance = 1e-12;
+    options.adhesion = {w, range};
+    return options;
+}
+
+// Sets the heights of `under` to the clearances of `asperities` with the tip at (x, y): PathMinimiser presses them by a flat.
+inline void set_clearances(rsc::Asperities& under, const rsc::Asperities& asperities, rsc::Indenter tip, double x, double y) {
+    tip.move(x, y);
+    for (std::size_t i = 0; i < under.size(); ++i) under.z[i] = tip.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
+}
+
 // Checks that int N dZ0 from `top`, where nothing is attached, to `bottom` and back is the energy lost. Jumps are found by going back to the
 // memory and halving the way; between them the integral is refined until Simpson's rule and the one with end slopes agree.
 inline void check_work_of_cycle(rsc::Contact& contact, double top, double bottom) {

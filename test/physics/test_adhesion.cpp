@@ -159,13 +159,8 @@ void test_moves() {
         const RandomAsperities system = random_asperities(2 + static_cast<int>(seed % 5), seed, 0.2);
         const Indenter tip{kE, 10.0, 0.5, 0.5};
         const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
-        Asperities under = system.asperities;  // heights as clearances under the tip, for the minimiser
-        const auto clearances = [&](double x, double y) {
-            Indenter at = tip;
-            at.move(x, y);
-            for (std::size_t i = 0; i < under.size(); ++i) under.z[i] = at.clearance(under.x[i], under.y[i], system.asperities.z[i]);
-        };
-        clearances(0.5, 0.5);
+        Asperities under = system.asperities;
+        set_clearances(under, system.asperities, tip, 0.5, 0.5);
         const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
         PathMinimiser slow(under, kE, JkrEdge{under, system.w});
         slow.Z = top;
@@ -178,7 +173,7 @@ void test_moves() {
             for (int k = 1; k <= parts * fine; ++k) {
                 const double share = static_cast<double>(k) / (parts * fine);
                 x = from.x + share * (to.x - from.x), y = from.y + share * (to.y - from.y);
-                clearances(x, y);
+                set_clearances(under, system.asperities, tip, x, y);
                 slow.Z = std::nextafter(Z, 1.0);
                 slow.go_to(Z, 1.0);
                 if (k % fine != 0) continue;

@@ -1,10 +1,5 @@
 // Deflections and fields of contacts with adhesion (contact/deflection.hpp, observe/fields.hpp).
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
+#include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/deflection.hpp"
@@ -66,13 +61,6 @@ Asperities one_asperity() {
     Asperities a;
     a.x = {0.5}, a.y = {0.5}, a.z = {0.1}, a.radius = {0.7};
     return a;
-}
-
-SolverOptions sticky(double w, double range) {
-    SolverOptions options;
-    options.tolerance = 1e-12;
-    options.adhesion = {w, range};
-    return options;
 }
 
 // The deflected surface of one asperity touches the flat in the contact and is below it around. With a range the gap at the edge of the ring

@@ -1,8 +1,4 @@
 // A tip that moves sideways over attached asperities that interact: its work over a closed cycle is the energy lost.
-#include <cmath>
-#include <functional>
-#include <vector>
-
 #include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"

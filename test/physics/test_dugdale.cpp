@@ -1,4 +1,5 @@
 // Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, a scalar equation, and JKR as its limit.
+#include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "error.hpp"
@@ -15,13 +16,6 @@ Asperities of(std::vector<double> x, std::vector<double> y, double r) {
     a.z.assign(x.size(), 0.0), a.radius.assign(x.size(), r);
     a.x = std::move(x), a.y = std::move(y);
     return a;
-}
-
-SolverOptions sticky(double w, double range) {
-    SolverOptions options;
-    options.tolerance = 1e-12;
-    options.adhesion = {w, range};
-    return options;
 }
 
 // Maugis (1992), in his own numbers: m = c/a names the state.

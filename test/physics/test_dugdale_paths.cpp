@@ -40,13 +40,6 @@ struct DugdaleEdge {
     double seed(std::size_t i) const { return 0.4 * s0() * a.radius[i] / (pi * kE); }
 };
 
-SolverOptions sticky(double w, double range) {
-    SolverOptions options;
-    options.tolerance = 1e-12;
-    options.adhesion = {w, range};
-    return options;
-}
-
 // The range for Maugis's parameter of asperities of the mean radius.
 double range_of(double w, double lambda) { return 2 * w / (lambda * std::cbrt(16 * pi * w * kE * kE / (9 * 0.25))); }
 
@@ -84,13 +77,8 @@ void test_moves() {
         const RandomAsperities system = random_asperities(5, seed, 0.2);
         const double range = range_of(system.w, 0.5), length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
         const Indenter tip{kE, 5.0, 0.5, 0.5};
-        Asperities under = system.asperities;  // heights as clearances under the tip, for the minimiser
-        const auto clearances = [&](double x, double y) {
-            Indenter at = tip;
-            at.move(x, y);
-            for (std::size_t i = 0; i < under.size(); ++i) under.z[i] = at.clearance(under.x[i], under.y[i], system.asperities.z[i]);
-        };
-        clearances(0.5, 0.5);
+        Asperities under = system.asperities;
+        set_clearances(under, system.asperities, tip, 0.5, 0.5);
         const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
         PathMinimiser slow(under, kE, DugdaleEdge{under, system.w, range});
         slow.Z = top + range;
@@ -103,7 +91,7 @@ void test_moves() {
             const double from = x;
             for (int k = 1; k <= parts * fine; ++k) {
                 x = from + k * (to - from) / (parts * fine);
-                clearances(x, 0.5);
+                set_clearances(under, system.asperities, tip, x, 0.5);
                 slow.Z = std::nextafter(Z, 1.0);
                 slow.go_to(Z, 1.0);
                 if (k % fine != 0) continue;
