@@ -289,27 +289,25 @@ private:
 
     void check_indenter() {
         const Case::IndenterKeys& i = c_.indenter;
-        const std::string_view shape = kShapes.at(static_cast<std::size_t>(i.shape)).name;
-        const auto belongs = [&](bool given, const char* key, const char* to) {
-            if (given && shape != to)
-                complain({key, "indenter%shape"}, std::string(std::strchr(key, '%') + 1) + ": is for shape = '" + to +
-                                                      "', and shape = " + get_key(c_, "indenter%shape"));
+        const ShapeRow& row = kShapes.at(static_cast<std::size_t>(i.shape));
+        const auto takes = [](const ShapeRow& shape, std::string_view key, bool needed) {
+            return std::ranges::any_of(shape.keys,
+                                       [&](std::string_view k) { return k == std::string(key) + '!' || (!needed && k == key); });
         };
-        belongs(i.radii[0] || i.radii[1], "indenter%radii", "paraboloid");
-        belongs(i.angle != 0, "indenter%angle", "paraboloid");
-        belongs(i.slope.has_value(), "indenter%slope", "cone");
-        belongs(i.radius.has_value(), "indenter%radius", "punch");
-        belongs(i.rim_radius != 0, "indenter%rim_radius", "punch");
-        belongs(!i.file.empty(), "indenter%file", "map");
-        belongs(!i.channel.empty(), "indenter%channel", "map");
-        const auto needs = [&](bool given, const char* key, const char* of) {
-            if (!given && shape == of)
-                complain({"indenter%shape", key},
-                         "shape = " + get_key(c_, "indenter%shape") + ": needs " + std::string(std::strchr(key, '%') + 1));
-        };
-        needs(i.slope.has_value(), "indenter%slope", "cone");
-        needs(i.radius.has_value(), "indenter%radius", "punch");
-        needs(!i.file.empty(), "indenter%file", "map");
+        for (const Key& key : registry()) {
+            if (key.group != std::string_view("indenter") || key.name == std::string_view("shape")) continue;
+            const std::string name = std::string("indenter%") + key.name;
+            const bool given = get_key(c_, name) != get_key(Case{}, name);
+            if (!given && takes(row, key.name, true))
+                complain({"indenter%shape", name.c_str()}, "shape = " + get_key(c_, "indenter%shape") + ": needs " + key.name);
+            if (!given || takes(row, key.name, false)) continue;
+            std::string shapes;
+            for (const ShapeRow& other : kShapes)
+                if (takes(other, key.name, false)) shapes += (shapes.empty() ? "'" : " or '") + std::string(other.name) + "'";
+            complain({name.c_str(), "indenter%shape"},
+                     std::string(key.name) + ": is for shape = " + shapes + ", and shape = " + get_key(c_, "indenter%shape"));
+        }
+        const std::string_view shape = row.name;
         if (i.radii[0].has_value() != i.radii[1].has_value()) complain({"indenter%radii"}, "radii: two values are needed");
         if (shape == "sphere") return;
         if (std::isfinite(c_.solids.R[0]) && shape != "paraboloid")

@@ -12,10 +12,14 @@ ShapeMaker make_sphere, make_paraboloid, make_cone, make_punch, make_map_shape;
 struct ShapeRow {
     const char* name;  // name in &indenter shape
     ShapeMaker* make;
+    std::array<std::string_view, 2> keys;  // other keys of &indenter that the shape takes; "!": must be given
 };
 inline constexpr std::array kShapes = {
-    ShapeRow{"sphere", make_sphere}, ShapeRow{"paraboloid", make_paraboloid}, ShapeRow{"cone", make_cone},
-    ShapeRow{"punch", make_punch},   ShapeRow{"map", make_map_shape},
+    ShapeRow{"sphere", make_sphere, {}},
+    ShapeRow{"paraboloid", make_paraboloid, {"radii", "angle"}},
+    ShapeRow{"cone", make_cone, {"slope!"}},
+    ShapeRow{"punch", make_punch, {"radius!", "rim_radius"}},
+    ShapeRow{"map", make_map_shape, {"file!", "channel"}},
 };
 
 // Makes the shape of row `shape` of the table; returns the number of the row with a name.
