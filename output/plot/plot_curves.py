@@ -4,7 +4,7 @@ additions to all curves: marks of levels, scatter over realizations, expected er
 import numpy as np
 
 from plot_results import Looks
-from plot_style import Page, label
+from plot_style import FEW, Page, STYLES, label, plt
 
 
 def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
@@ -45,6 +45,26 @@ def begin(results, options, count=1, **how):
     if looks.scale:
         page.scale(looks.scale)
     return page, looks.of
+
+
+def panel_looks(page, results, names):
+    """(marker, line, colour) of each of several sets of points with the given results and names, with their entries in the legend or their
+    colour scale: along the keys that differ for many results, along the levels for many levels of one."""
+    if len(results) <= FEW:
+        for (marker, line, colour), name in zip(STYLES, names):
+            page.entry(name, color=colour, marker=marker, ls=line, lw=1.0, mfc="none", ms=3)
+        return STYLES[: len(results)]
+    if len({r.path for r in results}) < len(results):
+        colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(results)))
+        page.scale(("", names, colours))
+        return [("o", "-", colour) for colour in colours]
+    looks = Looks(results)
+    page.scale(looks.scale)
+    markers = {line: marker for marker, line, _ in STYLES[3::-1]}
+    for line, colour, name in looks.of:
+        if name:
+            page.entry(name, color=colour, marker=markers[line], ls=line, lw=1.0, mfc="none", ms=3)
+    return [(markers[line], line, colour) for line, colour, _ in looks.of]
 
 
 def title(results, what):

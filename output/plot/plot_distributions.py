@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from plot_curves import title
+from plot_curves import panel_looks, title
 from plot_results import names
-from plot_style import FEW, Page, STYLES, label, plt
+from plot_style import Page, label
 
 # With fewer contacts a distribution of 60 bins has less than one contact per bin.
 ENOUGH = 60
@@ -55,26 +55,22 @@ def distributions(results, options):
             options.say(f"distributions: fewer than {ENOUGH} contacts at every level of &output pdf_levels: not drawn")
         return None
     page = Page(options, 3, aspect=0.85)
-    many = len(shown) > FEW
-    if many:
-        page.scale(("result", [str(k + 1) for k in range(len(shown))], plt.get_cmap("viridis")(np.linspace(0, 0.9, len(shown)))))
+    one = len(results) == 1
+    looks = panel_looks(page, [r for r, _, _ in shown], [what + (_gamma(r, k, np.ones(1))[1] if one else "") for r, k, what in shown])
     for axis, (name, bins, text, law, fit) in zip(page.axes, PANELS):
         end, smallest = 0.0, np.inf
         ends = [r[bins][r[name][k] > 0].max() for r, k, _ in shown if (r[name][k] > 0).any()]
         decades = len(ends) > 1 and max(ends) > 20 * min(ends)  # such as elastic and yielding
-        for i, (result, k, what) in enumerate(shown):
-            marker, line, colour = STYLES[i] if not many else ("o", "-", plt.get_cmap("viridis")(0.9 * i / (len(shown) - 1)))
+        for (result, k, _), (marker, line, colour) in zip(shown, looks):
             centre, density = result[bins], result[name][k]
             good = density > 0
             if not good.any():
                 continue
             x = (np.geomspace if decades else np.linspace)(centre[0] / 10, centre[good].max(), 300)
-            values, words = fit(result, k, x / result.factor(bins))
+            values = fit(result, k, x / result.factor(bins))[0]
             axis.plot(centre[good], density[good], marker, ms=2.5, mfc="none", mew=0.7, color=colour)
             if np.isfinite(values).all():
                 axis.plot(x, values * result.factor(name), line, color=colour, lw=1.0, gid="fit")
-            if not many and name == "pressure_pdf":
-                page.entry(what + (words if len(results) == 1 else ""), color=colour, marker=marker, ls=line, lw=1.0, mfc="none", ms=3)
             end, smallest = max(end, centre[good].max()), min(smallest, density[good].min())
         axis.set_title(law)
         if decades:

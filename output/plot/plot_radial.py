@@ -3,8 +3,8 @@
 import numpy as np
 
 from plot_map import hertz_radius, shown
-from plot_curves import title
-from plot_style import FEW, Page, STYLES, amount, label, plt
+from plot_curves import panel_looks, title
+from plot_style import Page, amount, label
 
 
 def radial(results, options):
@@ -16,12 +16,8 @@ def radial(results, options):
     if len({name for _, _, name in panels}) < len(panels):  # levels of equal separation
         panels = [(r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}") for r, level, name in panels]
     page = Page(options, 2)
-    many = len(panels) > FEW
-    if many:
-        page.scale(("result", [str(k + 1) for k in range(len(panels))], plt.get_cmap("viridis")(np.linspace(0, 0.9, len(panels)))))
     end, all_pressures = 0.0, []
-    for k, (result, level, name) in enumerate(panels):
-        marker, line, colour = STYLES[k] if not many else ("o", "-", plt.get_cmap("viridis")(0.9 * k / (len(panels) - 1)))
+    for (result, level, _), (marker, line, colour) in zip(panels, panel_looks(page, [r for r, _, _ in panels], [name for _, _, name in panels])):
         radius, pressure, a = result["radius"], result["radial_pressure"][level], hertz_radius(result, level)
         all_pressures.append(pressure[pressure > 0])
         end = max(end, radius[pressure > 0].max(initial=0), 1.3 * a)
@@ -30,8 +26,6 @@ def radial(results, options):
             axis.plot(radius[good], pressure[good], marker, ms=2.5, color=colour, mfc="none", mew=0.7)
             r = a * np.sin(np.linspace(0, np.pi / 2, 200)[: -1 if logarithmic else None])
             axis.plot(r, 1.5 * result.mean("force")[level] / (np.pi * a * a) * np.sqrt(1 - (r / a) ** 2), line, color=colour, gid="hertz")
-        if not many:
-            page.entry(name, color=colour, marker=marker, ls=line, mfc="none", ms=3)
     positive = np.concatenate(all_pressures)
     page.axes[1].set_yscale("log")
     if positive.size:
