@@ -9,6 +9,8 @@
 namespace rsc {
 
 std::string status_text(LevelStatus status);
+std::string name_of(Method method);
+const char* fallback_text(Fallback fallback);  // why another method solved the level than the one asked for; empty: none
 
 // The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job);
