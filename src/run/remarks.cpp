@@ -1,11 +1,9 @@
 // Remarks after the levels: methods, statuses with their meaning and remedy, expected errors, warnings.
 
-#include "case/units.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/touching.hpp"
 #include "contact/validity.hpp"
 #include "format.hpp"
-#include "observe/regimes.hpp"
 #include "run/resolution.hpp"
 #include "run/screen.hpp"
 
