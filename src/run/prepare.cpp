@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "contact/law/law.hpp"
@@ -361,24 +359,6 @@ SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int t
     throw Error(Failure::internal, "an unknown source of asperities");
 }
 
-void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x, double y) {
-    const Domain& d = domain;
-    const double beyond = domain.guessed ? shape->reach() : 0;
-    const auto text = [](double v) {
-        char buffer[40];
-        std::snprintf(buffer, sizeof buffer, "%.9g", v);
-        return std::string(buffer);
-    };
-    const auto within = [&](double v, double first, double length) {
-        const double rounding = 1e-12 * (std::abs(first) + length);
-        return usable(v) && v >= first - beyond - rounding && v <= first + length + beyond + rounding;
-    };
-    if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
-    bad_input("the tip at x = " + text(x) + ", y = " + text(y) + " is not above the surface, which reaches from x = " + text(d.x0) +
-              " to " + text(d.x0 + d.Lx) + " and from y = " + text(d.y0) + " to " + text(d.y0 + d.Ly) +
-              (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
-}
-
 Shape shape_of(const Case& settings) {
     const Case::IndenterKeys& keys = settings.indenter;
     ShapeKeys made;
@@ -396,83 +376,6 @@ Shape shape_of(const Case& settings) {
         made.map = std::move(map);
     }
     return make_shape(keys.shape, made);
-}
-
-namespace {
-
-// E* at the surface: that of the top layer if body 1 has layers.
-double surface_modulus(const Case::Solids& solids) {
-    double E[2] = {solids.E[0], solids.E[1]}, nu[2] = {solids.nu[0], solids.nu[1]};
-    if (!solids.layer_E.empty()) E[0] = solids.layer_E[0], nu[0] = solids.layer_nu[0];
-    return equivalent_modulus(E, nu);
-}
-
-LayeredBody layers_in(const Case::Solids& solids) {
-    LayeredBody body;
-    for (std::size_t k = 0; k < solids.layer_thickness.size(); ++k, ++body.count)
-        body.layer[k] = {solids.layer_thickness[k], solids.layer_E[k], solids.layer_nu[k]};
-    if (body.count > 0) body.E = solids.E[0], body.nu = solids.nu[0];
-    return body;
-}
-
-}  // namespace
-
-Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
-    const auto& centre = settings.indentation.centre;
-    const Domain& d = domain;
-    Indenter indenter{surface_modulus(settings.solids), shape_of(settings), centre[0].value_or(d.x0 + 0.5 * d.Lx - domain.half_step_x),
-                      centre[1].value_or(d.y0 + 0.5 * d.Ly - domain.half_step_y), period_of(settings, domain)};
-    indenter.layers = layers_in(settings.solids);
-    try {
-        require_tip_above(domain, indenter.shape, indenter.x0, indenter.y0);
-    } catch (const Error& error) {
-        throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
-    }
-    return indenter;
-}
-
-Period period_of(const Case& settings, const SurfaceDomain& domain) {
-    return settings.indentation.boundary == Boundary::periodic ? Period{domain.Lx, domain.Ly} : Period{};
-}
-
-std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter, const SolverOptions& options) {
-    if (model.points) return make_element_contact(*model.points, indenter, options);
-    return make_asperity_contact(model.asperities, indenter, options, model.search);
-}
-
-double sigma_of(const Case& settings, const SurfaceDomain& domain) { return settings.surface.sigma.value_or(domain.sigma); }
-
-SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
-    SolverOptions options;
-    options.method = settings.solver.method;
-    options.law = settings.asperities.law;
-    options.hardness = {settings.solids.hardness, settings.solids.size_effect};
-    if (relaxes(settings)) {
-        const Case::Solids& s = settings.solids;
-        const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
-        options.relaxation = {s.relaxation_share, s.relaxation_time, compliance(0) / (compliance(0) + compliance(1))};
-    }
-    options.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
-    options.interaction = settings.solver.interaction;
-    options.selection = settings.indentation.selection;
-    options.selection_factor = settings.indentation.selection_factor;
-    options.sigma = sigma_of(settings, domain);
-    options.tolerance = settings.solver.tolerance;
-    options.max_iterations = settings.solver.max_iterations;
-    options.delta0 = settings.solver.delta0;
-    options.mean_spacing = domain.mean_spacing;
-    options.points_per_wave = domain.points_per_wave;
-    options.rms_slope = domain.rms_slope;
-    const bool free = settings.indentation.boundary == Boundary::free;
-    options.measured = domain.measured || !settings.indenter.file.empty();
-    if (free) options.marks = domain.marks;
-    if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
-    if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
-        bad_input(
-            "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
-            "asperities, which all have the same height, do not give one");
-    }
-    return options;
 }
 
 }  // namespace rsc
