@@ -97,7 +97,7 @@ double punch_share(double under, double points) { return std::pow(under / points
 // in contact. Otherwise the time is that of the points under the indenter. A force takes some more products than a separation, and many
 // more where points yield.
 double element_level_seconds(const Job& job, double level, double points, bool is_force) {
-    if (job.indenter.period.finite()) return points * (4e-7 + 5e-6 * share_in_contact(job, level, is_force));
+    if (job.indenter.period.finite()) return points * (2.4e-7 + 2.5e-6 * share_in_contact(job, level, is_force));
     const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = punch_share(under, points);
     const bool yields = std::isfinite(job.settings.solids.hardness);
     const double force = is_force ? (yields ? 12 : 2.5) * (1 + 2 * share) : 1;

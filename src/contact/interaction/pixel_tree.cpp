@@ -15,6 +15,7 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 constexpr int kMostRows = 64;          // rows of a tile, see rows_of()
 constexpr int kOffsets = 49;           // offsets between boxes: -3 ... 3 in both directions
 constexpr std::size_t kThreads = 500;  // number of boxes above which threads are used
+constexpr std::size_t kParts = 8;      // of the boxes that are summed at the same time
 constexpr std::size_t kChunk = 128;    // boxes processed by a thread at a time
 
 // Interpolation error with q points, measured in test_pixels.cpp.
@@ -404,7 +405,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         loaded_[l].assign(generations[l].boxes.size(), 0);
         if (!generations[l].pair_from.empty()) interpolation.matrices(l);
     }
-    // A product has three parallel loops: over the tiles, over transfers between boxes of all sizes, and over the tiles again.
+    // A product has parallel loops over the tiles, over the boxes of each size, over transfers between boxes of all sizes, and back.
     const int threads = tiles > kThreads ? 0 : 1;
     sources_.resize(n);
     source_end_.resize(tiles);
@@ -423,14 +424,20 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         std::fill_n(to, points, 0.0);
         interpolation.up_from_tile(end - begin, sources_.data() + begin, to);
     });
+    const auto threads_for = [&](const Generation& g) { return g.boxes.size() > kThreads ? threads : 1; };
     for (std::size_t l = 0; l + 1 < levels; ++l) {
+        // A part of the parents at a time, each with its children in their order.
         const Generation& g = generations[l];
-        for (std::size_t k = 0; k < g.boxes.size(); ++k) {
-            if (!loaded_[l][k]) continue;
-            const auto parent = at(g.parent[k]);
-            loaded_[l + 1][parent] = 1;
-            interpolation.up(g.boxes[k].x & 1, g.boxes[k].y & 1, up_[l].data() + k * points, up_[l + 1].data() + parent * points);
-        }
+        const std::size_t parents = generations[l + 1].boxes.size(), parts = threads_for(g) == 1 ? 1 : kParts;
+        parallel_for(parts, 1, threads_for(g), [&](std::size_t part) {
+            const std::size_t first = parents * part / parts, last = parents * (part + 1) / parts;
+            for (std::size_t k = 0; k < g.boxes.size(); ++k) {
+                const auto parent = at(g.parent[k]);
+                if (parent < first || parent >= last || !loaded_[l][k]) continue;
+                loaded_[l + 1][parent] = 1;
+                interpolation.up(g.boxes[k].x & 1, g.boxes[k].y & 1, up_[l].data() + k * points, up_[l + 1].data() + parent * points);
+            }
+        });
     }
     const PixelKernels& kernels = pixel_kernels();
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
@@ -463,7 +470,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                            down_[l].data() + k * points);
     };
     for (std::size_t l = levels - 1; l-- > 1;)
-        for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
+        parallel_for(generations[l].boxes.size(), 32, threads_for(generations[l]), [&](std::size_t k) { down(l, k); });
     parallel_for(tiles, 32, threads, [&](std::size_t t) {
         stopping_point();
         if (levels > 1) down(0, t);

@@ -81,10 +81,11 @@ PixelStencil::PixelStencil(int reach, const std::function<double(double, double)
         }
 }
 
-double PixelStencil::sum() const {
+double PixelStencil::transform(double k) const {
     double all = 0;
     for (int b = 0; b <= reach_; ++b)
-        for (int a = 0; a <= reach_; ++a) all += (a > 0 ? 2.0F : 1.0F) * (b > 0 ? 2.0F : 1.0F) * taps_[at(b * (reach_ + 1) + a)];
+        for (int a = 0; a <= reach_; ++a)
+            all += (a > 0 ? 2 * std::cos(k * a) : 1.0) * (b > 0 ? 2.0 : 1.0) * static_cast<double>(taps_[at(b * (reach_ + 1) + a)]);
     return all;
 }
 
@@ -159,7 +160,7 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
     for (std::size_t k = 0; k < x.size(); ++k) x_[k] = static_cast<float>(x[k]), total += x[k];
     plane.convolve(near_, set, x_.data(), y_.data(), threads);
     // The near part of a uniform pressure, which deflects nothing.
-    const double uniform = near_.sum() * total / (static_cast<double>(nx_) * static_cast<double>(ny_));
+    const double uniform = near_.transform(0) * total / (static_cast<double>(nx_) * static_cast<double>(ny_));
     // Spreads the pixels of each row along x, then the rows along y.
     const std::size_t length = at(mx) + 3;
     lines_.resize(length * at(ny_));

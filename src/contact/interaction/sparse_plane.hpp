@@ -19,7 +19,7 @@ public:
     // The function with the transform `mode`(kx, ky), kx and ky in (0, pi), multiplied by `window`(a) window(b).
     PixelStencil(int reach, const std::function<double(double, double)>& mode, const std::function<double(int)>& window);
     int reach() const { return reach_; }
-    double sum() const;
+    double transform(double k) const;  // at the wavenumber (k, 0)
 
 private:
     friend class SparsePlane;

@@ -10,6 +10,10 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kThreads = 100000;  // number of pixels above which threads are used
 constexpr int kRows = 8;                  // that a thread takes at a time
+// Error above which the sets change so much that a round is made of two.
+constexpr double kUnsettled = 1e-3;
+// Later rounds of a stiffness reduce the residual to this part of its tolerance.
+constexpr double kEnough = 0.3;
 
 }  // namespace
 
@@ -28,12 +32,17 @@ double BoundedSolver::sum(F&& of) {
 void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
-    for (std::size_t k = 0; k < w_.size(); ++k) w_[k] -= z_[k];
-    if (wanted_) {  // sets Z0 such that the mean of w over the pixels under pressure is 0
-        const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
-        Z0_ = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) / static_cast<double>(touching);
-    }
-    for (double& w : w_) w += Z0_;
+    for (std::size_t k = 0; k < w_.size(); ++k) w_[k] += Z0_ - z_[k];
+    find_Z0();
+}
+
+// If the sum of p is given, sets Z0 such that the mean of w over the pixels under pressure is 0.
+void BoundedSolver::find_Z0() {
+    if (!wanted_) return;
+    const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
+    const double shift = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) / static_cast<double>(touching);
+    Z0_ += shift;
+    for (double& w : w_) w += shift;
 }
 
 double BoundedSolver::error() {
@@ -132,6 +141,18 @@ bool BoundedSolver::bound() {
     return true;
 }
 
+// Clips the pressures, updates the gaps by an approximate product, and descends on the free pixels that result.
+void BoundedSolver::descend_again(int most_steps) {
+    direction_ = p_;
+    bound();
+    for (std::size_t k = 0; k < p_.size(); ++k) direction_[k] = p_[k] - direction_[k];
+    multiply_roughly(direction_, image_);
+    for (std::size_t k = 0; k < p_.size(); ++k) w_[k] += image_[k];
+    find_Z0();
+    find_free();
+    descend(most_steps, manner_.reduction);
+}
+
 // Returns true if the last round lowered the energy; otherwise restores the best pressures along the step.
 bool BoundedSolver::fell() {
     double slope = 0, curvature = 0;
@@ -186,6 +207,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         before_p_ = p_;
         before_w_ = w_;
         descend(steps, manner_.reduction);
+        if (manner_.repeats && outcome.residual > kUnsettled) descend_again(steps);
         const bool cut = bound();
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
         if (cut || exact || manner_.repeats) evaluate(exact);
@@ -206,7 +228,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     std::fill(w_.begin(), w_.end(), -1.0);
     double residual = 0;
     for (int round = 0; round < most_rounds && count > 0; ++round) {
-        descend(most_steps, reduction);
+        descend(most_steps, round == 0 ? reduction : std::max(reduction, kEnough * tolerance / residual));
         if (most_rounds == 1) break;
         multiply(p_, w_, !manner_.repeats);
         for (double& v : w_) v -= 1;

@@ -69,7 +69,9 @@ protected:
     // Z0 weighted with p.
     double error();
     void find_free();
+    void find_Z0();
     void descend(int most_steps, double reduction);
+    void descend_again(int most_steps);
     bool bound();
     bool fell();
     template <class F>

@@ -15,8 +15,9 @@ struct Relief {
     std::ptrdiff_t stride = 0;  // between rows
 };
 
-// Active-set method of bounded.hpp. The conjugate gradients are preconditioned by K^-1 (modes E* |k|/2) truncated to a few pixels, and the
-// start is the solution on a grid of half as many pixels per side (recursively), so that both short and long waves converge in few steps.
+// Active-set method of bounded.hpp. The conjugate gradients are preconditioned by K^-1 (modes E* |k|/2) truncated to a few pixels, with a
+// correction for what is farther apart (block_correction.hpp), and the start is the solution on a grid of half as many pixels per side
+// (recursively), so that both short and long waves converge in few steps.
 // Products are in single precision while the error is large; the final error is computed in double precision. Levels are independent of
 // each other.
 class PeriodicElements {

@@ -42,6 +42,7 @@ PeriodicGrid::PeriodicGrid(int nx, int ny, double aspect, double unit, double hi
             return 0.5 * k / (share_ ? 1 + share()(k) : 1);
         },
         [](int a) { return 1 - std::abs(a) / (kReach + 1.0); });
+    far_ = std::make_unique<BlockCorrection>(nx, ny, aspect, inverse_, share());
     if (SplitPixels::suits(nx, ny, aspect, share())) split_ = std::make_unique<SplitPixels>(nx, ny, aspect, share());
 }
 
@@ -204,13 +205,25 @@ void PeriodicGrid::multiply_roughly(const std::vector<double>& x, std::vector<do
     for (double& v : Kx) v *= unit_;
 }
 
-// y = K^-1, truncated to kReach pixels, times r over the free pixels.
+// y = K^-1, truncated to kReach pixels and with a correction for the farther ones, times r over the free pixels.
 void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double>& y) {
     const std::size_t n = r.size();
     from_.resize(n), to_.resize(n), y.resize(n);
     for (std::size_t k = 0; k < n; ++k) from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
+    if (far_is_set_) far_->subtract({rows_, column_}, from_.data(), to_.data(), threads());
     for (std::size_t k = 0; k < n; ++k) y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0;
+}
+
+void PeriodicGrid::freed() {
+    far_is_set_ = false;
+    if (!far_->exists()) return;
+    from_.resize(free_.size()), to_.resize(free_.size());
+    for (std::size_t k = 0; k < free_.size(); ++k) from_[k] = free_[k] ? 1.0f : 0.0f;
+    plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
+    for (std::size_t k = 0; k < free_.size(); ++k) to_[k] = free_[k] ? std::max(to_[k], 0.0f) : 0.0f;
+    far_->set({rows_, column_}, to_, threads());
+    far_is_set_ = true;
 }
 
 bool PeriodicGrid::judge_exactly(bool exact, double residual, int) { return exact || residual < kSingle; }

@@ -5,6 +5,7 @@
 #include "contact/interaction/periodic_pixels.hpp"
 #include "contact/interaction/pixel_products.hpp"
 #include "contact/interaction/sparse_plane.hpp"
+#include "contact/solver/block_correction.hpp"
 #include "contact/solver/bounded.hpp"
 
 namespace rsc {
@@ -65,6 +66,7 @@ private:
     double outside() override;
     void renew() override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
+    void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
 
     int threads() const;  // for loops over rows
@@ -76,7 +78,9 @@ private:
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
     SparsePlane plane_;
-    PixelStencil inverse_;                // preconditioner
+    PixelStencil inverse_;  // preconditioner, within its reach and beyond
+    std::unique_ptr<BlockCorrection> far_;
+    bool far_is_set_ = false;
     std::unique_ptr<SplitPixels> split_;  // null: not for this grid
     std::vector<float> from_, to_;
     long products_ = 0;
