@@ -313,9 +313,9 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * position: whole periods do not count, and rsc_contact_tip returns the position within the surface's rectangle. From the first move on
  * contacts continue across the border of such a surface, half a period to each side of the tip (elements: at least a quarter). On other
  * surfaces a position above the surface; for asperities from arrays without surface%L, no farther from them than the sphere's radius.
- * With solids%adhesion the state of attached asperities is followed while the tip moves on a straight line (the shortest one on a periodic
- * surface) at the last separation; the next level includes the jumps on this path. While elements attract, or asperities are attached near
- * the edge of a body (a punch), the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is
+ * With solids%adhesion the state of attached asperities, or of elements that attract, is followed while the tip moves on a straight line (the
+ * shortest one on a periodic surface) at the last separation; the next level includes the jumps on this path. Near the edge of a body (a
+ * punch) that attracts, the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is
  * not periodic; RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 

@@ -197,7 +197,10 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         require_finite(y0, 3, "y0");
         const rsc::Vec2 place = place_of(*contact, x0, y0);
         const rsc::Indenter& now = contact->contact.indenter();
-        if (place.x != now.x0 || place.y != now.y0) contact->contact.move_tip(place.x, place.y);
+        if (place.x == now.x0 && place.y == now.y0) return;
+        // With adhesion the contact follows the tip at once: the stiffness of the last level is kept.
+        if (contact->contact.pulls() && contact->known.level) (void)stiffness_of(*contact);
+        contact->contact.move_tip(place.x, place.y);
     });
 }
 

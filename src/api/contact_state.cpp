@@ -77,8 +77,7 @@ void rsc_contact::go_back(const State& state) {
 
 void rsc_contact::recall(const std::vector<double>& memory) {
     const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
-    const bool tip_in_memory = contact.pulls() && contact.asperities();
-    if (known.level && !tip_in_memory) put_tip(*this, known.x0, known.y0);
+    if (known.level && !contact.pulls()) put_tip(*this, known.x0, known.y0);  // with adhesion the memory has the tip
     contact.recall(memory, known.level ? &*known.level : nullptr);
     put_tip(*this, x0, y0);
     recalled = true;

@@ -6,8 +6,8 @@
 // last accepted level, until it contains exactly the pixels with gaps below z0. The state thus follows the previous one at a given
 // separation; if there is none nearby, the contact jumps: pixels enter or leave C in an avalanche.
 //
-// The error is of first order in h/z0, where h is the side of a pixel: a range below two pixels causes a warning, below half a pixel an
-// error.
+// The error is of first order in h, the side of a pixel: relative to z0 for long ranges, and for short ones relative to E* z0^2/w, the length in
+// which the traction acts at an edge of contact. A range below two pixels causes a warning, below half a pixel an error.
 #pragma once
 
 #include "contact/contact.hpp"
@@ -23,9 +23,12 @@ namespace rsc {
 //   stiffness()   dN/dZ0 for fixed attracting points
 //   at_force(N)   searches a separation with the force, towards the surface if it is larger than the present force, otherwise away. If there
 //                 is none, the level is that of the smallest force found, with Fallback::held
-//   move_tip()    throws Error(bad_input) if any point attracts. On a surface that repeats the tip returns by whole periods, and contacts
-//                 end at the border
-//   memory()      separation, force, work done, smallest force, dissipated energy, then the attracting points
+//   move_tip()    follows the state along the straight (on a surface that repeats, the shortest) way of the tip at the last separation, in
+//                 pieces of at most a quarter of a pixel; the work of a piece is that of the mean pressures of its ends. stiffness() and
+//                 energy() are then those of the new position. Edges of contact that move from pixel to pixel dissipate about 0.3 (h/z0) w
+//                 of the area that comes off (test/README). Throws Error(bad_input) if points near the edge of a body (a punch) attract,
+//                 Error(not_converged) if the path is lost; the tip and the state are then as before
+//   memory()      separation, force, work done, smallest force, dissipated energy, jumps since the last level, tip, then the attracting points
 std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
 
 }  // namespace rsc

@@ -1,6 +1,7 @@
 #include "contact/element_contact.hpp"
 
 #include "contact/adhesive_elements.hpp"
+#include "contact/cut_map.hpp"
 #include "contact/load_memory.hpp"
 #include "contact/periodic_element_contact.hpp"
 #include "contact/pixel_spots.hpp"
@@ -22,13 +23,10 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-struct ElementContact::Impl {
+struct ElementContact::Impl : CutMap {
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
-    // Column turn_x and row turn_y of the map, at which a periodic surface is cut open (far from the tip), are the first ones; otherwise 0.
-    int turn_x = 0, turn_y = 0;
-    HeightMap frame;  // number and sides of pixels and position of pixel (0, 0), without heights
     double bulge;
     std::unique_ptr<PixelProducts> products;
     ElementsSolver solver;
@@ -61,19 +59,12 @@ struct ElementContact::Impl {
     std::vector<double> lowered;
 
     double scale() const { return loads ? loads->compliance() : 1.0; }
-    // Column, row and index of a pixel on the map.
-    int column(int i) const { return i + turn_x < heights.nx ? i + turn_x : i + turn_x - heights.nx; }
-    int row(int j) const { return j + turn_y < heights.ny ? j + turn_y : j + turn_y - heights.ny; }
-    std::int32_t place(const Pixel& pixel) const { return static_cast<std::int32_t>(row(pixel.y) * heights.nx + column(pixel.x)); }
-    // Pixel of a point of the map.
-    int pixel_x(int column) const { return column >= turn_x ? column - turn_x : column - turn_x + heights.nx; }
-    int pixel_y(int row) const { return row >= turn_y ? row - turn_y : row - turn_y + heights.ny; }
-    Pixel pixel_at(std::int32_t place) const { return {pixel_x(place % heights.nx), pixel_y(place / heights.nx)}; }
     std::vector<double> deflections(const std::vector<Pixel>& where, const std::vector<std::int32_t>& places, const std::vector<double>& q);
     void take_off_rest(double Z0);
 
     Impl(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
-        : heights(heights_),
+        : CutMap(heights_),
+          heights(heights_),
           indenter(indenter_),
           options(options_),
           bulge(substrate_of(indenter_).bulge()),
@@ -82,8 +73,7 @@ struct ElementContact::Impl {
           blocks_x((heights_.nx + kBlock - 1) / kBlock),
           blocks_y((heights_.ny + kBlock - 1) / kBlock),
           pressed(heights_.nx, heights_.ny) {
-        frame.nx = heights.nx, frame.ny = heights.ny, frame.dx = heights.dx, frame.dy = heights.dy;
-        cut_open();
+        cut_open(indenter, kBlock);
         if (!options.relaxation.none()) loads.emplace(Creep(options.relaxation));
         block_top.assign(at(blocks_x) * at(blocks_y), -kInfinity);
         for (int j = 0; j < heights.ny; ++j) {
@@ -94,8 +84,6 @@ struct ElementContact::Impl {
         find_top();
     }
 
-    double x(int i) const { return frame.x0 + i * frame.dx; }
-    double y(int j) const { return frame.y0 + j * frame.dy; }
     double height(int i, int j) const {
         const int c = column(i), r = row(j);
         return indenter.clearance(x(i), y(j), heights(c, r) - pressed(c, r));
@@ -108,27 +96,12 @@ struct ElementContact::Impl {
         return block_top[at(bj) * at(blocks_x) + at(bi)] - indenter.shape->lowest(block);
     }
 
-    void cut_open();
     void find_top();
     void select(double Z0);
     void predict(double Z0);
     void remember(double Z0);
-    void number_by_map(Level& level) const;
     Level report(double Z0, const ElementsOutcome& outcome) const;
 };
-
-// Cuts half a period away if the tip lies in the outer quarters, at the border of a block.
-void ElementContact::Impl::cut_open() {
-    const auto cut = [](double tip, double first, double step, int n, bool repeats, int& turn, double& origin) {
-        turn = 0, origin = first;
-        const double place = (tip - first) / (n * step);
-        if (!repeats || (place >= 0.25 && place < 0.75)) return;
-        turn = n / 2 / kBlock * kBlock;
-        origin = first + (place < 0.25 && turn > 0 ? turn - n : turn) * step;
-    };
-    cut(indenter.x0, heights.x0, heights.dx, heights.nx, indenter.around.finite(), turn_x, frame.x0);
-    cut(indenter.y0, heights.y0, heights.dy, heights.ny, indenter.around.finite(), turn_y, frame.y0);
-}
 
 void ElementContact::Impl::find_top() {
     top = -kInfinity;
@@ -227,25 +200,6 @@ void ElementContact::Impl::predict(double Z0) {
     for (double& v : p) v = std::max(v, 0.0);
 }
 
-// Numbers the contacts by the index of their pixel on the map and sorts them.
-void ElementContact::Impl::number_by_map(Level& level) const {
-    const std::size_t n = level.asperity.size();
-    std::vector<std::size_t> order(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        order[k] = k;
-        level.asperity[k] = place({level.asperity[k] % heights.nx, level.asperity[k] / heights.nx});
-    }
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return level.asperity[a] < level.asperity[b]; });
-    const auto sort = [&](auto& values) {
-        const auto before = values;
-        for (std::size_t k = 0; k < values.size(); ++k) values[k] = before[order[k]];
-    };
-    sort(level.asperity), sort(level.x), sort(level.y), sort(level.f), sort(level.a), sort(level.u), sort(level.yields);
-    std::vector<std::int32_t> now(n);
-    for (std::size_t k = 0; k < n; ++k) now[order[k]] = static_cast<std::int32_t>(k);
-    for (std::int32_t& contact : level.pixels.contact) contact = now[at(contact)];
-}
-
 Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) const {
     Level level;
     level.separation = Z0;
@@ -264,7 +218,7 @@ Level ElementContact::Impl::report(double Z0, const ElementsOutcome& outcome) co
         pressure.push_back(p[k] / scale());
     }
     add_pixels(level, frame, indenter, options.hardness.H0, touching, std::move(pressure));
-    if (turn_x > 0 || turn_y > 0) number_by_map(level);
+    number_by_map(level);
     judge_edges(level, indenter, options);
     return level;
 }
@@ -489,7 +443,7 @@ void ElementContact::move_tip(double x0, double y0) {
     if (my.past.size() > 1) my.past.resize(1);
     my.since_move = 0;
     const int turn_x = my.turn_x, turn_y = my.turn_y;
-    my.cut_open();
+    my.cut_open(my.indenter, kBlock);
     if (my.turn_x != turn_x || my.turn_y != turn_y) my.past.clear(), my.lowered_at = kUnknown;
     my.find_top();
 }

@@ -125,21 +125,17 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
         return u;
     }
     constexpr double kError = 1e-6;
-    const auto products = make_tree_products(body, map.dx, map.dy, kError, kError);
+    const auto products = make_tree_products(body, map.dx, map.dy, kError, kError, false);
     std::vector<Pixel> sources, where;
     std::vector<double> p;
-    double raised = 0;
     for (const auto& [point, load] : pressures) {
-        const double value = load.pressure;
         sources.push_back({static_cast<int>(point % map.nx), static_cast<int>(point / map.nx)});
-        p.push_back(value);
-        raised += body.bulge() * value * map.dx * map.dy;  // uniform offset included in the products, subtracted below
+        p.push_back(load.pressure);
     }
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) where.push_back({i, j});
     products->set_pixels(sources);
     products->elsewhere(p.data(), where, u.data());
-    for (double& value : u) value -= raised;
     return u;
 }
 

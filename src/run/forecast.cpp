@@ -188,7 +188,7 @@ double expected_megabytes(const Job& job, double workers) {
     if (!by_elements(job.settings)) return 0;
     // Bytes for each point of the surface (heights, those of a coarser grid, modes; transforms of two flats), and for each point under the
     // indenter or in contact, from the peaks of a dozen runs.
-    constexpr double program = 32e6, tables = 15e6, under = 170, touching = 150, adhesion = 41;
+    constexpr double program = 32e6, tables = 15e6, under = 170, touching = 150, adhesion = 49;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = 10 + sticking, flats = 28 + sticking;
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);
     const bool force = job.settings.indentation.control != Control::separation;

@@ -157,6 +157,12 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     if (const double fine = levels.back().cohesive_resolution; fine < 2)
         out << format(
             "  adhesion_range is %.2g pixel sides (cohesive_resolution): below 2 the pull-off force is about 5 to 10 %% too high.\n", fine);
+    // The length in which the traction acts at an edge of a contact, E* z0^2/w, in pixel sides (measured: test/README).
+    if (const double zone = levels.back().cohesive_resolution * job.indenter.E_star * c.solids.adhesion_range / c.solids.adhesion; zone < 8)
+        out << format(
+            "  adhesion acts across %.2g pixel sides at edges of contact, E* adhesion_range^2/adhesion: below 8 the pull-off force may be more "
+            "than 10 %% too high, and edges that advance lag behind.\n",
+            zone);
     // Tabor's parameter is this length over the range of the attraction; JKR holds from 5 on.
     const auto reach = [&](double radius) { return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2)); };
     double summit = kNotComputed;
@@ -179,7 +185,7 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
         out << (range > 0 ? format("; %.3g for a smooth sphere", reach(R) / range)
                           : format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l));
     if (summit > 0) out << ".\n";
-    if (!(job.theory && range > 0)) return;
+    if (!(job.theory && range > 0) || job.indenter.layers.count > 0) return;
     // Pastewka and Robbins, PNAS 111, 3298 (2014), with kappa_rep = 2, d_rep = 4 h'/h'': h' range/(2 l_a) (h'^2/(h'' range))^(2/3) <
     // pi (3/16)^(2/3), l_a = w/E*, rms slope h', rms curvature h'' (rms of the sum of both second derivatives).
     const double slope = std::sqrt(2 * job.theory->m2), curvature = std::sqrt(8.0 / 3 * job.theory->m4);

@@ -54,6 +54,9 @@ void test_moved(const std::string& keys, const Folder& folder) {
     force_at(contact, 0.01);
     OK(rsc_contact_commit(contact));
     OK(rsc_contact_move_tip(contact, 0.55, 0.48));
+    ContactHandle copy;  // results are those of the last level until the next one
+    OK(rsc_contact_copy(&copy, contact));
+    for (const char* name : {"stiffness", "energy"}) CHECK_RELATIVE(value(copy, name), value(contact, name), 1e-15);
     const double moved = force_at(contact, 0.01);
     CHECK(moved != 0 && rsc_contact_commit(contact) == RSC_SUCCESS);
     OK(rsc_contact_save(contact, path.c_str()));
@@ -189,7 +192,8 @@ void test_watched(const Folder& folder) {
 TESTS {
     test_yielding("", Folder());
     test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
-    for (const char* range : {"", "adhesion_range=2e-4"}) test_moved(range, Folder());
+    for (const char* keys : {"", "adhesion_range=2e-4", "adhesion_range=0.02 / &elements points_per_wave=4 / &solver model='elements'"})
+        test_moved(keys, Folder());
     test_ways();
     test_rolling();
     test_watched(Folder());

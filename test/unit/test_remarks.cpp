@@ -48,6 +48,39 @@ void thresholds() {
     CHECK(std::string(slope_remark(0.5)).empty() && !std::string(slope_remark(std::nextafter(0.5, 1.0))).empty());
 }
 
+// Pastewka and Robbins' criterion for two flats: h' z0/(2 l) (h'^2/(h'' z0))^(2/3) < pi (3/16)^(2/3), l = w/E*.
+void sticks() {
+    Job job;
+    job.indenter = {100.0, 1.0};
+    job.theory.emplace();
+    job.theory->m2 = 0.02, job.theory->m4 = 30;
+    job.settings.solids.adhesion_range = 1e-3;
+    const double slope = 0.2, curvature = std::sqrt(80.0);  // rms of the gradient; of the Laplacian
+    const double needed = 100.0 * slope * 1e-3 / (2 * std::numbers::pi) * std::pow(16.0 / 3 * slope * slope / (curvature * 1e-3), 2.0 / 3);
+    for (const double share : {0.98, 1.02}) {
+        job.settings.solids.adhesion = share * needed;
+        std::ostringstream out;
+        print_remarks(out, std::vector<LevelValues>(1), job);
+        CHECK(out.str().find("edges of contact") == std::string::npos);
+        CHECK((out.str().find("would not stick") != std::string::npos) == (share < 1) && out.str().find("Pastewka") != std::string::npos);
+    }
+}
+
+// The remark on E* z0^2/w below 8 pixels.
+void edges() {
+    Job job;
+    job.indenter = {100.0, 1.0};
+    job.settings.solids.adhesion_range = 1e-3;
+    for (const double pixels : {20.0, 7.5}) {
+        job.settings.solids.adhesion = 2 * 100.0 * 1e-3 / pixels;
+        std::vector<LevelValues> levels(1);
+        levels[0].cohesive_resolution = 2;
+        std::ostringstream out;
+        print_remarks(out, levels, job);
+        CHECK((out.str().find("edges of contact") != std::string::npos) == (pixels < 8));
+    }
+}
+
 // A list's candidates are counted; a synthetic surface's are the area under the sphere of a Gaussian surface over that of a summit: the
 // share of it above Z0 between flats, 2 pi R times its mean excess over Z0 under a sphere, at most all. Time grows with the realizations.
 void forecast(const Folder& folder) {
@@ -98,5 +131,7 @@ void forecast(const Folder& folder) {
 TESTS {
     const Folder folder;
     thresholds();
+    sticks();
+    edges();
     forecast(folder);
 }

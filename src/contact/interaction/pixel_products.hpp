@@ -38,10 +38,12 @@ protected:
     long count_ = 0;
 };
 
-// Products for a free body with pixels of sides dx, dy [length]; K includes the offset substrate.bulge() per unit force (Kernel::shift()).
+// Products for a free body with pixels of sides dx, dy [length]. If `shifted`, K includes the offset substrate.bulge() per unit force
+// (Kernel::shift()).
 // Near pixels interact by Love's kernel and the smooth part, far ones by a hierarchy of boxes, whose pressures are interpolated to a few
 // Chebyshev points (W. Fong, E. Darve, J. Comput. Phys. 228, 2009). The work is proportional to the number of pixels. Results do not depend
 // on the number of threads.
-std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy, double inner_error, double full_error);
+std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy, double inner_error, double full_error,
+                                                  bool shifted = true);
 
 }  // namespace rsc

@@ -168,8 +168,8 @@ Layout make_layout(const std::vector<Pixel>& pixels, int rows) {
 // Deflection at an offset from a pixel under unit pressure, with offsets in units of the pixel's first side.
 struct PixelAnswer {
     Substrate substrate;
-    double dx, dy;
-    double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy) + dx * dy * substrate.bulge(); }
+    double dx, dy, shift;
+    double operator()(double x, double y) const { return substrate.under_pixel(x * dx, y * dx, dx, dy) + dx * dy * shift; }
 };
 
 // Interpolation tables for one number of points, for all layouts.
@@ -306,8 +306,8 @@ private:
 
 class Tree final : public PixelProducts {
 public:
-    Tree(const Substrate& substrate, double dx, double dy, double inner_error, double full_error)
-        : answer_{substrate, dx, dy},
+    Tree(const Substrate& substrate, double dx, double dy, double inner_error, double full_error, double shift)
+        : answer_{substrate, dx, dy, shift},
           aspect_(dy / dx),
           rows_(rows_of(dy / dx)),
           inner_(points_for(inner_error), rows_, answer_),
@@ -494,8 +494,9 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
 
 }  // namespace
 
-std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy, double inner_error, double full_error) {
-    return std::make_unique<Tree>(substrate, dx, dy, inner_error, full_error);
+std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy, double inner_error, double full_error,
+                                                  bool shifted) {
+    return std::make_unique<Tree>(substrate, dx, dy, inner_error, full_error, shifted ? substrate.bulge() : 0.0);
 }
 
 }  // namespace rsc

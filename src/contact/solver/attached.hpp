@@ -10,6 +10,7 @@
 // larger contact pulls on its neighbours; hence H is positive definite if H x = b > 0 has a solution x > 0 (an M-matrix). The
 // derivative x = -ds/dZ0, right-hand side 1 in the Newton system, is tried first if contacts are not crowded: b = Q (I + B D)^-1 1 is positive if
 // the row sums of B D are below 1. Otherwise b = q 1 is tried, with the right-hand side 1 + B D.
+// For nearly incompressible layers on a stiffer body, whose B has small negative elements, the sign of those of H is assumed, not proved.
 // A cheaper proof is tried before these two. H is congruent to diag(f'/(q D)) + S^-1/D with S = I + D^1/2 B D^1/2. Let S be positive
 // definite (solver/uniqueness.hpp) and U be the asperities with f' < 0. Since (S^-1)_UU is at least (S_UU)^-1, it suffices that
 // diag(u'/|f'|) - B_UU is positive definite, and as B >= 0 that some v > 0 has u' v > |f'| B v on U. Such a v is found by fixed-point

@@ -183,9 +183,9 @@ long ElementsSolver::join() {
     products_.elsewhere(p_.data(), others, w.data());
     long joined = 0;
     // Pixels are selected by inner products with a margin for their error.
-    const double margin = 1 - 3 * products_.inner_error();
+    const double margin = 3 * products_.inner_error();
     for (std::size_t k = 0; k < others.size(); ++k) {
-        if (!(w[k] * margin < (*g0_)[at(where[k])] - Z0_)) continue;
+        if (!(w[k] * (w[k] > 0 ? 1 - margin : 1 + margin) < (*g0_)[at(where[k])] - Z0_)) continue;
         member_[at(where[k])] = 1;
         ++joined;
     }

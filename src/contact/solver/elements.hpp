@@ -13,7 +13,8 @@ public:
     // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w may be negative.
     ElementsSolver(PixelProducts& products, double highest);
 
-    // Solves for the pixels that may touch, row by row (y, then x), with penetrations without deformation g0 > 0 [length]. p contains
+    // Solves for the pixels that may touch, row by row (y, then x), with penetrations without deformation g0 [length]: > 0, or larger than
+    // the height by which pressures raise other points if K is not positive everywhere (layers without a shift), with its sign changed. p contains
     // starting pressures (all zero: none) and receives the solution. All vectors are in the order of the pixels. If the `sum` of the
     // pressures is given, g0 is known up to a constant, and the solution is that for g0 - rise(). Starting pressures are then required, and
     // rise() < 0 means that pixels may be missing.

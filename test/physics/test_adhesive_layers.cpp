@@ -1,0 +1,117 @@
+// Adhesive elements on layered bodies (contact/adhesive_elements.hpp, interaction/layers.hpp), free and between flats.
+#include "adhesive_paths.hpp"
+#include "check.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/interaction/kernel.hpp"
+
+using namespace rsc;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kSide = 40;
+constexpr double kStep = 0.025, kWork = 0.01, kRange = 0.06;
+
+HeightMap bumps() {
+    HeightMap map;
+    map.allocate(kSide, kSide, kSide);
+    map.dx = map.dy = kStep;
+    for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) map.row(j)[i] = 0.01 * (std::cos(0.9 * i + 0.3 * j) + std::cos(0.5 * i - 0.8 * j + 1));
+    return map;
+}
+
+Indenter over(const LayeredBody& body, bool flats) {
+    const Layer top = body.count > 0 ? body.layer[0] : Layer{1, body.E, body.nu};
+    Indenter tip{top.E / (1 - top.nu * top.nu), flats ? kInfinity : 1.0, 0.5, 0.5, {}};
+    if (flats) tip.period = {kSide * kStep, kSide * kStep};
+    tip.layers = body;
+    return tip;
+}
+
+LayeredBody body_of(const Layer& layer, double E, double nu) { return {1, {layer}, E, nu}; }
+
+// From where nothing attracts into contact and back.
+constexpr int kLevels = 13;
+double separation(bool flats, int k) {
+    const double low = flats ? 0.005 : -0.06, high = 0.13;
+    return high + (low - high) * (1 - std::abs(2.0 * k / (kLevels - 1) - 1));
+}
+
+// A thick layer, a layer like its base, and a layer far thinner than a pixel are half-spaces.
+void test_limits(bool flats) {
+    const HeightMap map = bumps();
+    const SolverOptions options = sticky(kWork, kRange);
+    const LayeredBody base{0, {}, 3, 0.3};
+    for (const LayeredBody& body : {body_of({1e7, 3, 0.3}, 50, 0.1), body_of({0.2, 3, 0.3}, 3, 0.3), body_of({1e-9, 50, 0.1}, 3, 0.3)}) {
+        const auto plain = make_element_contact(map, over(base, flats), options),
+                   coated = make_element_contact(map, over(body, flats), options);
+        double least = 0;
+        for (int k = 0; k < kLevels; ++k) {
+            const Level truth = plain->at_separation(separation(flats, k)), level = coated->at_separation(separation(flats, k));
+            least = std::min(least, truth.force);
+            CHECK(level.status != LevelStatus::not_converged && level.contacts == truth.contacts);
+            CHECK_CLOSE(level.force, truth.force, 1e-6 * std::max(std::abs(truth.force), -least));
+            CHECK_CLOSE(coated->energy(), plain->energy(), 1e-6 * kWork);
+            CHECK_CLOSE(level.energy_lost, truth.energy_lost, 1e-6 * kWork);
+        }
+        CHECK(least < 0);
+    }
+}
+
+// Conditions of every point, with deflections by direct sums of the free kernel; the work of the levels is the energy lost.
+void test_conditions(bool flats, const LayeredBody& body) {
+    const HeightMap map = bumps();
+    const Indenter tip = over(body, flats);
+    const auto contact = make_element_contact(map, tip, sticky(kWork, kRange));
+    const Substrate substrate = substrate_of(tip);
+    std::vector<double> kernel;
+    for (int i = 0; i < kSide * kSide; ++i) kernel.push_back(substrate.under_pixel(i % kSide * kStep, i / kSide * kStep, kStep, kStep));
+    const double s0 = kWork / kRange;
+    double work = 0, most_lost = 0;
+    Level before = contact->at_separation(separation(flats, 0));
+    CHECK(before.force == 0);
+    for (int k = 1; k < kLevels; ++k) {
+        const Level level = contact->at_separation(separation(flats, k));
+        CHECK(level.status != LevelStatus::not_converged);
+        work += 0.5 * (before.force + level.force) * (before.separation - level.separation);
+        most_lost = std::max(most_lost, level.energy_lost);
+        CHECK_CLOSE(work - contact->energy(), level.energy_lost, 1e-6 * std::max(work, kWork));
+        before = level;
+        if (flats) continue;
+        std::vector<double> p(kSide * kSide, 0.0);
+        std::vector<char> contacts(p.size(), 0), cohesive(p.size(), 0);
+        for (std::size_t m = 0; m < level.pixels.index.size(); ++m) {
+            const auto i = static_cast<std::size_t>(level.pixels.index[m]);
+            p[i] = level.pixels.pressure[m], contacts[i] = 1;
+            CHECK(p[i] >= -s0);
+        }
+        for (const std::int32_t i : level.pixels.cohesive) p[static_cast<std::size_t>(i)] = -s0, cohesive[static_cast<std::size_t>(i)] = 1;
+        for (int i = 0; i < kSide * kSide; i += 3) {
+            double gap = level.separation - tip.clearance(i % kSide * kStep, i / kSide * kStep, map(i % kSide, i / kSide));
+            for (int j = 0; j < kSide * kSide; ++j)
+                gap += p[static_cast<std::size_t>(j)] *
+                       kernel[static_cast<std::size_t>(std::abs(i / kSide - j / kSide) * kSide + std::abs(i % kSide - j % kSide))];
+            if (contacts[static_cast<std::size_t>(i)])
+                CHECK_CLOSE(gap, 0, 1e-5 * kRange);
+            else if (cohesive[static_cast<std::size_t>(i)])
+                CHECK(gap > -1e-5 * kRange && gap < kRange * (1 + 1e-5));
+            else
+                CHECK(gap > kRange * (1 - 1e-5));
+        }
+    }
+    CHECK(before.force == 0 && contact->energy() == 0);
+    CHECK_RELATIVE(work, before.energy_lost, 1e-6);
+    CHECK(most_lost > 0);
+}
+
+}  // namespace
+
+TESTS {
+    for (const bool flats : {false, true}) {
+        test_limits(flats);
+        test_conditions(flats, body_of({0.1, 1, 0.3}, 10, 0.3));
+        test_conditions(flats, body_of({0.1, 10, 0.3}, 1, 0.3));
+        test_conditions(flats, body_of({0.1, 1, 0.5}, kInfinity, 0.3));  // bulges around pressure
+    }
+}
