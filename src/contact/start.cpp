@@ -27,19 +27,29 @@ void EarlierLevels::remember_passed(double Z0, const Candidates& candidates, con
     past_.front().passed = true;
 }
 
-void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities) {
-    if (past_.empty()) return;  // moved twice without a level between; the carried state is kept
-    for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
-    carried_.known.clear();
-    if (unique_ && v.size() == at(candidates.size())) {
-        carried_.separation = past_.front().separation;
-        carried_.phi.resize(asperities, kUnknown);
-        carried_.known = candidates.set.asperity;
-        for (std::size_t k = 0; k < v.size(); ++k) carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
+void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities, Vec2 from, Vec2 to) {
+    if (!past_.empty()) {  // otherwise moved twice without a level between; the carried state is kept
+        std::swap(carried_, before_);
+        for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
+        carried_.known.clear();
+        if (unique_ && v.size() == at(candidates.size())) {
+            carried_.separation = past_.front().separation;
+            carried_.place = from;
+            carried_.phi.resize(asperities, kUnknown);
+            carried_.known = candidates.set.asperity;
+            for (std::size_t k = 0; k < v.size(); ++k) carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
+        }
+        past_.clear();
+        solved_ = 0;
+        unique_ = true;
     }
-    past_.clear();
-    solved_ = 0;
-    unique_ = true;
+    constexpr double straight = 0.2, furthest = 2.5;
+    const Vec2 move{to.x - carried_.place.x, to.y - carried_.place.y};
+    const Vec2 last{carried_.place.x - before_.place.x, carried_.place.y - before_.place.y};
+    const double square = last.x * last.x + last.y * last.y;
+    ahead_ = carried_.known.empty() || before_.known.empty() ? 0 : (move.x * last.x + move.y * last.y) / square;
+    const double aside = std::hypot(move.x - ahead_ * last.x, move.y - ahead_ * last.y);
+    if (!(std::abs(ahead_) <= furthest) || aside > straight * std::hypot(move.x, move.y)) ahead_ = 0;
 }
 
 bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& start) const {
@@ -49,7 +59,9 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
         start.resize(rank.size());
         bool any = false;
         for (std::size_t k = 0; k < rank.size(); ++k) {
-            const double phi = carried_.phi[at(candidates.set.asperity[k])];
+            const auto i = at(candidates.set.asperity[k]);
+            double phi = carried_.phi[i];
+            if (ahead_ != 0 && std::isfinite(before_.phi[i])) phi += ahead_ * (phi - before_.phi[i]);
             start[k] = std::isfinite(phi) ? g0[k] - phi : -kInfinity;
             any = any || start[k] > 0;
         }
@@ -90,8 +102,9 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
 
 std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
     if (!past_.empty()) return past_.front().separation;
-    if (!carried_.known.empty() && carried_.separation < first_touch) return carried_.separation;
-    return std::nullopt;
+    if (carried_.known.empty() || !(carried_.separation < first_touch)) return std::nullopt;
+    const double next = carried_.separation + ahead_ * (carried_.separation - before_.separation);
+    return next < first_touch ? next : carried_.separation;
 }
 
 Vector cold_start(const Law& law, Products& products, const WorkingSet& candidates) {

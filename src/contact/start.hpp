@@ -16,8 +16,9 @@ public:
     // Stores an intermediate solution, which is replaced by the next one and need not be unique.
     void remember_passed(double Z0, const Candidates& candidates, const std::vector<double>& v);
 
-    // To be called when the tip moves and ranks become invalid: stores the last level by asperity as the start of the next level.
-    void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities);
+    // To be called when the tip moves from one place to another and ranks become invalid: stores the last level by asperity as the start of
+    // the next level. On a way straight on, the next level is extrapolated from the last levels of two places.
+    void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities, Vec2 from, Vec2 to);
 
     bool unique() const { return unique_; }  // the last solution is proved to be unique
     // Predicts penetrations at Z0. Candidates that are not in earlier levels are assumed not to touch (which is checked later). Returns
@@ -40,9 +41,11 @@ private:
 
     struct Carried {
         double separation = 0;
+        Vec2 place{};
         std::vector<double> phi;  // B F by asperity; NaN: unknown
         std::vector<int> known;   // asperities with known B F
-    } carried_;
+    } carried_, before_;          // of the last place of the tip, and of the one before
+    double ahead_ = 0;            // the last move of the tip relative to the one before; 0: not straight on
 };
 
 // Mean-field start: penetrations g0 - s of the no-interaction forces F = f(<g0 - s>), where s is the mean of B F weighted with F. s is

@@ -1,6 +1,7 @@
 #include "run/forecast.hpp"
 
 #include "contact/interaction/mesh.hpp"
+#include "contact/interaction/pair_matrix.hpp"
 #include "error.hpp"
 #include "run/compare.hpp"
 
@@ -173,7 +174,7 @@ double expected_seconds(const Job& job, double workers) {
             one += std::max(1.0, steps && under > grown * before ? cold / (1 + kPunch * punch_share(under, points)) : 0.0) *
                    element_level_seconds(job, level, points, force);
         else
-            one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 3.5 : 1) * (job.indenter.period.finite() ? 8 : 1) *
+            one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 2 : 1) * (job.indenter.period.finite() ? 8 : 1) *
                    level_seconds(job, expected_candidates(job, likely_separation(job, level)));
         before = under;
     }
@@ -185,7 +186,19 @@ double expected_seconds(const Job& job, double workers) {
 }
 
 double expected_megabytes(const Job& job, double workers) {
-    if (!by_elements(job.settings)) return 0;
+    const double contacts_at_once = std::max(1.0, std::min(workers, static_cast<double>(job.settings.run.realizations)));
+    if (!by_elements(job.settings)) {
+        if (job.settings.solids.layer_thickness.empty() || job.indenter.period.finite()) return 0;
+        // Kept values of the kernel, of the contacts among each other and onto the other candidates. Bytes from the peaks of six runs,
+        // within 5 %; a mesh keeps fewer.
+        constexpr double coated_program = 55e6, touching_share = 0.4, bytes = 33, most_bytes = 11;
+        double values = 0;
+        for (const double level : job.levels) {
+            const double all = expected_candidates(job, likely_separation(job, level));
+            values = std::max(values, touching_share * (1 - 0.5 * touching_share) * all * all);
+        }
+        return 1e-6 * (coated_program + std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues) * contacts_at_once);
+    }
     // Bytes for each point of the surface (heights, those of a coarser grid, modes; transforms of two flats), and for each point under the
     // indenter or in contact, from the peaks of a dozen runs.
     constexpr double program = 32e6, tables = 15e6, under = 170, touching = 150, adhesion = 49;
@@ -200,7 +213,7 @@ double expected_megabytes(const Job& job, double workers) {
         most = std::max(most, job.indenter.period.finite() ? points * (flats + touching * share_in_contact(job, level, force))
                                                            : tables + free * points + (under + deep * below / points) * below);
     }
-    return 1e-6 * (program + most * std::max(1.0, std::min(workers, static_cast<double>(job.settings.run.realizations))));
+    return 1e-6 * (program + most * contacts_at_once);
 }
 
 }  // namespace rsc

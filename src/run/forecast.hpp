@@ -19,8 +19,8 @@ double element_seconds(const Job& job, double Z0, double points_per_wave);
 // milliseconds), that of the levels follows from their numbers of candidates and typical rates, mostly within a factor of two.
 double expected_seconds(const Job& job, double workers);
 
-// Largest memory [MB] of a run by elements with `workers` realizations in parallel, from the sizes of the surface and of the contact. 0 for
-// asperities, which need little.
+// Largest memory [MB] of a run with `workers` realizations in parallel: of elements from the sizes of the surface and of the contact, of
+// coated asperities from the values of the kernel that are kept. 0 for other asperities, which need little.
 double expected_megabytes(const Job& job, double workers);
 
 }  // namespace rsc

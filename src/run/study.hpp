@@ -29,7 +29,7 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
 // Returns what the run is expected to take with `threads` threads. Error(bad_input) names the member.
 struct Forecast {
     double seconds = 0;
-    double megabytes = 0;  // of elements at their peak; 0: not estimated
+    double megabytes = 0;  // of elements and coated asperities at their peak; 0: not estimated
 };
 Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads);
 

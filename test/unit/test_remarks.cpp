@@ -103,7 +103,7 @@ void forecast(const Folder& folder) {
     const double one = expected_seconds(job, 1);
     job.settings.run.realizations = 7;  // in three rounds of three, or in seven, beside the start of the program
     CHECK_RELATIVE(expected_seconds(job, 1) - expected_seconds(job, 3), 2 * (expected_seconds(job, 3) - one), 1e-9);
-    // Memory: none is estimated for asperities; elements store their heights, in each of the parallel realizations, and more at depth.
+    // Memory: of asperities only values that are kept for layers, in each of the parallel realizations, are estimated; elements store their heights, in each of the parallel realizations, and more at depth.
     CHECK(expected_megabytes(job, 1) == 0);
     const auto elements = [&](int realizations, double level, double workers) {
         return expected_megabytes(
@@ -111,6 +111,10 @@ void forecast(const Folder& folder) {
                    " / &surface n=1024 L_lambda_s=128 / &solver model='elements' / &indentation levels=" + std::to_string(level) + " /"),
             workers);
     };
+    const Job coated = job_of("&run realizations=4 / &solids layer_thickness=0.1 layer_E=1 layer_nu=0.3 / &indentation levels=2 /");
+    const double kept = expected_megabytes(coated, 2) - expected_megabytes(coated, 1);
+    CHECK(kept > 0 && expected_megabytes(coated, 1) > kept);
+    CHECK_RELATIVE(expected_megabytes(coated, 3) - expected_megabytes(coated, 2), kept, 1e-9);
     CHECK(elements(1, 2, 2) == elements(1, 2, 1) && elements(1, -2, 1) > elements(1, 2, 1));
     CHECK_RELATIVE(elements(4, 2, 3) - elements(4, 2, 2), elements(4, 2, 2) - elements(4, 2, 1), 1e-9);
     CHECK(elements(4, 2, 2) - elements(4, 2, 1) > 8e-6 * 1024 * 1024);

@@ -5,8 +5,7 @@
 namespace rsc {
 namespace {
 
-constexpr std::size_t kMostValues = 8'000'000;  // of 12 bytes
-constexpr std::size_t kRows = 128;              // rows added in single precision before they are added in double precision
+constexpr std::size_t kRows = 128;  // rows added in single precision before they are added in double precision
 
 // Elements begin ... end - 1 of kMany rows of the matrix: sum[k] += row[k] . force, and back += sum of f[k] row[k]. Products and sums are not
 // contracted, so that all instruction sets give the same bits.
@@ -22,21 +21,24 @@ struct Rows {
 };
 
 template <class Real, std::size_t rows, bool with_back>
-RSC_ALWAYS_INLINE void rows_body(const Rows<Real>& r) {
+RSC_ALWAYS_INLINE void rows_body(const Rows<Real>& given) {
+    const Rows<Real> r = given;  // a copy, whose members cannot change by writing to r.back
     constexpr std::size_t W = 32 / sizeof(Real);
     using V [[gnu::vector_size(32)]] = Real;
+    // Read through a pointer: GCC 12 copies arrays that are filled by memcpy through memory, at a third of the speed.
+    using Unaligned [[gnu::vector_size(32), gnu::aligned(alignof(Real)), gnu::may_alias]] = Real;
     V sum[rows] = {};
     std::size_t j = r.begin;
     for (; j + W <= r.end; j += W) {
-        V force, back, g[rows];
-        __builtin_memcpy(&force, r.force + j, sizeof force);
-        if constexpr (with_back) __builtin_memcpy(&back, r.back + j, sizeof back);
-        for (std::size_t k = 0; k < rows; ++k) __builtin_memcpy(&g[k], r.row[k] + j, sizeof g[k]);
-        for (std::size_t k = 0; k < rows; ++k) sum[k] += g[k] * force;
-        if constexpr (with_back) {
-            for (std::size_t k = 0; k < rows; ++k) back += r.f[k] * g[k];
-            __builtin_memcpy(r.back + j, &back, sizeof back);
+        const V force = *reinterpret_cast<const Unaligned*>(r.force + j);
+        V back;
+        if constexpr (with_back) back = *reinterpret_cast<const Unaligned*>(r.back + j);
+        for (std::size_t k = 0; k < rows; ++k) {
+            const V g = *reinterpret_cast<const Unaligned*>(r.row[k] + j);
+            sum[k] += g * force;
+            if constexpr (with_back) back += r.f[k] * g;
         }
+        if constexpr (with_back) *reinterpret_cast<Unaligned*>(r.back + j) = back;
     }
     for (std::size_t k = 0; k < rows; ++k) {
         Real total = r.sum[k];
@@ -53,18 +55,26 @@ RSC_DISPATCH(both_many, (rows_body<double, kMany, true>), (const Rows<double>& r
 RSC_DISPATCH(both_many, (rows_body<float, kMany, true>), (const Rows<float>& rows), (rows))
 RSC_DISPATCH(both_one, (rows_body<double, 1, true>), (const Rows<double>& rows), (rows))
 RSC_DISPATCH(both_one, (rows_body<float, 1, true>), (const Rows<float>& rows), (rows))
+RSC_DISPATCH(sum_many, (rows_body<double, kMany, false>), (const Rows<double>& rows), (rows))
+RSC_DISPATCH(sum_many, (rows_body<float, kMany, false>), (const Rows<float>& rows), (rows))
 RSC_DISPATCH(sum_one, (rows_body<double, 1, false>), (const Rows<double>& rows), (rows))
 RSC_DISPATCH(sum_one, (rows_body<float, 1, false>), (const Rows<float>& rows), (rows))
 
-// value += near/d + shift
+// exact = value + near/d + shift, or `self` for coinciding points, to which 1/d does not apply; rough = exact inverse_unit.
 struct Singular {
     std::size_t n;
-    const double* squares;
-    double near, shift;
-    double* value;
+    const double *squares, *value;
+    double near, shift, self, inverse_unit;
+    double* exact;
+    float* rough;
 };
-RSC_ALWAYS_INLINE void singular_body(const Singular& s) {
-    for (std::size_t k = 0; k < s.n; ++k) s.value[k] += s.shift + s.near / std::sqrt(s.squares[k]);
+RSC_ALWAYS_INLINE void singular_body(const Singular& given) {
+    const Singular s = given;
+    for (std::size_t k = 0; k < s.n; ++k) {
+        const double apart = s.value[k] + (s.shift + s.near / std::sqrt(s.squares[k]));
+        s.exact[k] = s.squares[k] > 0 ? apart : s.self;
+        s.rough[k] = static_cast<float>(s.exact[k] * s.inverse_unit);
+    }
 }
 RSC_DISPATCH(add_singular, singular_body, (const Singular& s), (s))
 
@@ -81,12 +91,12 @@ void PairMatrix::forget() {
     unit_ = 0, values_ = 0, small_ = 0;
 }
 
-bool PairMatrix::too_large(std::size_t active, std::size_t others) const { return active * (active / 2 + others) > kMostValues; }
+bool PairMatrix::too_large(std::size_t active, std::size_t others) const { return active * (active / 2 + others) > kMostKeptValues; }
 
 bool PairMatrix::stale(std::size_t active) {
     constexpr int often = 16;
     small_ = x_.size() > 2 * active + 256 ? small_ + 1 : 0;
-    return small_ > often || values_ > kMostValues;
+    return small_ > often || values_ > kMostKeptValues;
 }
 
 void PairMatrix::grow() {
@@ -116,6 +126,7 @@ std::uint32_t PairMatrix::find(double x, double y) {
 void PairMatrix::extend(Point& point) {
     constexpr std::size_t kBlock = SquareTable::kBlock;
     double square[kBlock], value[kBlock];
+    const double self = kernel_->self();
     std::size_t from = point.exact.size();
     const std::size_t all = x_.size();
     if (from == all) return;
@@ -128,15 +139,9 @@ void PairMatrix::extend(Point& point) {
             square[k] = dx * dx + dy * dy;
         }
         kernel_->smooth()->table().values(count, square, value);
-        add_singular({count, square, kernel_->near(), kernel_->shift(), value});
-        // The singular part 1/d does not apply to coinciding points.
-        for (std::size_t k = 0; k < count; ++k)
-            if (!(square[k] > 0)) value[k] = kernel_->self();
         if (!(unit_ > 0)) unit_ = kernel_->near() / std::sqrt(square[0] > 0 ? square[0] : 1);
-        for (std::size_t k = 0; k < count; ++k) {
-            point.exact[from + k] = value[k];
-            point.rough[from + k] = static_cast<float>(value[k] / unit_);
-        }
+        add_singular({count, square, value, kernel_->near(), kernel_->shift(), self, 1 / unit_, point.exact.data() + from,
+                      point.rough.data() + from});
     }
 }
 
@@ -149,10 +154,11 @@ void PairMatrix::set_active(const std::vector<std::uint32_t>& active) {
         point.source = static_cast<std::uint32_t>(x_.size());
         x_.push_back(point.x), y_.push_back(point.y);
     }
-    order_.resize(active_.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(),
-              [this](std::uint32_t a, std::uint32_t b) { return points_[active_[a]].source < points_[active_[b]].source; });
+    place_.assign(x_.size(), kNone);
+    for (std::uint32_t k = 0; k < active_.size(); ++k) place_[points_[active_[k]].source] = k;
+    order_.clear();
+    for (const std::uint32_t k : place_)
+        if (k != kNone) order_.push_back(k);
 }
 
 // Sets the forces by source; returns their unit.
@@ -189,8 +195,8 @@ void PairMatrix::symmetric(Sums<Real>& sums, double* phi) {
             both_many(rows);
         }
         for (std::size_t i = 0; i < count; ++i)
-            both_one(
-                Rows<Real>{rows.end, points_[active_[order_[k + i]]].source, {rows.row[i]}, {rows.f[i]}, rows.force, rows.back, sum + i});
+            if (const std::size_t end = points_[active_[order_[k + i]]].source; end > rows.end)
+                both_one(Rows<Real>{rows.end, end, {rows.row[i]}, {rows.f[i]}, rows.force, rows.back, sum + i});
         for (std::size_t i = 0; phi && i < count; ++i) phi[order_[k + i]] = static_cast<double>(sum[i]);
         if ((k + kMany) % kRows == 0 || k + kMany >= n)
             for (std::size_t j = 0; j < all; ++j) total_[j] += static_cast<double>(std::exchange(sums.back[j], Real(0)));
@@ -203,7 +209,31 @@ void PairMatrix::among(bool single, const double* f, double* phi) {
         symmetric(rough_, phi);
     else
         symmetric(exact_, phi);
-    for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = unit * (phi[k] + total_[points_[active_[k]].source]) + kernel_->self() * f[k];
+    const double self = kernel_->self();
+    for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = unit * (phi[k] + total_[points_[active_[k]].source]) + self * f[k];
+}
+
+template <class Real>
+void PairMatrix::rows_onto(Sums<Real>& sums, double unit, const std::vector<std::uint32_t>& targets, double* phi) {
+    for (std::size_t k = 0; k < targets.size(); k += kMany) {
+        const std::size_t count = std::min(kMany, targets.size() - k);
+        Real sum[kMany] = {};
+        Rows<Real> rows{0, x_.size(), {}, {}, sums.force.data(), nullptr, sum};
+        for (std::size_t i = 0; i < count; ++i) {
+            rows.row[i] = points_[targets[k + i]].template row<Real>();
+            rows.end = std::min(rows.end, points_[targets[k + i]].exact.size());
+        }
+        if (count == kMany)
+            sum_many(rows);
+        else
+            rows.end = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Point& point = points_[targets[k + i]];
+            if (rows.end < point.exact.size())
+                sum_one(Rows<Real>{rows.end, point.exact.size(), {rows.row[i]}, {}, rows.force, nullptr, sum + i});
+            phi[k + i] = unit * (static_cast<double>(sum[i]) + (point.source != kNone ? total_[point.source] : 0));
+        }
+    }
 }
 
 void PairMatrix::onto(bool single, const double* f, const std::vector<std::uint32_t>& targets, double* phi) {
@@ -215,20 +245,10 @@ void PairMatrix::onto(bool single, const double* f, const std::vector<std::uint3
     const double unit = single ? begin(rough_, f) * unit_ : begin(exact_, f);
     if (sources && single) symmetric(rough_, nullptr);
     if (sources && !single) symmetric(exact_, nullptr);
-    for (std::size_t k = 0; k < targets.size(); ++k) {
-        const Point& point = points_[targets[k]];
-        const std::size_t n = point.exact.size();
-        double sum = 0;
-        if (single) {
-            float part = 0;
-            sum_one(Rows<float>{0, n, {point.row<float>()}, {}, rough_.force.data(), nullptr, &part});
-            sum = static_cast<double>(part);
-        } else {
-            sum_one(Rows<double>{0, n, {point.row<double>()}, {}, exact_.force.data(), nullptr, &sum});
-        }
-        if (point.source != kNone) sum += total_[point.source];
-        phi[k] = unit * sum;
-    }
+    if (single)
+        rows_onto(rough_, unit, targets, phi);
+    else
+        rows_onto(exact_, unit, targets, phi);
 }
 
 }  // namespace rsc

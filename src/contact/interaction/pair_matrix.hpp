@@ -6,6 +6,9 @@
 
 namespace rsc {
 
+// Largest number of values that one set of points may need; twice as many may be kept, of 12 bytes.
+constexpr std::size_t kMostKeptValues = 8'000'000;
+
 // G between the points that have carried force (sources, in the order in which they first did) and all known points. Sums are taken in the
 // order of the sources, so their last bits depend on earlier calls.
 class PairMatrix {
@@ -59,11 +62,15 @@ private:
     // Sums from a source onto those before it, and onto the active points if `phi` is given.
     template <class Real>
     void symmetric(Sums<Real>& sums, double* phi);
+    // Sums at the targets; if some are sources, after symmetric().
+    template <class Real>
+    void rows_onto(Sums<Real>& sums, double unit, const std::vector<std::uint32_t>& targets, double* phi);
 
     const Kernel* kernel_;
     std::vector<Point> points_;
     std::vector<std::uint32_t> table_;   // hash table: numbers of points
     std::vector<std::uint32_t> active_;  // numbers of points
+    std::vector<std::uint32_t> place_;   // of each source in active_, or kNone
     std::vector<std::uint32_t> order_;   // places in active_, by source
     std::vector<double> x_, y_;          // of the sources
     std::vector<double> total_;          // by source

@@ -1,0 +1,58 @@
+// A tip that moves: each level starts from those of the last places, and must be the one of a contact without a past.
+#include "check.hpp"
+#include "contact/asperity_contact.hpp"
+#include "physics/random_asperities.hpp"
+
+using namespace rsc;
+
+namespace {
+
+void test_way() {
+    const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
+    SolverOptions options;
+    const Indenter tip{1, 2, 0.5, 0.5};
+    const auto moving = make_asperity_contact(asperities, tip, options);
+    // Straight on with equal and other steps, aside, back, far away, and without a move.
+    const double way[][2] = {{0.5, 0.5},     {0.5001, 0.5001}, {0.5002, 0.5002}, {0.5003, 0.5003}, {0.5005, 0.5005}, {0.5005, 0.502},
+                             {0.503, 0.502}, {0.501, 0.502},   {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
+    for (const bool forces : {false, true}) {
+        const double value = forces ? moving->at_separation(-0.02).force : -0.02;
+        for (const auto& place : way) {
+            Indenter there = tip;
+            there.move(place[0], place[1]);
+            moving->move_tip(place[0], place[1]);
+            const auto fresh = make_asperity_contact(asperities, there, options);
+            const Level a = forces ? moving->at_force(value) : moving->at_separation(value);
+            const Level b = forces ? fresh->at_force(value) : fresh->at_separation(value);
+            CHECK(a.status == b.status && a.contacts > 5);
+            CHECK(a.asperity == b.asperity);
+            CHECK_RELATIVE(a.force, b.force, 10 * options.tolerance);
+            CHECK_RELATIVE(a.area, b.area, 10 * options.tolerance);
+            for (std::size_t k = 0; k < std::min(a.f.size(), b.f.size()); ++k)
+                CHECK(std::abs(a.f[k] - b.f[k]) < 10 * options.tolerance * b.force);
+        }
+    }
+}
+
+// Straight on with equal steps a level takes fewer products than without an extrapolation.
+void test_products() {
+    const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
+    const auto count = [&](bool straight) {
+        const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
+        const double force = contact->at_separation(-0.02).force;
+        std::int64_t products = 0;
+        for (int k = 1; k < 40; ++k) {
+            contact->move_tip(0.5 + 1e-4 * (straight ? k : k % 4 / 2), 0.5 + 1e-4 * (straight ? 0 : (k + 1) % 4 / 2));
+            products += contact->at_force(force).products;
+        }
+        return products;
+    };
+    CHECK(2 * count(true) < count(false));
+}
+
+}  // namespace
+
+TESTS {
+    test_way();
+    test_products();
+}
