@@ -47,6 +47,7 @@ public:
         bool sound = memory.empty() || memory.size() >= kKept;
         for (std::size_t k = 0; k < memory.size() && sound; ++k)
             sound = std::isfinite(memory[k]) && (k < kKept || (memory[k] >= 0 && memory[k] < static_cast<double>(state_.clearance.size())));
+        sound = sound && (memory.empty() || (memory[5] >= 0 && memory[5] <= std::numeric_limits<std::int32_t>::max()));
         if (!sound) throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
         if (!memory.empty()) past = {memory[0], memory[1], memory[2], memory[3], memory[4], static_cast<std::int32_t>(memory[5]), {}};
         for (std::size_t k = kKept; k < memory.size(); ++k) past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
