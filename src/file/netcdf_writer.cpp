@@ -97,10 +97,15 @@ void ResultTable::measured() {
     add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean", bins);
     add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);
 
+    const auto of_twins = [&](const std::string& what, double exponent) {
+        NetcdfAttributes attributes = comment(what + "; synthetic surfaces have it times k^twin_exponent, for the rms slope of the map");
+        attributes.push_back({"twin_exponent", std::vector<double>{exponent}});
+        return attributes;
+    };
     file_.dimension("wavenumber", m.spectrum.wavenumber.size());
     add("wavenumber", {"wavenumber"}, unit(-1), "wavenumber k = 2 pi/lambda, middle of a ring of Fourier modes", m.spectrum.wavenumber);
     add("psd", {"wavenumber"}, unit(4), "power spectral density Phi, mean over the ring", m.spectrum.psd,
-        comment("after a Hann window; the integral of 2 pi k Phi dk is the mean square height"));
+        of_twins("after a Hann window; the integral of 2 pi k Phi dk is the mean square height", m.spectrum.exponent));
     file_.dimension("plane_wavenumber", m.spectrum.plane_wavenumber.size());
     file_.dimension("angle", MeasuredSpectrum::kAngles);
     std::vector<double> angles;
@@ -109,7 +114,8 @@ void ResultTable::measured() {
     add("plane_wavenumber", {"plane_wavenumber"}, unit(-1), "wavenumber of psd_plane", m.spectrum.plane_wavenumber);
     add("angle", {"angle"}, "degree", "direction of the wave vector, from the x axis towards the y axis", angles);
     add("psd_plane", {"plane_wavenumber", "angle"}, unit(4), "power spectral density by direction", m.spectrum.plane_psd,
-        comment("the other half plane is the mirror image; surface%twins = 'directional' generates surfaces with it"));
+        of_twins("the other half plane is the mirror image; surface%twins = 'directional' generates surfaces with it",
+                 m.spectrum.plane_exponent));
     const Texture& t = m.texture;
     add_absent("sal", {}, unit(1), "autocorrelation length Sal (ISO 25178-2)", {t.sal},
                "shortest lag at which the autocorrelation falls to 0.2");

@@ -52,11 +52,11 @@ public:
 
     // None if the attribute does not exist; throws Error(bad_input) if it is no text. Control characters are replaced.
     std::optional<std::string> text_attribute(const Variable& variable, const char* name) const;
+    std::optional<std::vector<double>> numbers_attribute(const Variable& variable, const char* name) const;
     const std::string& path() const { return path_; }
 
 private:
     void must(int status, const std::string& what) const;
-    std::optional<std::vector<double>> numbers_attribute(const Variable& variable, const char* name) const;
 
     std::unique_lock<LibraryLock> alone_;
     std::string path_;

@@ -5,6 +5,7 @@
 #include "read/bytes.hpp"
 #include "read/formats.hpp"
 #include "read/input_netcdf.hpp"
+#include "rough/measured_spectrum.hpp"
 
 namespace rsc {
 namespace {
@@ -44,16 +45,21 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
             const auto read = [&](const char* name, int power, std::size_t rank = 1) {
                 return read_variable(file, name, length_unit, power, rank);
             };
+            const auto exponent = [&](const char* name) {
+                const auto found = file.numbers_attribute(*file.find(name), "twin_exponent");
+                return found && found->size() == 1 && (*found)[0] >= -kMostExponent && (*found)[0] <= 0 ? (*found)[0] : 0;
+            };
             if (by_direction) {
                 const auto plane = read("psd_plane", 4, 2);
                 const std::size_t angles = file.find("psd_plane")->lengths[1];
-                found.plane = std::make_shared<const PlaneSpectrum>(read("plane_wavenumber", -1), angles, plane);
+                const auto rings = read("plane_wavenumber", -1);
+                found.plane = std::make_shared<const PlaneSpectrum>(rings, angles, tilted(plane, rings, exponent("psd_plane")));
             }
             if (heights)
                 found.heights = std::make_shared<const HeightDistribution>(
                     HeightDistribution::of_quantiles(read("normal_score", 0), read("height_quantile", 1)));
             wavenumber = read("wavenumber", -1);
-            psd = read("psd", 4);
+            psd = tilted(read("psd", 4), wavenumber, exponent("psd"));
         } else {
             if (by_direction || heights)
                 bad_input(

@@ -128,6 +128,13 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         m.fit = fit_self_affine(stretched);
         m.fit->aspect = aspect, m.fit->direction = slopes.direction;
     }
+    if (m.fit) {
+        MeasuredSpectrum& s = m.spectrum;
+        const SpectrumTable table(s.wavenumber, s.psd);
+        s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); }, s.wavenumber, map, m.parameters);
+        s.plane_exponent =
+            twin_exponent(PlaneSpectrum(s.plane_wavenumber, MeasuredSpectrum::kAngles, s.plane_psd), s.plane_wavenumber, map, m.parameters);
+    }
     return m;
 }
 

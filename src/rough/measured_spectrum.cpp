@@ -211,6 +211,42 @@ HeightParameters height_parameters(const HeightMap& map) {
     return p;
 }
 
+double twin_exponent(const std::function<double(double, double)>& psd, const std::vector<double>& wavenumber, const HeightMap& map,
+                     const HeightParameters& parameters) {
+    constexpr int parts = 4, angles = 4 * static_cast<int>(MeasuredSpectrum::kAngles);
+    std::vector<std::array<double, 3>> rings;  // ln k, shares of the mean square height and slope
+    const auto difference = [](double k, double step) { return 2 * std::sin(k * step / 2) / step; };
+    for (std::size_t g = 1; g < wavenumber.size(); ++g) {
+        const double width = std::log(wavenumber[g] / wavenumber[g - 1]) / parts;
+        for (int p = 0; p < parts; ++p) {
+            const double log_k = std::log(wavenumber[g - 1] / wavenumber[0]) + (p + 0.5) * width, k = wavenumber[0] * std::exp(log_k);
+            double height = 0, slope = 0;
+            for (int a = 0; a < angles; ++a) {
+                const double kx = k * std::cos(std::numbers::pi * a / angles), ky = k * std::sin(std::numbers::pi * a / angles);
+                const double sx = difference(kx, map.dx), sy = difference(ky, map.dy), power = k * k * width * psd(kx, ky);
+                height += power, slope += power * (sx * sx + sy * sy);
+            }
+            rings.push_back({log_k, height, slope});
+        }
+    }
+    const double wanted = parameters.sdq * parameters.sdq / (parameters.sq * parameters.sq);
+    double low = -kMostExponent, high = 0;
+    for (int step = 0; step < 50; ++step) {
+        const double e = 0.5 * (low + high);
+        double height = 0, slope = 0;
+        for (const auto& [log_k, h, s] : rings) height += h * std::exp(e * log_k), slope += s * std::exp(e * log_k);
+        (slope > wanted * height ? high : low) = e;
+    }
+    return high;
+}
+
+std::vector<double> tilted(std::vector<double> psd, const std::vector<double>& wavenumber, double exponent) {
+    if (exponent == 0 || psd.empty() || psd.size() % wavenumber.size() != 0) return psd;
+    const std::size_t across = psd.size() / wavenumber.size();
+    for (std::size_t i = 0; i < psd.size(); ++i) psd[i] *= std::pow(wavenumber[i / across] / wavenumber[0], exponent);
+    return psd;
+}
+
 Isotropy isotropy(const HeightMap& map) {
     double xx = 0, xy = 0, yy = 0;
     for (int j = 0; j + 1 < map.ny; ++j) {

@@ -45,6 +45,8 @@ struct MeasuredSpectrum {
     static constexpr std::size_t kAngles = 72;
     std::vector<double> plane_wavenumber;  // [1/length]
     std::vector<double> plane_psd;         // [ring][angle], [length^4]
+    // Synthetic surfaces with this spectrum have psd times (wavenumber/wavenumber[0])^exponent, likewise plane_psd (twin_exponent()).
+    double exponent = 0, plane_exponent = 0;
     // Direction of the lay from the x axis, 0 to 180 [degree]: perpendicular to the mean direction of the power around the largest.
     double lay() const;
 };
@@ -76,5 +78,15 @@ struct Isotropy {
     double ratio = 1, direction = 0;
 };
 Isotropy isotropy(const HeightMap& map);
+
+// The exponent e for which psd(kx, ky) (k/wavenumber[0])^e, by first differences with the steps of the map, has the ratio of rms slope to
+// rms height of the map, between -kMostExponent and 0. The window of measure_spectrum() weighs the middle of the map, so that long waves of a
+// map that is rougher elsewhere are missing. Slopes that are missing are those of steps and spikes, which no spectrum reproduces.
+inline constexpr double kMostExponent = 0.5;
+double twin_exponent(const std::function<double(double, double)>& psd, const std::vector<double>& wavenumber, const HeightMap& map,
+                     const HeightParameters& parameters);
+
+// psd[ring][...] times (k/wavenumber[0])^exponent; as it is if the sizes do not agree.
+std::vector<double> tilted(std::vector<double> psd, const std::vector<double>& wavenumber, double exponent);
 
 }  // namespace rsc

@@ -100,23 +100,28 @@ std::string twins_text(const Job& job, const std::string& result) {
     return kMark + effective_namelist(twins);
 }
 
-// States how far the rms slope of the twins is from the map's. The spectrum does not hold waves longer than the map, nor those shorter than
-// its wider grid step, and is scaled to the rms height of the map.
+// States the exponent of the twins' spectrum, and how far their rms slope is from the map's. The spectrum does not hold waves longer than the
+// map, nor those shorter than its wider grid step, and is scaled to the rms height of the map.
+constexpr double kTold = 0.05;  // a difference of slopes, or an exponent, that is stated
 static std::string other_slopes(const Measured& m) {
     const MeasuredSpectrum& s = m.spectrum;
     const double L = std::max(m.nx * m.dx, m.ny * m.dy), sigma = m.parameters.sq;
     const bool directional = m.isotropy < kIsotropic;
+    const double exponent = directional ? s.plane_exponent : s.exponent;
+    const std::string times =
+        exponent > -kTold ? "" : format("\nspectrum of the twins: that of the map times k^%.2f, for its rms slope", exponent);
     const Spectrum twin =
-        directional
-            ? tabulated_spectrum(std::make_shared<PlaneSpectrum>(s.plane_wavenumber, MeasuredSpectrum::kAngles, s.plane_psd), L, sigma)
-            : tabulated_spectrum(std::make_shared<SpectrumTable>(s.wavenumber, s.psd), L, sigma);
+        directional ? tabulated_spectrum(std::make_shared<PlaneSpectrum>(s.plane_wavenumber, MeasuredSpectrum::kAngles,
+                                                                         tilted(s.plane_psd, s.plane_wavenumber, exponent)),
+                                         L, sigma)
+                    : tabulated_spectrum(std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)), L, sigma);
     const double slope = theoretical_moments(twin).rms_slope(), held = (directional ? twin.plane->sigma() : twin.table->sigma()) / sigma;
-    constexpr double told = 0.05;
-    if (std::abs(slope / m.parameters.sdq - 1) < told) return {};
-    return format(
-        "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a given force differs about as much in "
-        "the opposite direction: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",
-        slope, m.parameters.sdq, 100 * held * held);
+    if (std::abs(slope / m.parameters.sdq - 1) < kTold) return times;
+    return times +
+           format(
+               "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a given force differs about as much in "
+               "the opposite direction: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",
+               slope, m.parameters.sdq, 100 * held * held);
 }
 
 // Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also reports a file
