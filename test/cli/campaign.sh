@@ -213,6 +213,7 @@ test_merge() {
     cd ..
     part law 14 4 -s "asperities%law='elliptic'"
     part one 14 1
+    part later 15 2
     part classic 14 3 -s "output%format='classic'"
     study
     expect 0 in_folder study "$rsc" -q ../case.nml
@@ -224,6 +225,7 @@ test_merge() {
     refused "text.nc.*no result of rsc" a/out.nc text.nc
     refused "realizations 3 to 13 .*'a/out.nc'.*'a/../a/out.nc'" a/out.nc a/../a/out.nc
     refused "realizations 14 to 16 .*missing" a/out.nc c/out.nc
+    refused "realization 14 .*missing" a/out.nc later/out.nc
     sed -i 's/rsc 0\.[0-9]*\.[0-9]*,/rsc 0.0.9,/' classic/out.nc
     truncate -s -47 classic/out.nc  # its checksum
     refused "classic/out.nc.*0.0.9" a/out.nc classic/out.nc

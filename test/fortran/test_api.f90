@@ -31,8 +31,9 @@ contains
 
   subroutine options_by_name()
     type(rsc_case) :: options, other
-    character(200) :: errmsg
+    character(200) :: errmsg, text
     integer :: stat
+    real :: single
     call options%set('surface%sigma', 0.02_dp)
     call options%set('surface%n', 4096)
     call options%set('surface%plateau', .true.)
@@ -45,6 +46,10 @@ contains
     call check(other%text() == options%text(), 'case as text and back')
     call options%set('surface%sigma', 0.1)
     call check(options%get('surface%sigma') == '0.1', 'default real by name, as written')
+    call options%set('surface%sigma', 1.0 / 3)
+    text = options%get('surface%sigma')
+    read (text, *) single
+    call check(single == 1.0 / 3, 'default real by name, every bit of it')
     call options%set('run%seed', 9000000000_c_int64_t)
     call check(options%get('run%seed') == '9000000000', 'long integer by name')
     call options%set('solids%E', [1.0e5_dp, 2.0e5_dp])

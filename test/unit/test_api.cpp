@@ -126,10 +126,30 @@ void test_many() {
     CHECK(most_beyond > 1e-8);
 }
 
+// A copy has the resistance of one circular spot (Holm), and a text that does not fit is cut while its whole length is known.
+void test_copy_and_cut() {
+    const double r = 0.3, zero = 0, u = 1e-3;
+    AsperitiesHandle a;
+    OK(rsc_asperities_take(&a, 1, &zero, &zero, &zero, &r, nullptr, nullptr, nullptr, nullptr));
+    ContactHandle c, copy;
+    OK(rsc_contact_create(&c, a, 2e5, 5, 0, 0, case_of("&solids resistivity=1, 3 /")));
+    OK(rsc_contact_indent(c, -u, nullptr));
+    OK(rsc_contact_copy(&copy, c));
+    double resistance = 0;
+    OK(rsc_contact_value(copy, "resistance", &resistance));
+    CHECK_RELATIVE(resistance, (1 + 3) / (4 * std::sqrt(r * u)), 1e-12);
+    char whole[300], cut[8];
+    std::int64_t length = 0, known = 0;
+    OK(rsc_status_text(RSC_NOT_CONVERGED, whole, 300, &length));
+    OK(rsc_status_text(RSC_NOT_CONVERGED, cut, 8, &known));
+    CHECK(length > 8 && known == length && whole[length] == 0 && std::string(cut) == std::string(whole).substr(0, 7));
+}
+
 }  // namespace
 
 TESTS {
     CHECK(message().empty());
     test_single();
     test_many();
+    test_copy_and_cut();
 }

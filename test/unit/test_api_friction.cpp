@@ -4,6 +4,7 @@
 #include "contact/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
 #include "unit/library.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace {
 
@@ -75,6 +76,21 @@ void same_as_core() {
     double again = 0;
     OK(rsc_friction_state(friction, nullptr, nullptr, nullptr, nullptr, &again, nullptr, nullptr, nullptr, nullptr, nullptr));
     CHECK(again == qx);
+    // After a step that is not committed, a restored path has the force of the step, and a rollback leads to the commit.
+    const Folder folder;
+    const std::string file = folder / "friction";
+    FrictionHandle restored;
+    OK(rsc_friction_update(friction, 0.001, 1.005, 2, nullptr, &original, nullptr, nullptr));
+    OK(rsc_friction_save(friction, file.c_str()));
+    OK(rsc_friction_restore(&restored, take(list), file.c_str()));
+    const auto force_x = [&] {
+        double Q = 0;
+        OK(rsc_friction_state(restored, nullptr, nullptr, nullptr, nullptr, &Q, nullptr, nullptr, nullptr, nullptr, nullptr));
+        return Q;
+    };
+    CHECK(force_x() == original && original != qx);
+    OK(rsc_friction_rollback(restored));
+    CHECK(force_x() == qx);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The rms height that a contact of a map given through rsc.h goes by.
+// The rms height that a contact of a map given through rsc.h goes by; copies of a map.
 #include "check.hpp"
 #include "unit/library.hpp"
 
@@ -84,6 +84,21 @@ void rms_height() {
     goes_by(copy, 0.0125);
 }
 
+// A copy lies where its original lies, and has the same heights.
+void copy_of_a_surface() {
+    const Map map;
+    const Values z = map.heights([&](int i, int j) { return map.x(i) * map.y(j); });
+    const SurfaceHandle surface = map.take(z);
+    SurfaceHandle copy;
+    OK(rsc_surface_copy(&copy, surface));
+    double dx = 0, dy = 0, x0 = 0, y0 = 0;
+    OK(rsc_surface_grid(copy, nullptr, nullptr, &dx, &dy, &x0, &y0, nullptr));
+    CHECK(dx == map.dx && dy == map.dy && x0 == map.x0 && y0 == map.y0 && map.heights_of(copy) == z);
+}
+
 }  // namespace
 
-TESTS { rms_height(); }
+TESTS {
+    rms_height();
+    copy_of_a_surface();
+}

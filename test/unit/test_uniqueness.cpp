@@ -69,6 +69,15 @@ void pair_is_nearly_sharp() {
     CHECK(positive_definite_by_shells({}, {}, {}));
 }
 
+// Very many spots in one cluster: a row of spots of radius a at distances d is indefinite, because the quadratic form of forces of
+// alternating sign is near 1 - (4 log(2)/pi) a/d for each spot.
+void long_row_is_indefinite() {
+    const std::size_t n = 500;
+    Vector x;
+    for (std::size_t k = 0; k < n; ++k) x.push_back(0.5 * static_cast<double>(k));
+    CHECK(!positive_definite_by_shells(x, Vector(n, 0.0), Vector(n, 1.0)));
+}
+
 // All solutions that are minima along every force, from all 2^n subsets at work at first: coordinate descent on the energy, which is
 // convex in each force alone.
 std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& p, const Vector& g0) {
@@ -178,6 +187,7 @@ void lanczos_finds_the_lowest() {
 TESTS {
     proofs_are_true();
     pair_is_nearly_sharp();
+    long_row_is_indefinite();
     told_only_where_it_is_so();
     lanczos_finds_the_lowest();
 }
