@@ -32,7 +32,7 @@ Indenter over(const LayeredBody& body, bool flats) {
 LayeredBody body_of(const Layer& layer, double E, double nu) { return {1, {layer}, E, nu}; }
 
 // From where nothing attracts into contact and back.
-constexpr int kLevels = 13;
+constexpr int kLevels = 7;
 double separation(bool flats, int k) {
     const double low = flats ? 0.005 : -0.06, high = 0.13;
     return high + (low - high) * (1 - std::abs(2.0 * k / (kLevels - 1) - 1));

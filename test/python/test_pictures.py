@@ -137,6 +137,11 @@ class Numbers(Drawn):
             for quantity in ("force", "contacts"):
                 self.has_curve(load, z[at], v[quantity].mean(axis=0)[at])
             self.has_curve(self.figure("area", name), force[at], area[at])
+            if name == "many":  # the band
+                ends = next(c for c in load.axes[0].collections if c.get_gid() == "scatter").get_paths()[0].vertices
+                drawn = ends[np.isclose(ends[:, 0], z[at[-1]])][:, 1]
+                self.assertTrue(np.allclose([drawn.min(), drawn.max()], np.percentile(v["force"][:, at[-1]], [16, 84])))
+                self.assertTrue(np.allclose(results("many")[0].worst("force_error_expected")[at], np.nan_to_num(v["force_error_expected"]).max(axis=0)[at]))
             self.has_curve(self.figure("stiffness", name), force[at], -v["stiffness"].mean(axis=0)[at])
         # R = (rho_1 + rho_2)/L by the electrical analogy.
         v, _ = raw("one")
@@ -195,6 +200,15 @@ class Numbers(Drawn):
         drawn = [c for c in self.figure("spots", "one", step=22).axes[1].collections if hasattr(c, "_widths")]
         self.assertTrue(any(np.allclose(c.get_offsets(), np.column_stack([v["asperity_x"][which], v["asperity_y"][which]])) and np.allclose(c._widths, a) for c in drawn))
 
+        # Yielding and elastic spots have the colours of the legend.
+        v, _ = raw("back")
+        yields = (v["contact_yields"][int(v["contact_start"][3]) - 1:][: int(v["contact_count"][3])] > 0).sum()
+        figure = self.figure("spots", "back", step=4)
+        colours = {text.get_text(): plt.matplotlib.colors.to_rgba(handle.get_color()) for text, handle in zip(figure.axes[-1].get_legend().get_texts(), figure.axes[-1].get_legend().get_lines())}
+        drawn = {tuple(c.get_facecolor()[0]): len(c.get_offsets()) for c in figure.axes[1].collections if hasattr(c, "_widths")}
+        self.assertTrue(0 < yields < v["contact_count"][3])
+        self.assertEqual((drawn[colours["yielding"]], drawn[colours["elastic"]]), (yields, v["contact_count"][3] - yields))
+
     def test_friction(self):
         v, _ = raw("slid")
         figure = self.figure("loop", "slid", step=40)
@@ -212,6 +226,9 @@ class Numbers(Drawn):
         figure = self.figure("compare", "compared")
         for name in ("force", "contact_area", "contacts"):
             self.has_curve(figure, v["force"][0, steps], 100 * (v[name][0, steps] / v["compare_" + name] - 1))
+        turned = [c for axis in figure.axes for c in axis.collections if c.get_gid() == "spots"]
+        angles = v["asperity_angle"][v["contact_asperity"].astype(int) - 1]
+        self.assertTrue(turned and all(np.isclose(np.cos(angles[:, None] - c._angles), 1, atol=1e-9).any(axis=0).all() for c in turned))
         # The pressure of one elliptic spot along all lines adds up to its force.
         lines = np.linspace(-0.8, 0.8, 401)
         drawn = [plot_compare.along_line([[0.0], [0.0], [0.5], [3.0], [0]], [1.5], [0.4], line, -0.8, 0.8) for line in lines]
@@ -227,6 +244,9 @@ class Numbers(Drawn):
             mean = float(np.ravel(file["spot_area_pdf"].mean)[0]) * 1e-12
         x = np.linspace(v["spot_area_bin"][0] / 10, v["spot_area_bin"][v["spot_area_pdf"][0] > 0].max(), 300)
         self.has_curve(figure, x, np.exp(-x / mean) / mean, 1e-6)
+        x, density = next(line.get_data() for line in figure.axes[1].get_lines() if line.get_gid() == "fit")
+        scale = x[np.argmax(density)]  # the mode of Rayleigh's density is its scale s, and the density there exp(-1/2)/s
+        self.assertAlmostEqual(density.max() * scale, np.exp(-0.5), delta=1e-3)
 
     def test_surface(self):
         v, _ = raw("map")

@@ -50,6 +50,8 @@ public:
 
 private:
     double corner(double s, double t) const;
+    template <unsigned n>
+    double by_points(double x, double y, double a, double b) const;
 
     SquareTable table_;
     std::function<double(double)> share_;
