@@ -93,6 +93,8 @@ def load(results, options):
         for result, look in zip(results, looks):
             curve(page, axis, result, look, result.depth()[0], result.mean(name), scatter=name, error="force_error_expected" if name == first else None, alone=alone)
         axis.set_yscale("log" if _many_decades([r.mean(name)[r.loaded()] for r in results]) else "linear")
+        if name == "contacts" and axis.get_yscale() == "linear":
+            axis.yaxis.get_major_locator().set_params(integer=True)
         axis.invert_xaxis()  # the bodies approach from left to right
         label(axis, "x", *results[0].depth()[1:])
         label(axis, "y", error if name == first else "number of contacts", results[0].dimension(name))

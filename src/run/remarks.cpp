@@ -152,7 +152,7 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
         jumps += level.jumps, lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
     if (c.run.realizations == 1)
         out << format(
-            "  adhesion: the smallest force is %.4g %s; energy lost in %ld jumps: %.4g %s %s. Levels depend on the levels before.\n", least,
+            "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s. Levels depend on the levels before.\n", least,
             f, jumps, lost, f, l);
     if (const double fine = levels.back().cohesive_resolution; fine < 2)
         out << format(
