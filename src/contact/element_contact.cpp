@@ -77,9 +77,8 @@ struct ElementContact::Impl : CutMap {
         if (!options.relaxation.none()) loads.emplace(Creep(options.relaxation));
         block_top.assign(at(blocks_x) * at(blocks_y), -kInfinity);
         for (int j = 0; j < heights.ny; ++j) {
-            const double* row = heights.row(j);
             double* tops = block_top.data() + at(j / kBlock) * at(blocks_x);
-            for (int i = 0; i < heights.nx; ++i) tops[i / kBlock] = std::max(tops[i / kBlock], row[i]);
+            for (int i = 0; i < heights.nx; ++i) tops[i / kBlock] = std::max(tops[i / kBlock], heights(i, j));
         }
         find_top();
     }

@@ -2,6 +2,7 @@
 
 #include "error.hpp"
 #include "rough/library_lock.hpp"
+#include "rough/parallel.hpp"
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -20,11 +21,9 @@ public:
         row_ += value;
         ++row_points_;
     }
-    void end_row() {
-        total_ += row_;
-        points_ += row_points_;
-        row_ = 0;
-        row_points_ = 0;
+    void add_row(const Mean& row) {
+        total_ += row.row_;
+        points_ += row.row_points_;
     }
     double value() const { return points_ > 0 ? total_ / static_cast<double>(points_) : 0.0; }
 
@@ -32,6 +31,22 @@ private:
     double row_ = 0, total_ = 0;
     long row_points_ = 0, points_ = 0;
 };
+
+// `count` means over rows first ... end - 1, whose sums rows(j, sums) adds on several threads. They are added in the order of the rows.
+template <std::size_t count, class Rows>
+std::array<Mean, count> mean_of_rows(int first, int end, const Rows& rows) {
+    constexpr int grain = 64;
+    std::vector<std::array<Mean, count>> sums(static_cast<std::size_t>(end - first));
+    parallel_for(end - first, grain, 0, [&](int k) {
+        std::array<Mean, count> own;
+        rows(first + k, own);
+        sums[static_cast<std::size_t>(k)] = own;
+    });
+    std::array<Mean, count> means;
+    for (const auto& row : sums)
+        for (std::size_t m = 0; m < count; ++m) means[m].add_row(row[m]);
+    return means;
+}
 
 }  // namespace
 
@@ -55,7 +70,9 @@ double* allocate_doubles(std::size_t n, const char* purpose) {
     return static_cast<double*>(p);
 }
 
-void HeightMap::Free::operator()(double* p) const noexcept { std::free(p); }
+void HeightMap::Free::operator()(double* p) const noexcept {
+    if (owned) std::free(p);
+}
 
 void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
     if (nx_ < 1 || ny_ < 1 || stride_ < nx_)
@@ -73,29 +90,26 @@ HeightMap HeightMap::copy() const {
     HeightMap made;
     made.allocate(nx, ny, nx);
     made.dx = dx, made.dy = dy, made.x0 = x0, made.y0 = y0, made.periodic = periodic;
-    for (int j = 0; j < ny; ++j) std::copy_n(row(j), nx, made.row(j));
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) made.row(j)[i] = (*this)(i, j);
     return made;
 }
 
 Moments grid_moments(const HeightMap& map) {
     Moments m;
     if (map.nx < 1 || map.ny < 1) return m;
-    Mean level, m0;
-    for (int j = 0; j < map.ny; ++j) {
-        for (int i = 0; i < map.nx; ++i) level.add(map(i, j));
-        level.end_row();
-    }
-    for (int j = 0; j < map.ny; ++j) {
-        const double* const z = map.row(j);
-        for (int i = 0; i < map.nx; ++i) m0.add((z[i] - level.value()) * (z[i] - level.value()));
-        m0.end_row();
-    }
-    m.m0 = m0.value();
+    const auto level = mean_of_rows<1>(0, map.ny, [&](int j, auto& sums) {
+        for (int i = 0; i < map.nx; ++i) sums[0].add(map(i, j));
+    });
+    const auto m0 = mean_of_rows<1>(0, map.ny, [&, mean = level[0].value()](int j, auto& sums) {
+        for (int i = 0; i < map.nx; ++i) sums[0].add((map(i, j) - mean) * (map(i, j) - mean));
+    });
+    m.m0 = m0[0].value();
     if (map.nx < 3 || map.ny < 3) return m;
 
     const int edge = map.periodic ? 0 : 1;
-    Mean g2, m20, m11, m40, m31, m22, m13, m04;
-    for (int j = edge; j < map.ny - edge; ++j) {
+    const auto means = mean_of_rows<8>(edge, map.ny - edge, [&](int j, auto& sums) {
+        auto& [g2, m20, m11, m40, m31, m22, m13, m04] = sums;
         const double* const below = map.row(j > 0 ? j - 1 : map.ny - 1);
         const double* const z = map.row(j);
         const double* const above = map.row(j + 1 < map.ny ? j + 1 : 0);
@@ -114,23 +128,25 @@ Moments grid_moments(const HeightMap& map) {
             m04.add(zyy * zyy);
             m22.add(zxy * zxy);
         }
-        for (Mean* mean : {&g2, &m20, &m11, &m40, &m31, &m22, &m13, &m04}) mean->end_row();
-    }
+    });
+    const auto& [g2, m20, m11, m40, m31, m22, m13, m04] = means;
     m.tensor = {m20.value(), m11.value(), g2.value() - m20.value(), m40.value(), m31.value(), m22.value(), m13.value(), m04.value()};
     m.m2 = g2.value() / 2.0;
     m.m4 = (m40.value() + m04.value() + 3.0 * m22.value()) / 3.0;
     return m;
 }
 
-HeightMap every_second_point(const HeightMap& map) {
-    HeightMap coarse;
-    coarse.allocate((map.nx + 1) / 2, (map.ny + 1) / 2, (map.nx + 1) / 2);
-    coarse.dx = 2 * map.dx, coarse.dy = 2 * map.dy;
-    coarse.x0 = map.x0, coarse.y0 = map.y0;
-    coarse.periodic = map.periodic;
-    for (int j = 0; j < coarse.ny; ++j)
-        for (int i = 0; i < coarse.nx; ++i) coarse.row(j)[i] = map(2 * i, 2 * j);
-    return coarse;
+HeightMap every_second_point_of(const HeightMap& map) {
+    HeightMap view;
+    view.nx = (map.nx + 1) / 2, view.ny = (map.ny + 1) / 2;
+    view.stride = 2 * map.stride, view.every = 2 * map.every;
+    view.dx = 2 * map.dx, view.dy = 2 * map.dy;
+    view.x0 = map.x0, view.y0 = map.y0;
+    view.periodic = map.periodic;
+    view.data = std::unique_ptr<double[], HeightMap::Free>(map.data.get(), HeightMap::Free(false));
+    return view;
 }
+
+HeightMap every_second_point(const HeightMap& map) { return every_second_point_of(map).copy(); }
 
 }  // namespace rsc

@@ -16,7 +16,11 @@ struct HeightMap {
     double dx = 0, dy = 0;
     double x0 = 0, y0 = 0;  // coordinates of point (0, 0)
     bool periodic = false;  // true for synthetic surfaces, false for measured ones
+    int every = 1;          // columns between points; only maps of every_second_point_of have more than 1
     struct Free {
+        bool owned;  // false: the heights belong to another map
+        Free() noexcept : owned(true) {}
+        explicit Free(bool owns) noexcept : owned(owns) {}
         void operator()(double* p) const noexcept;
     };
     std::unique_ptr<double[], Free> data;
@@ -26,7 +30,7 @@ struct HeightMap {
     HeightMap copy() const;  // without padding between rows
     double* row(int j) { return data.get() + j * stride; }
     const double* row(int j) const { return data.get() + j * stride; }
-    double operator()(int i, int j) const { return row(j)[i]; }
+    double operator()(int i, int j) const { return row(j)[static_cast<std::ptrdiff_t>(i) * every]; }
     double Lx() const { return nx * dx; }
     double Ly() const { return ny * dy; }
 };
@@ -42,5 +46,8 @@ Moments grid_moments(const HeightMap& map);
 
 // Every second point of a map along both sides, from the first one on: the map of a measurement half as fine.
 HeightMap every_second_point(const HeightMap& map);
+
+// The same without a copy: its heights are those of `map`, which must outlive it. Read it by (i, j), not by row().
+HeightMap every_second_point_of(const HeightMap& map);
 
 }  // namespace rsc

@@ -199,8 +199,8 @@ double expected_megabytes(const Job& job, double workers) {
         }
         return 1e-6 * (coated_program + std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues) * contacts_at_once);
     }
-    // Bytes for each point of the surface (heights, those of a coarser grid, modes; transforms of two flats), and for each point under the
-    // indenter or in contact, from the peaks of a dozen runs.
+    // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each point under the indenter or in
+    // contact, from the peaks of a dozen runs.
     constexpr double program = 32e6, tables = 15e6, under = 170, touching = 150, adhesion = 49;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = 10 + sticking, flats = 28 + sticking;
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);

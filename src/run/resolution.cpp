@@ -26,12 +26,16 @@ constexpr double kGrown = 2, kShrunk = 0.75;
 OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave)
     : read_(!job.spectrum) {
     if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution (contact/adhesive_elements.cpp)
+    // Points of the map itself on its grid of half as many points, if there is one. Two flats need the rows in memory.
+    const auto half = [&] { return job.indenter.period.finite() ? every_second_point(map) : every_second_point_of(map); };
+    coarser_ = read_ || points_per_wave >= kHalvedFrom;
     if (read_) {
         if (std::min(map.nx, map.ny) < kFewestPoints || (map.periodic && (map.nx % 2 != 0 || map.ny % 2 != 0))) return;
-        map_ = every_second_point(map);
+        map_ = half();
+    } else if (coarser_ && map.nx % 2 == 0 && map.ny % 2 == 0) {
+        map_ = half();
     } else {
         Case other = job.settings;
-        coarser_ = points_per_wave >= kHalvedFrom;
         other.elements.points_per_wave = (coarser_ ? 0.5 : 2.0) * points_per_wave;
         map_ = make_element_surface(other, number, threads).map;
         map_->x0 = map.x0, map_->y0 = map.y0;

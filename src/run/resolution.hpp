@@ -26,8 +26,8 @@ struct GridError {
 // A contact of elements on a second grid.
 class OtherGrid {
 public:
-    // `map`: the heights of the contact, at points_per_wave if synthetic. If there is no second grid (a map of few points, a periodic one of
-    // an odd number of them, adhesion), error() returns nothing.
+    // `map`: the heights of the contact, at points_per_wave if synthetic; they must outlive this object. If there is no second grid (a map
+    // of few points, a periodic one of an odd number of them, adhesion), error() returns nothing.
     OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave);
     // Uses an existing contact: `coarse` has half the points a side of the contact to be checked.
     explicit OtherGrid(std::unique_ptr<Contact> coarse) : contact_(std::move(coarse)) {}
