@@ -385,8 +385,8 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  * "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ... ; "separation", "stiffness", "energy",
  * "conductance_length" (2 |dN/dZ0|/E*), "lateral_force_x", "lateral_force_y", "moment_x", "moment_y",
  * "resistance" (with solids%resistivity in the case the contact was made from). The message of an unknown name lists all.
- * "force_error_expected" and "area_error_expected", the expected errors of N and A, exist for asperities only. rsc_case_run estimates the
- * error of elements by refining the grid; a contact handle does not, and its status does not include that error.
+ * "force_error_expected" and "area_error_expected", the expected errors of N and A, exist for asperities, and for elements with adhesion.
+ * rsc_case_run estimates the error of other elements on a second grid; a contact handle does not, and its status does not include that error.
  * contact: the contact; name: the name; value (out): its value. Errors: -1, -3 null; -2 null or unknown; RSC_NO_RESULT, also if the value
  * is not finite; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);

@@ -77,6 +77,7 @@ void AdhesivePixels::set_clearances() {
 // No level, and no point attracts.
 void AdhesivePixels::forget() {
     accepted = {};
+    margin = bulged = 0;
     for (std::vector<double>* values : {&q, &gap_before, &p_before}) values->assign(clearance.size(), 0.0);
     on.assign(clearance.size(), 0);
 }
@@ -277,6 +278,12 @@ void AdhesivePixels::move(double x0, double y0) {
     const Period& period = from.repeats.finite() ? from.repeats : from.period;
     const Vec2 way{period.nearest_x(x0 - from.x0), period.nearest_y(y0 - from.y0)};
     const double length = std::hypot(way.x, way.y);
+    // If no point comes within reach of the attraction on the way, nothing is to be followed.
+    const double nearest = accepted.separation - z0 - margin - bulged;
+    double highest = -kInfinity;
+    for (int j = 0; j < heights.ny; ++j) highest = std::max(highest, *std::max_element(heights.row(j), heights.row(j) + heights.nx));
+    const bool free = accepted.attracting.empty() &&
+                      (nearest == kInfinity || top + indenter.shape->most_fallen(length, std::max(highest - nearest, 0.0)) <= nearest);
     // Whole periods of the surface do not count.
     const auto inside = [](double x, double first, double over) {
         return std::isfinite(over) ? x - over * std::floor((x - first) / over) : x;
@@ -289,8 +296,8 @@ void AdhesivePixels::move(double x0, double y0) {
                 const Vec2 slope = indenter.shape->gradient(d.x, d.y);
                 steepest = std::max(steepest, std::abs(slope.x * way.x + slope.y * way.y) / length);
             }
-            const double piece = std::min(kPiece * z0 / steepest, kPieceSides * std::min(heights.dx, heights.dy));
-            done = accepted.attracting.empty() || !(done + piece < length) ? length : done + piece;
+            const double piece = std::max(std::min(kPiece * z0 / steepest, kPieceSides * std::min(heights.dx, heights.dy)), 1e-6 * length);
+            done = free || !(done + piece < length) ? length : done + piece;
             const double x = done < length ? from.x0 + way.x * done / length : x0, y = done < length ? from.y0 + way.y * done / length : y0;
             indenter.move(inside(x, heights.x0, from.repeats.x), inside(y, heights.y0, from.repeats.y));
             follow();
@@ -298,6 +305,7 @@ void AdhesivePixels::move(double x0, double y0) {
     } catch (...) {
         indenter = from, accepted = before, gap_before = gaps, p_before = pressures;
         set_clearances();
+        if (before.separation < kInfinity) (void)solve(before.separation);
         throw;
     }
 }
@@ -306,7 +314,7 @@ void AdhesivePixels::move(double x0, double y0) {
 void AdhesivePixels::follow() {
     const std::vector<double> before = clearance;
     set_clearances();
-    if (accepted.attracting.empty()) {
+    if (accepted.attracting.empty() && !(top > accepted.separation - z0 - margin - bulged)) {
         for (std::size_t i = 0; i < gap_before.size(); ++i) gap_before[i] = accepted.separation - clearance[i];
         return;
     }

@@ -24,7 +24,7 @@ public:
     double time() const { return time_; }
     virtual bool relaxes() const { return false; }
 
-    // Of the last level (with adhesion, of the present state after move_tip(), or of the last level):
+    // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].
     virtual double stiffness() = 0;
     // Elastic energy W, with dW/dZ0 = -N [force length]. The error is of the order of the square of the residual.

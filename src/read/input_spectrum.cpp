@@ -2,6 +2,7 @@
 
 #include "case/units.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "read/bytes.hpp"
 #include "read/formats.hpp"
 #include "read/input_netcdf.hpp"
@@ -46,8 +47,11 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
                 return read_variable(file, name, length_unit, power, rank);
             };
             const auto exponent = [&](const char* name) {
-                const auto found = file.numbers_attribute(*file.find(name), "twin_exponent");
-                return found && found->size() == 1 && (*found)[0] >= -kMostExponent && (*found)[0] <= 0 ? (*found)[0] : 0;
+                const auto given = file.numbers_attribute(*file.find(name), "twin_exponent");
+                if (!given) return 0.0;
+                if (given->size() != 1 || !((*given)[0] >= -kMostExponent && (*given)[0] <= 0))
+                    bad_input(format("the attribute twin_exponent of %s must be one number from %g to 0", name, -kMostExponent));
+                return (*given)[0];
             };
             if (by_direction) {
                 const auto plane = read("psd_plane", 4, 2);
@@ -59,7 +63,8 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
                 found.heights = std::make_shared<const HeightDistribution>(
                     HeightDistribution::of_quantiles(read("normal_score", 0), read("height_quantile", 1)));
             wavenumber = read("wavenumber", -1);
-            psd = tilted(read("psd", 4), wavenumber, exponent("psd"));
+            psd = read("psd", 4);
+            psd = tilted(std::move(psd), wavenumber, exponent("psd"));
         } else {
             if (by_direction || heights)
                 bad_input(

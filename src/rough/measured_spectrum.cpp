@@ -241,7 +241,7 @@ double twin_exponent(const std::function<double(double, double)>& psd, const std
 }
 
 std::vector<double> tilted(std::vector<double> psd, const std::vector<double>& wavenumber, double exponent) {
-    if (exponent == 0 || psd.empty() || psd.size() % wavenumber.size() != 0) return psd;
+    if (exponent == 0 || psd.empty() || wavenumber.empty() || psd.size() % wavenumber.size() != 0) return psd;
     const std::size_t across = psd.size() / wavenumber.size();
     for (std::size_t i = 0; i < psd.size(); ++i) psd[i] *= std::pow(wavenumber[i / across] / wavenumber[0], exponent);
     return psd;

@@ -129,12 +129,46 @@ void test_edge() {
     const auto contact = make_element_contact(map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.12));
     const Level before = contact->at_separation(0.03);
     const std::vector<double> memory = contact->memory();
+    const double energy = contact->energy(), stiffness = contact->stiffness();
     CHECK_THROWS(contact->move_tip(1.2, 1.0), Error);
     CHECK(contact->indenter().x0 == 1.0 && contact->memory() == memory);
+    CHECK_RELATIVE(contact->energy(), energy, 1e-6);
+    CHECK_RELATIVE(contact->stiffness(), stiffness, 1e-6);
     CHECK_RELATIVE(contact->at_separation(0.03).force, before.force, 1e-9);
     (void)contact->at_separation(0.5);  // pulled off
     contact->move_tip(1.2, 1.0);
     CHECK(contact->indenter().x0 == 1.2);
+}
+
+// Under a dome only its middle attracts, so that a punch wider than that can be moved; a deeper trial before does not change this.
+void test_trial() {
+    HeightMap map = waves(40, 2, 0);
+    for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i) map.row(j)[i] = -0.585 * (std::pow(map.x0 + i * map.dx - 1, 2) + std::pow(map.y0 + j * map.dy - 1, 2));
+    ShapeKeys keys;
+    keys.radius = 0.7;
+    const auto contact = make_element_contact(map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.1));
+    const Level level = contact->at_separation(0);
+    const std::vector<double> memory = contact->memory();
+    (void)contact->at_separation(-0.5);
+    contact->recall(memory, &level);
+    contact->move_tip(1.04, 1.0);
+    CHECK_RELATIVE(contact->at_separation(0).force, level.force, 1e-6);
+}
+
+// A tip above a low half of a surface, where nothing attracts, moves over a high half: what it loses and what it does are counted.
+void test_climb() {
+    HeightMap map = waves(40, 2, 0);
+    for (int j = 0; j < 40; ++j)
+        for (int i = 20; i < 40; ++i) map.row(j)[i] = 0.5;
+    const auto contact = make_element_contact(map, {1.0, 1.0, 0.2, 1.0}, sticky(kWork, 0.1));
+    CHECK(contact->at_separation(0.25).force == 0);
+    contact->move_tip(1.5, 1.0);
+    const Level there = contact->at_separation(0.25);
+    CHECK(there.force > 0 && there.energy_lost > -1e-3 * std::abs(contact->energy()));
+    contact->move_tip(0.2, 1.0);
+    const Level back = contact->at_separation(0.25);
+    CHECK(back.force == 0 && back.energy_lost > there.energy_lost);
 }
 
 // Between flats, a bump beside the tip: its force acts at the bump, including that of points that attract without contact.
@@ -185,6 +219,8 @@ TESTS {
     test_border();
     test_memory();
     test_edge();
+    test_trial();
+    test_climb();
     test_moment();
     test_resolution();
 }

@@ -243,6 +243,23 @@ void lists() {
                       "um")
             .table;
     CHECK(bare->lowest() == 2 && bare->largest() == 13);
+    // The exponent by which the spectrum of a map is multiplied for its twins; densities or wavenumbers that are missing.
+    const auto with = [](double exponent, const char* name = "psd") {
+        return read_spectrum(netcdf("s.nc", {{"k", 3}},
+                                    {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 8}},
+                                     {name, NC_DOUBLE, {"k"}, {7, 11, 13}, {}, {{"twin_exponent", exponent}}}}),
+                             "um")
+            .table;
+    };
+    CHECK_RELATIVE((*with(-0.5))(8), 13.0 / 2, 1e-12);
+    for (const double exponent : {-3.0, 0.2, std::nan("")}) CHECK(!accepted([&] { with(exponent); }));
+    CHECK(!accepted([&] { with(-0.5, "other"); }));
+    CHECK(!accepted([] {
+        read_spectrum(
+            netcdf("s.nc", {{"k", 3}, {"none", 0}},
+                   {{"wavenumber", NC_DOUBLE, {"none"}, {}}, {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}, {}, {{"twin_exponent", -0.5}}}}),
+            "um");
+    }));
 }
 
 void texts() {

@@ -15,7 +15,7 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 constexpr int kMostRows = 64;          // rows of a tile, see rows_of()
 constexpr int kOffsets = 49;           // offsets between boxes: -3 ... 3 in both directions
 constexpr std::size_t kThreads = 500;  // number of boxes above which threads are used
-constexpr std::size_t kParts = 8;      // of the boxes that are summed at the same time
+constexpr std::size_t kParts = 8;      // sums of boxes into their parents: each part has an eighth of the parents
 constexpr std::size_t kChunk = 128;    // boxes processed by a thread at a time
 
 // Interpolation error with q points, measured in test_pixels.cpp.

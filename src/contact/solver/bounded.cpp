@@ -32,6 +32,7 @@ double BoundedSolver::sum(F&& of) {
 void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
+    if (wanted_) Z0_ = 0;
     for (std::size_t k = 0; k < w_.size(); ++k) w_[k] += Z0_ - z_[k];
     find_Z0();
 }
@@ -40,6 +41,7 @@ void BoundedSolver::evaluate(bool exact) {
 void BoundedSolver::find_Z0() {
     if (!wanted_) return;
     const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
+    if (touching == 0) return;
     const double shift = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) / static_cast<double>(touching);
     Z0_ += shift;
     for (double& w : w_) w += shift;

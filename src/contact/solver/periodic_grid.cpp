@@ -212,7 +212,12 @@ void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double
     for (std::size_t k = 0; k < n; ++k) from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
     if (far_is_set_) far_->subtract({rows_, column_}, from_.data(), to_.data(), threads());
-    for (std::size_t k = 0; k < n; ++k) y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0;
+    double product = 0;
+    for (std::size_t k = 0; k < n; ++k) y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0, product += r[k] * y[k];
+    if (far_is_set_ && !(product > 0)) {  // the correction is not proved to be positive definite
+        far_is_set_ = false;
+        precondition(r, y);
+    }
 }
 
 void PeriodicGrid::freed() {
