@@ -240,6 +240,8 @@ class Numbers(Drawn):
         for name in ("pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"):
             p, density = v[name.replace("_pdf", "_bin")], v[name][0]
             self.has_curve(figure, p[density > 0], density[density > 0])
+            units = [plot_style.si(raw("one")[1][(key, "units")])[0] for key in (name, name.replace("_pdf", "_bin"))]
+            self.assertAlmostEqual(units[0] * units[1], 1)  # a density is per unit of its bins
         with netCDF4.Dataset(path("one")) as file:
             mean = float(np.ravel(file["spot_area_pdf"].mean)[0]) * 1e-12
         x = np.linspace(v["spot_area_bin"][0] / 10, v["spot_area_bin"][v["spot_area_pdf"][0] > 0].max(), 300)
