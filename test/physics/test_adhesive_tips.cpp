@@ -129,15 +129,23 @@ void test_edge() {
     const auto contact = make_element_contact(map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.12));
     const Level before = contact->at_separation(0.03);
     const std::vector<double> memory = contact->memory();
-    const double energy = contact->energy(), stiffness = contact->stiffness();
     CHECK_THROWS(contact->move_tip(1.2, 1.0), Error);
     CHECK(contact->indenter().x0 == 1.0 && contact->memory() == memory);
-    CHECK_RELATIVE(contact->energy(), energy, 1e-6);
-    CHECK_RELATIVE(contact->stiffness(), stiffness, 1e-6);
     CHECK_RELATIVE(contact->at_separation(0.03).force, before.force, 1e-9);
     (void)contact->at_separation(0.5);  // pulled off
     contact->move_tip(1.2, 1.0);
     CHECK(contact->indenter().x0 == 1.2);
+    // A sphere whose edge comes to a step of nearly its height after some pieces of the way.
+    HeightMap step = waves(32, 2, 0.02);
+    for (int j = 0; j < 32; ++j)
+        for (int i = 0; i < 32; ++i) step.row(j)[i] += step.x0 + i * step.dx > 1.3 ? 0.95 : 0.0;
+    const auto sphere = make_element_contact(step, {1.0, 1.0, 0.25, 1.0}, sticky(kWork, 0.12));
+    (void)sphere->at_separation(0);
+    const double energy = sphere->energy(), stiffness = sphere->stiffness();
+    CHECK_THROWS(sphere->move_tip(0.6, 1.0), Error);
+    CHECK(sphere->indenter().x0 == 0.25 && stiffness < 0);
+    CHECK_RELATIVE(sphere->energy(), energy, 1e-6);
+    CHECK_RELATIVE(sphere->stiffness(), stiffness, 1e-6);
 }
 
 // Under a dome only its middle attracts, so that a punch wider than that can be moved; a deeper trial before does not change this.
