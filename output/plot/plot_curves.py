@@ -56,7 +56,8 @@ def panel_looks(page, results, names):
         return STYLES[: len(results)]
     if len({r.path for r in results}) < len(results):
         colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(results)))
-        page.scale(("", names, colours))
+        levels = [name.split(":")[0].split(" (")[0].partition(" = ") for name in names]
+        page.scale((levels[0][0], [value or symbol for symbol, _, value in levels], colours))
         return [("o", "-", colour) for colour in colours]
     looks = Looks(results)
     page.scale(looks.scale)

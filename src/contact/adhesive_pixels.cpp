@@ -280,10 +280,13 @@ void AdhesivePixels::move(double x0, double y0) {
     const double length = std::hypot(way.x, way.y);
     // If no point comes within reach of the attraction on the way, nothing is to be followed.
     const double nearest = accepted.separation - z0 - margin - bulged;
-    double highest = -kInfinity;
-    for (int j = 0; j < heights.ny; ++j) highest = std::max(highest, *std::max_element(heights.row(j), heights.row(j) + heights.nx));
+    const auto highest = [&] {
+        double z = -kInfinity;
+        for (int j = 0; j < heights.ny; ++j) z = std::max(z, *std::max_element(heights.row(j), heights.row(j) + heights.nx));
+        return z;
+    };
     const bool free = accepted.attracting.empty() &&
-                      (nearest == kInfinity || top + indenter.shape->most_fallen(length, std::max(highest - nearest, 0.0)) <= nearest);
+                      (nearest == kInfinity || top + indenter.shape->most_fallen(length, std::max(highest() - nearest, 0.0)) <= nearest);
     // Whole periods of the surface do not count.
     const auto inside = [](double x, double first, double over) {
         return std::isfinite(over) ? x - over * std::floor((x - first) / over) : x;

@@ -208,6 +208,14 @@ HeightParameters height_parameters(const HeightMap& map) {
     p.ssk = mean_power(level, 3) / std::pow(p.sq, 3);
     p.sku = mean_power(level, 4) / std::pow(p.sq, 4);
     p.sdq = grid_moments(map).rms_slope();
+    double all = 0, high = 0, high_points = 0;
+    for (int j = 0; j + 1 < map.ny; ++j)
+        for (int i = 0; i + 1 < map.nx; ++i) {
+            const double sx = (map(i + 1, j) - map(i, j)) / map.dx, sy = (map(i, j + 1) - map(i, j)) / map.dy, square = sx * sx + sy * sy;
+            all += square;
+            if (map(i, j) > level + p.sq) high += square, high_points += 1;
+        }
+    if (all > 0 && high_points > 0) p.high_slope = std::sqrt(high / high_points * (map.nx - 1.0) * (map.ny - 1.0) / all);
     return p;
 }
 

@@ -69,6 +69,8 @@ bool can_fit(const MeasuredSpectrum& spectrum);
 // ISO 25178-2: rms height Sq about the mean, skewness Ssk and kurtosis Sku (NaN for a flat map), rms gradient Sdq (first differences).
 struct HeightParameters {
     double sq = 0, ssk = 0, sku = 0, sdq = 0;
+    // Rms slope of the points higher than the mean plane by more than sq over that of all points, by first differences; 1 for Gaussian heights.
+    double high_slope = 1;
 };
 HeightParameters height_parameters(const HeightMap& map);
 

@@ -100,7 +100,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     return kMark + effective_namelist(twins);
 }
 
-// States the exponent of the twins' spectrum, and how far their rms slope is from the map's. The spectrum does not hold waves longer than the
+// States the exponent of the twins' spectrum, where the map is smoother or rougher than elsewhere if it is high, and how far the rms slope of
+// the twins is from the map's. The spectrum does not hold waves longer than the
 // map, nor those shorter than its wider grid step, and is scaled to the rms height of the map.
 constexpr double kTold = 0.05;  // a difference of slopes, or an exponent, that is stated
 static std::string other_slopes(const Measured& m) {
@@ -108,16 +109,22 @@ static std::string other_slopes(const Measured& m) {
     const double L = std::max(m.nx * m.dx, m.ny * m.dy), sigma = m.parameters.sq;
     const bool directional = m.isotropy < kIsotropic;
     const double exponent = directional ? s.plane_exponent : s.exponent;
-    const std::string times =
+    std::string said =
         exponent > -kTold ? "" : format("\nspectrum of the twins: that of the map times k^%.2f, for its rms slope", exponent);
+    constexpr double smoother = 0.8, rougher = 1.25;
+    if (const double high = m.parameters.high_slope; high < smoother || high > rougher)
+        said += format(
+            "\nwarning: where the map is more than one rms height above its mean plane, its rms slope is %.2g times that of the whole; the twins "
+            "do not keep this, and their contact area at a given force may differ from the map's by a factor of two and more",
+            high);
     const Spectrum twin =
         directional ? tabulated_spectrum(std::make_shared<PlaneSpectrum>(s.plane_wavenumber, MeasuredSpectrum::kAngles,
                                                                          tilted(s.plane_psd, s.plane_wavenumber, exponent)),
                                          L, sigma)
                     : tabulated_spectrum(std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)), L, sigma);
     const double slope = theoretical_moments(twin).rms_slope(), held = (directional ? twin.plane->sigma() : twin.table->sigma()) / sigma;
-    if (std::abs(slope / m.parameters.sdq - 1) < kTold) return times;
-    return times +
+    if (std::abs(slope / m.parameters.sdq - 1) < kTold) return said;
+    return said +
            format(
                "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a given force differs about as much in "
                "the opposite direction: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",

@@ -1,9 +1,4 @@
 // Slopes of the surfaces made from the spectrum of a measured map (its twins), and the warning of its run that they are not the map's.
-#include <cmath>
-#include <fstream>
-#include <numbers>
-#include <sstream>
-
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "rough/synthesis.hpp"
@@ -63,6 +58,19 @@ TESTS {
     const Moments of_map = grid_moments(map);
     constexpr double kEightSurfaces = 0.04;
     CHECK_RELATIVE(std::sqrt(slope / height), of_map.rms_slope() / std::sqrt(of_map.m0), kEightSurfaces);
+    // Equal roughness at all heights, and tops that are worn.
+    const auto worn = [&](double kept) {
+        HeightMap map = fine.copy();
+        map.periodic = false;
+        const double top = std::sqrt(grid_moments(fine).m0);
+        for (double* z = map.data.get(); z < map.row(n - 1) + n; ++z) *z = *z > 0.5 * top ? 0.5 * top + kept * (*z - 0.5 * top) : *z;
+        return height_parameters(map).high_slope;
+    };
+    CHECK_RELATIVE(worn(1), 1, 0.1);  // of one surface
+    CHECK(worn(0.5) < 0.8);
+    const auto steeper = [&](int i, int j) { return fine(i, j) > 0 ? 3 * fine(i, j) : fine(i, j); };
+    CHECK(screen(folder, n, steeper).find("times that of the whole") != std::string::npos);
+    CHECK(quiet.find("times that of the whole") == std::string::npos);
     // Long waves so high that no exponent within the bounds would do.
     CHECK(screen(folder, n, map_with(1, 0)).find(kWarning) != std::string::npos);
 }
