@@ -15,6 +15,9 @@ namespace rsc {
     return buffer;
 }
 
+// A number in a message.
+inline std::string text_of(double value) { return format("%.9g", value); }
+
 // For messages: text of others, cut, with control characters replaced, those of terminals in UTF-8 included.
 inline std::string printable(std::string_view text, std::size_t most = 60) {
     std::string shown(text.substr(0, most));

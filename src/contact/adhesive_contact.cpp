@@ -51,7 +51,7 @@ Level AdhesiveContact::Impl::report() {
         l.area += state.area;
         l.beyond_law += state.beyond || law->beyond(i, now.s[k]);
     }
-    judge_asperities(l, *law, asperities, indenter, options, of_difference ? nullptr : &flanks);
+    judge_asperities(l, *law, *this);
     if (options.adhesion.range > 0) l.cohesive_area = cohesive;
     // Where the zones that attract around the summits overlap, they would count twice.
     if (cohesive + l.area >

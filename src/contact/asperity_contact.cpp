@@ -158,7 +158,7 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
-    judge_asperities(level, *law, asperities, indenter, options, of_difference ? nullptr : &flanks);
+    judge_asperities(level, *law, *this);
     return level;
 }
 

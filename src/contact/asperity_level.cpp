@@ -21,12 +21,14 @@ std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities&
     return spots;
 }
 
-// Largest Z0 at which the flank of a summit touches the indenter, slope^2/(2 curvature) above the Z0 at which its top touches.
+// Largest Z0 at which the flank of a summit touches the indenter: slope^2/(2 curvature) above the Z0 at which its top touches, or if the
+// tip is nearer than that place, where the tip touches.
 double beside(const Asperities& asperities, const Indenter& indenter) {
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), slope = indenter.shape->gradient(d.x, d.y);
-        const double nearer = 0.5 * (slope.x * slope.x + slope.y * slope.y) * asperities.radius[i];
+        const double s = std::hypot(slope.x, slope.y), way = std::min(s * asperities.radius[i], std::hypot(d.x, d.y));
+        const double nearer = s * way - 0.5 * way * way / asperities.radius[i];
         highest = std::fmax(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer);
     }
     return highest;
@@ -81,8 +83,10 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, const W
     return contacts * contacts / direct_rate(kernel, at(candidates.size())) > mesh_cost ? Method::mesh : Method::direct;
 }
 
-void judge_asperities(Level& level, const Law& law, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                      FlankTouch* flanks) {
+void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies) {
+    const Asperities& asperities = bodies.asperities;
+    const Indenter& indenter = bodies.indenter;
+    const SolverOptions& options = bodies.options;
     if (traits(options.law).elliptic_spots)
         level.area = union_area(spots_of(level, law, asperities), &level.overlapping_pairs, indenter.period, &level.own_area);
     else
@@ -91,12 +95,16 @@ void judge_asperities(Level& level, const Law& law, const Asperities& asperities
     if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
     if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options);  // calibrated without adhesion
     judge_range(level, indenter, options);
-    // Summits of the surface are the contact points only if the indenter is nearly flat beside them.
+    // Summits of the surface are the contact points only if the indenter is nearly flat beside them, and no summits of the difference are
+    // known to lie under a sharp tip.
+    const bool of_surface = !bodies.of_difference;
     const auto flank_touches = [&] {
-        if (flanks->x0 != indenter.x0 || flanks->y0 != indenter.y0) *flanks = {indenter.x0, indenter.y0, beside(asperities, indenter)};
-        return level.separation < flanks->Z0;
+        FlankTouch& flanks = bodies.flanks;
+        if (flanks.x0 != indenter.x0 || flanks.y0 != indenter.y0) flanks = {indenter.x0, indenter.y0, beside(bodies.of_surface, indenter)};
+        return level.separation < flanks.Z0;
     };
-    if (flanks && (level.slope_ratio > kMostSlopeRatio || (level.contacts == 0 && flank_touches())))
+    if ((of_surface && level.slope_ratio > kMostSlopeRatio) ||
+        (level.contacts == 0 && (of_surface || indenter.shape->pointed()) && flank_touches()))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

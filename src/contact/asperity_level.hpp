@@ -33,8 +33,7 @@ struct ContactBodies {
 };
 
 // Completes a level that has contacts, force and the sum of areas: area of the union of elliptic spots, overlaps, validity of the model,
-// expected errors and status. `flanks`: null if the asperities are summits of the difference, not of the surface.
-void judge_asperities(Level& level, const Law& law, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                      FlankTouch* flanks);
+// expected errors and status.
+void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies);
 
 }  // namespace rsc

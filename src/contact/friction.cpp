@@ -1,6 +1,7 @@
 #include "contact/friction.hpp"
 
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
@@ -360,7 +361,7 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
     require_contact(curve, delta);
     const double N = curve.load(delta).force;
     if (!(Q >= 0) || Q > friction.coefficient * N)
-        throw Error(Failure::bad_input, "the tangential force must be from 0 to mu N = " + std::to_string(friction.coefficient * N));
+        throw Error(Failure::bad_input, "the tangential force must be from 0 to mu N = " + text_of(friction.coefficient * N));
     const double inner = Q > 0 ? N - Q / friction.coefficient : N;
     const double stick = Q == 0 ? delta : inner > 0 ? std::min(delta, curve.approach(inner)) : curve.first_touch();
     return {stick, friction.slide_per_approach() * (delta - stick), Q};

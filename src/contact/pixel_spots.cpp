@@ -3,6 +3,7 @@
 #include "contact/interaction/kernel.hpp"
 #include "contact/solver/spot_blocks.hpp"
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
@@ -59,7 +60,7 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
         throw Error(Failure::bad_input, "boundary elements: the map of heights is empty");
     constexpr double thinnest = 32;
     if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
-        throw Error(Failure::bad_input, "boundary elements: pixels of " + std::to_string(heights.dx) + " by " + std::to_string(heights.dy) +
+        throw Error(Failure::bad_input, "boundary elements: pixels of " + text_of(heights.dx) + " by " + text_of(heights.dy) +
                                             " are longer than 32 times their width");
     if (!(options.hardness.H0 > 0)) throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
     if (std::isfinite(options.hardness.H0) && options.hardness.length != 0)

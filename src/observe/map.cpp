@@ -1,6 +1,7 @@
 #include "observe/map.hpp"
 
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/parallel.hpp"
 
 namespace rsc {
@@ -22,7 +23,7 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     // If Ly is a whole number of cells up to rounding, the last row is kept.
     const double rows = std::floor(Ly / grid.side * (1 + 8 * std::numeric_limits<double>::epsilon()));
     if (rows < 1)
-        bad_input("coarse map: a cell of side " + std::to_string(grid.side) + " is larger than the surface's extent " + std::to_string(Ly) +
+        bad_input("coarse map: a cell of side " + text_of(grid.side) + " is larger than the surface's extent " + text_of(Ly) +
                   " along y; increase map_cells");
     if (rows * cells > 1e8) bad_input("coarse map: more than 1e8 cells; decrease map_cells");
     grid.ny = static_cast<int>(rows);

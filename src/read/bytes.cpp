@@ -4,12 +4,6 @@
 
 namespace rsc {
 
-std::string text_of(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.9g", value);
-    return buffer;
-}
-
 void check_memory(const std::string& path, const std::string& what, double count) {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const double machine = pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : 1e15;

@@ -2,12 +2,10 @@
 #pragma once
 
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
-
-// "1.23456789"
-std::string text_of(double value);
 
 // Throws Error(bad_input) if `what`, of `count` doubles, needs more memory than the machine has: the size in a damaged file may be
 // arbitrary.

@@ -1,6 +1,7 @@
 #include "rough/form.hpp"
 
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/library_lock.hpp"
 
 namespace rsc {
@@ -276,7 +277,7 @@ double gaussian_transmission(double cutoff, double k) {
 
 void gaussian_filter(HeightMap& map, double cutoff) {
     if (!(cutoff > 0 && std::isfinite(cutoff)))
-        throw Error(Failure::bad_input, "filter_cutoff must be positive and finite, not " + std::to_string(cutoff));
+        throw Error(Failure::bad_input, "filter_cutoff must be positive and finite, not " + text_of(cutoff));
     const auto nx = static_cast<std::size_t>(map.nx), ny = static_cast<std::size_t>(map.ny);
     const std::unique_ptr<double[], HeightMap::Free> buffer(allocate_doubles(nx * ny, "a filtered height map"));
     double* const z = buffer.get();

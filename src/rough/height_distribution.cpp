@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
@@ -84,7 +85,7 @@ double lognormal_delta(double skewness) {
 }
 
 [[noreturn]] void refuse(double skewness, double kurtosis, const std::string& bound) {
-    throw Error(Failure::bad_input, "surface: kurtosis = " + std::to_string(kurtosis) + " with skewness = " + std::to_string(skewness) +
+    throw Error(Failure::bad_input, "surface: kurtosis = " + text_of(kurtosis) + " with skewness = " + text_of(skewness) +
                                         ": no height distribution has these values; " + bound);
 }
 
@@ -94,7 +95,7 @@ HeightDistribution::HeightDistribution(std::vector<double> values) : values_(std
 
 HeightDistribution HeightDistribution::of_moments(double skewness, double kurtosis) {
     const double s = std::abs(skewness), least = s * s + 1;
-    if (!(kurtosis > least)) refuse(skewness, kurtosis, "the kurtosis must be greater than skewness^2 + 1 = " + std::to_string(least));
+    if (!(kurtosis > least)) refuse(skewness, kurtosis, "the kurtosis must be greater than skewness^2 + 1 = " + text_of(least));
     if (!(kurtosis <= kMostKurtosis)) refuse(skewness, kurtosis, "the kurtosis must be at most 100");
     // Skewness 0: the normal distribution is the limit of large delta.
     constexpr double normal = 1000, smallest_bounded = 0.05, smallest_unbounded = 0.45;
@@ -107,7 +108,7 @@ HeightDistribution HeightDistribution::of_moments(double skewness, double kurtos
     const Shape shape = shape_of(found);
     constexpr double near = 1e-3;
     if (!(std::abs(shape.skewness - s) <= near && std::abs(shape.kurtosis - kurtosis) <= near * kurtosis))
-        refuse(skewness, kurtosis, "the kurtosis is too close to its bound skewness^2 + 1 = " + std::to_string(least));
+        refuse(skewness, kurtosis, "the kurtosis is too close to its bound skewness^2 + 1 = " + text_of(least));
     std::vector<double> values(kValues);
     for (int i = 0; i < kValues; ++i) {
         const double value = (found(score(i)) - shape.mean) / shape.deviation;

@@ -103,6 +103,10 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     if (options.filter_cutoff > 0) {
         gaussian_filter(map, options.filter_cutoff);
         m.filtered = roughness(map);
+        constexpr double rounding = 1e-12;  // of the heights before
+        if (m.without_form.height > 0 && !(m.filtered.height > rounding * m.without_form.height))
+            throw Error(Failure::bad_input, format("surface%%filter_cutoff = %g removes all heights of a map of %g x %g",
+                                                   options.filter_cutoff, map.Lx(), map.Ly()));
     }
     m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);

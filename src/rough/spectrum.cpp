@@ -1,6 +1,7 @@
 #include "rough/spectrum.hpp"
 
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/asperities.hpp"
 
 namespace rsc {
@@ -12,7 +13,7 @@ constexpr double kMostModes = 46340.0;    // largest L / lambda_s: integer wavev
 constexpr double kMostAspect = 100;
 
 [[noreturn]] void refuse(const std::string& what, double value) {
-    throw Error(Failure::bad_input, "surface: " + what + ", not " + std::to_string(value));
+    throw Error(Failure::bad_input, "surface: " + what + ", not " + text_of(value));
 }
 
 // (zeta^e - 1)/e, the integral of t^(e-1) from 1 to zeta; accurate also near e = 0, where it is the logarithm.
@@ -203,10 +204,10 @@ void validate(const Spectrum& s) {
     if (!(s.L_lambda_l >= 1.0 && std::isfinite(s.L_lambda_l))) refuse("L_lambda_l must be at least 1 and finite", s.L_lambda_l);
     if (!(s.L_lambda_s <= kMostModes)) refuse("L_lambda_s must be at most 46340", s.L_lambda_s);
     if (!(s.plateau ? s.L_lambda_s >= s.L_lambda_l : s.L_lambda_s > s.L_lambda_l))
-        refuse("L_lambda_s must be greater than L_lambda_l = " + std::to_string(s.L_lambda_l), s.L_lambda_s);
+        refuse("L_lambda_s must be greater than L_lambda_l = " + text_of(s.L_lambda_l), s.L_lambda_s);
     if (!positive(s.sigma)) refuse("sigma must be positive and finite", s.sigma);
-    require_modes(s, "no mode of the square lies between L_lambda_l = " + std::to_string(s.L_lambda_l) +
-                         " and L_lambda_s; choose a larger L_lambda_s");
+    require_modes(
+        s, "no mode of the square lies between L_lambda_l = " + text_of(s.L_lambda_l) + " and L_lambda_s; choose a larger L_lambda_s");
 }
 
 Stretch stretch(const Spectrum& s) {

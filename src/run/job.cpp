@@ -51,8 +51,8 @@ void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     constexpr double kSame = 1e-6;
     const Domain& d = model.domain;
     if (!(std::abs(d.Lx - place.Lx) <= kSame * place.Lx && std::abs(d.Ly - place.Ly) <= kSame * place.Ly))
-        bad_input("the map of realization " + std::to_string(number) + " is " + std::to_string(d.Lx) + " x " + std::to_string(d.Ly) +
-                  ", the first is " + std::to_string(place.Lx) + " x " + std::to_string(place.Ly) + "; maps of one size are expected");
+        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(d.Lx) + " x " + text_of(d.Ly) + ", the first is " +
+                  text_of(place.Lx) + " x " + text_of(place.Ly) + "; maps of one size are expected");
     for (double& x : model.asperities.x) x += place.x0 - d.x0;
     for (double& y : model.asperities.y) y += place.y0 - d.y0;
     if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; model.search && (dx != 0 || dy != 0))
@@ -72,7 +72,7 @@ double m2_of_pressures(const Job& job) {
     if (!job.spectrum) return job.given ? job.given->statistics.m2 : kAbsent;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2;
-    const int n = 2 * static_cast<int>(std::ceil(job.spectrum->L_lambda_s)) + 2;  // the modes are the same on every grid
+    const int n = 2 * static_cast<int>(std::ceil(shortest_wave(*job.spectrum))) + 2;  // the modes are the same on every grid
     return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1).sampled().m2;
 }
 

@@ -215,7 +215,7 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     const Extent box = extent(asperities);
     const double extent = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
     if (L && extent > *L) {
-        bad_input("surface%L = " + std::to_string(*L) + " is less than the extent of " + whose + ", " + std::to_string(extent));
+        bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " + text_of(extent));
     }
     SurfaceDomain domain;
     if (L && std::min(box.x_min, box.y_min) >= 0 && std::max(box.x_max, box.y_max) <= *L) {

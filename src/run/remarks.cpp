@@ -51,9 +51,9 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
                  remedy);
     }
     if (!elements) {
-        tell(
-            count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
-            "the surface may touch outside the summits of the model, so that N need not be 0; use solver%model = 'elements' or law = 'fourth_order'.");
+        tell(count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
+             "the surface may touch outside the summits of the model, so that N need not be 0; use solver%model = 'elements'" +
+                 std::string(job.indenter.shape->pointed() ? "." : " or law = 'fourth_order'."));
         const bool list = job.settings.surface.source == Source::asperities;
         double steepest = 0;
         for (const LevelValues& l : levels) steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);
@@ -106,8 +106,10 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
                           " - the path of the attached asperities could not be followed to these levels, mostly because contacts overlap: "
                           "that is beyond the asperity model; use model = 'elements'.");
     tell(count([&](const LevelValues& l) { return failed(l) && !lost(l); }),
-         status_text(LevelStatus::not_converged) +
-             " - the residual is above solver%tolerance: do not use these values; raise solver%max_iterations or the tolerance.");
+         status_text(LevelStatus::not_converged) + " - the residual is above solver%tolerance: do not use these values; " +
+             (!elements && !job.settings.solids.layer_thickness.empty()
+                  ? "with contacts wider than the top layer the asperity model may have no solution: use solver%model = 'elements'."
+                  : "raise solver%max_iterations or the tolerance."));
 }
 
 // "N = 1.23 N +- 5 %": the last level of a single run with its expected errors.

@@ -3,6 +3,7 @@
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "contact/touching.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
@@ -65,6 +66,25 @@ TESTS {
             CHECK_RELATIVE(model.force, truth.force, kForce);
             CHECK(model.status == LevelStatus::out_of_validity);
         }
+    }
+
+    // The tip of a cone touches a smooth surface between its summits: no force by asperities is then no promise.
+    {
+        Case a = polished(4e-6, "asperities"), e = polished(4e-6, "elements");
+        for (Case* c : {&a, &e}) {
+            c->surface.n = 128, c->surface.L = 0.0071, c->surface.L_lambda_l = 2, c->surface.L_lambda_s = 4, c->surface.hurst = 0.5;
+            c->indenter.shape = shape_number("cone"), c->indenter.slope = 0.009;
+        }
+        const SurfaceModel summits = make_surface_model(a, 1, 1), points = make_surface_model(e, 1, 1);
+        long missed = 0;
+        for (const double Z : {4.0, 3.0, 2.0, 1.5, 1.0, 0.5, 0.0}) {
+            const Level model = at(a, summits, Z * 4e-6), truth = at(e, points, Z * 4e-6);
+            if (model.force > 0) continue;
+            missed += truth.force > 0;
+            CHECK(truth.force == 0 || model.status == LevelStatus::out_of_validity);
+            CHECK(Z < 4 || model.status == LevelStatus::converged);
+        }
+        CHECK(missed > 0);
     }
 
     // Moved to second order there are as many as of the surface, at its tops no higher than they were.

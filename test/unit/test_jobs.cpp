@@ -176,8 +176,7 @@ void maps() {
         realize(prepare(c), 2, 1);
         CHECK(!"refused");
     } catch (const Error& e) {
-        CHECK(std::string(e.what()) ==
-              "the map of realization 2 is 22.500000 x 2.500000, the first is 15.000000 x 5.000000; maps of one size are expected");
+        CHECK(std::strstr(e.what(), "22.5 x 2.5") && std::strstr(e.what(), "15 x 5"));
     }
     // A flat list has no sigma: the levels need one.
     Case list;
@@ -189,10 +188,25 @@ void maps() {
     CHECK(of_list.given->statistics.summits == 2 && of_list.given->statistics.sigma == 0 && std::isnan(of_list.given->statistics.m2));
 }
 
+// A relative pressure is p/(E* sqrt(2 m2)) with the m2 of the surface's modes, whatever the direction of its lay.
+void pressures() {
+    for (const double direction : {0.0, 90.0, 25.0}) {
+        Case c = synthetic();
+        c.surface.n = 128, c.surface.aspect = 4, c.surface.direction = direction;
+        c.solids.R[0] = HUGE_VAL;
+        c.indentation.boundary = Boundary::periodic, c.indentation.control = Control::pressure;
+        c.indentation.unit = LevelUnit::relative, c.indentation.levels = {0.01};
+        const Job job = prepare(c);
+        const double m2 = make_surface(c, 1, 1).origin.sampled->m2;
+        CHECK_RELATIVE(job.levels[0], 0.01 * job.indenter.E_star * std::sqrt(2 * m2) * 3 * 3, kRounding);
+    }
+}
+
 }  // namespace
 
 TESTS {
     times();
+    pressures();
     places();
     maps();
 }

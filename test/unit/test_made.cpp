@@ -2,6 +2,7 @@
 #include "check.hpp"
 #include "contact/touching.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/detection.hpp"
 #include "rough/height_distribution.hpp"
 #include "rough/measured_spectrum.hpp"
@@ -187,7 +188,7 @@ void distributions() {
             HeightDistribution::of_moments(skewness, kurtosis);
             CHECK(!"refused");
         } catch (const Error& error) {
-            CHECK(std::string(error.what()).find(std::to_string(skewness * skewness + 1)) != std::string::npos);
+            CHECK(std::string(error.what()).find(text_of(skewness * skewness + 1)) != std::string::npos);
         }
 }
 

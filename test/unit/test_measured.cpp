@@ -182,6 +182,7 @@ void filtering() {
         }
     CHECK_CLOSE(error, 0.0, 1e-12);
     CHECK_THROWS(gaussian_filter(map, -1.0), Error);
+    CHECK_THROWS(measure(map, {.filter_cutoff = 1e3 * map.Lx()}), Error);  // only rounding is left
 }
 
 // Spectrum -> surface -> spectrum, taken as a measured map is: with a window. Means over surfaces, because one alone has a sampling

@@ -75,6 +75,8 @@ public:
 
     // True for a plane: nothing depends on the position of the tip.
     virtual bool flat() const { return false; }
+    // True if s has a corner at its tip.
+    virtual bool pointed() const { return false; }
     // True if s depends only on the distance from the tip.
     virtual bool round() const { return false; }
     // Radius R of a sphere; Infinity for a flat; NaN for any other shape.

@@ -2,6 +2,7 @@
 
 #include "contact/interaction/kernel.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/dispatch.hpp"
 
 namespace rsc {
@@ -131,7 +132,7 @@ std::vector<double> Lattice::shares(const std::vector<double>& x, const std::vec
         throw Error(
             Failure::bad_input,
             "layers so much thinner than the period need solver%model = 'elements' between two flats (the top one must be at least " +
-                std::to_string(gone / (4 * pi * most)) + " of the longer side thick)");
+                text_of(gone / (4 * pi * most)) + " of the longer side thick)");
     const int rows = static_cast<int>(end / uy);
     const std::size_t nx = x.size(), ny = y.size();
     std::vector<double> wave(static_cast<std::size_t>(rows + 1) * ny), inner(ny), sum(nx * ny);
@@ -157,7 +158,7 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near) : period_
     const double longer = std::max(period.x, period.y), shorter = std::min(period.x, period.y);
     if (!(shorter > 0) || !period.finite()) throw Error(Failure::bad_input, "the sides of a periodic surface must be positive and finite");
     if (longer > kMostAspect * shorter) {
-        throw Error(Failure::bad_input, "periodic surface of sides " + std::to_string(period.x) + " and " + std::to_string(period.y) +
+        throw Error(Failure::bad_input, "periodic surface of sides " + text_of(period.x) + " and " + text_of(period.y) +
                                             ": the longer may be at most 4 times the shorter");
     }
     const double unit = std::sqrt(period.x) * std::sqrt(period.y), a = period.x / unit, b = period.y / unit;

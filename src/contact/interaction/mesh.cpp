@@ -3,6 +3,7 @@
 #include "contact/interaction/mesh_far.hpp"
 #include "contact/interaction/pair_sums.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "rough/parallel.hpp"
 
 namespace rsc {
@@ -159,8 +160,7 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
                              FarFields* kept)
     : parts_(std::make_unique<Parts>(kernel ? std::move(kernel) : unit_kernel())) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
-        throw Error(Failure::bad_input,
-                    "mesh product: relative error " + std::to_string(relative_error) + " is outside the range 1e-10 to 1e-2");
+        throw Error(Failure::bad_input, "mesh product: relative error " + text_of(relative_error) + " is outside the range 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())
         throw Error(Failure::bad_input, "mesh product: " + std::to_string(n) + " points exceed the limit of 2^32");
     Parts& p = *parts_;

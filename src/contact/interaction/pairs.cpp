@@ -2,6 +2,7 @@
 
 #include "contact/interaction/pairs_kernel.hpp"
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 
@@ -21,8 +22,8 @@ struct Box {
 void enclose(Box& box, std::size_t n, const double* x, const double* y, const char* what) {
     for (std::size_t i = 0; i < n; ++i) {
         if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
-            throw Error(Failure::bad_input, std::string(what) + " point " + std::to_string(i + 1) + ": coordinates (" +
-                                                std::to_string(x[i]) + ", " + std::to_string(y[i]) + ") must be finite");
+            throw Error(Failure::bad_input, std::string(what) + " point " + std::to_string(i + 1) + ": coordinates (" + text_of(x[i]) +
+                                                ", " + text_of(y[i]) + ") must be finite");
         box.x_min = std::min(box.x_min, x[i]), box.x_max = std::max(box.x_max, x[i]);
         box.y_min = std::min(box.y_min, y[i]), box.y_max = std::max(box.y_max, y[i]);
     }
