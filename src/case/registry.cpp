@@ -213,7 +213,8 @@ std::vector<Key> make_registry() {
         one_of(
             "asperities", "law", names(kLawNames),
             "contact law of asperities: hertz: a sphere at a grid point (the paper's); elliptic: an elliptic paraboloid at the summit between the "
-            "points; fourth_order: the paraboloid corrected by the fourth derivatives at the summit; the latter two count overlapping areas once",
+            "points; fourth_order: the paraboloid corrected by the fourth derivatives at the summit, under a steep indenter the most loaded ellipse; the latter two count "
+            "overlapping areas once",
             RSC_CHOICE(asperities.law)),
 
         one_of(

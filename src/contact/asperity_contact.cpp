@@ -4,6 +4,7 @@
 #include "contact/asperity_level.hpp"
 #include "contact/candidates.hpp"
 #include "contact/interaction/products.hpp"
+#include "contact/law/ellipse_law.hpp"
 #include "contact/law/hardness.hpp"
 #include "contact/ranking.hpp"
 #include "contact/relaxing_asperities.hpp"
@@ -28,9 +29,24 @@ double summits_keep(const Asperities& asperities, const Indenter& indenter, cons
     return std::fmax(0.1 * size, 0.02 * options.rms_slope * indenter.shape->hertz_radius());  // hertz_radius() is NaN unless it is a sphere
 }
 
-std::unique_ptr<Law> law_of(const Asperities& asperities, double E_star, const SolverOptions& options,
-                            std::optional<RelaxingAsperities>& relaxing) {
-    auto law = make_yielding(make_law(options.law, asperities, E_star), asperities, options.hardness, traits(options.law).sinks);
+// Number of summits not deeper than `depth` below the highest one under the indenter.
+std::size_t count_reachable(const Asperities& asperities, const Indenter& indenter, double depth) {
+    std::vector<double> height(asperities.size());
+    for (std::size_t i = 0; i < height.size(); ++i) height[i] = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
+    const double highest = height.empty() ? 0.0 : *std::max_element(height.begin(), height.end());
+    return static_cast<std::size_t>(std::count_if(height.begin(), height.end(), [&](double h) { return h > highest - depth; }));
+}
+
+std::unique_ptr<Law> law_of(const ContactBodies& bodies, std::optional<RelaxingAsperities>& relaxing) {
+    const Asperities& asperities = bodies.asperities;
+    const SolverOptions& options = bodies.options;
+    auto law = make_law(options.law, asperities, bodies.indenter.E_star);
+    const auto& found = bodies.of_difference;
+    if (traits(options.law).needs_heights && found && found->map && !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
+        bodies.indenter.layers.count == 0 && options.mean_spacing > 0 &&
+        count_reachable(asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses)
+        law = make_ellipse_law(std::move(law), *found, bodies.indenter, options.mean_spacing);
+    law = make_yielding(std::move(law), asperities, options.hardness, traits(options.law).sinks);
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
     auto relaxes = make_relaxing(std::move(law), asperities.size(), creep);
@@ -66,7 +82,7 @@ struct AsperityContact::Impl : ContactBodies {
         : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
           found_x(indenter_.x0),
           found_y(indenter_.y0),
-          law(law_of(asperities, indenter_.E_star, options_, relaxing)),
+          law(law_of(*this, relaxing)),
           direct(make_direct_products(kernel)),
           newton(*law) {
         use(Method::direct);

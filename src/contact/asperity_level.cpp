@@ -1,5 +1,6 @@
 #include "contact/asperity_level.hpp"
 
+#include "contact/close_pairs.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/interaction/mesh.hpp"
 #include "contact/interaction/products.hpp"
@@ -11,13 +12,36 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
+bool inside(const Spot& spot, double x, double y) {
+    const double c = std::cos(spot.angle), s = std::sin(spot.angle), dx = x - spot.x, dy = y - spot.y;
+    const double p = (dx * c + dy * s) / spot.major, q = (dy * c - dx * s) / spot.minor;
+    return p * p + q * q < 1;
+}
+
 // Contact spots of a level on the surface; their long axes are in the direction of the smaller curvature.
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        if (const auto spot = law.spot(level.asperity[k], level.u[k])) {
+            spots.push_back(*spot);
+            spots.back().x += level.x[k], spots.back().y += level.y[k];
+            continue;
+        }
         const double root = std::sqrt(law.axes(level.asperity[k]));
         spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root, asperities.angle[at(level.asperity[k])]});
     }
+    // The spot of a summit that lies in that of a larger one is part of it (law/ellipse_law.hpp), and does not overlap it.
+    std::vector<double> reach(spots.size(), 0.0);
+    for (std::size_t k = 0; k < spots.size(); ++k)
+        if (law.spot(level.asperity[k], level.u[k]))
+            reach[k] = spots[k].major + std::hypot(spots[k].x - level.x[k], spots[k].y - level.y[k]);
+    std::vector<bool> part(spots.size(), false);
+    for_close_pairs(level.x, level.y, reach, [&](std::size_t i, std::size_t j, double) {
+        const std::size_t large = spots[i].major * spots[i].minor < spots[j].major * spots[j].minor ? j : i, small = i + j - large;
+        part[small] = part[small] || inside(spots[large], level.x[small], level.y[small]);
+    });
+    for (std::size_t k = 0; k < spots.size(); ++k)
+        if (part[k]) spots[k].major = spots[k].minor = 0;
     return spots;
 }
 
@@ -35,22 +59,23 @@ double beside(const Asperities& asperities, const Indenter& indenter) {
 }
 
 // Summits of the difference between surface and indenter; absent if the given asperities are to be used.
-std::optional<Asperities> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                                                const SummitSearch& search) {
+std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                                                  const SummitSearch& search) {
     require_sound(indenter);
     if (!search || indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0)) return std::nullopt;
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < asperities.size(); ++i)
         highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
     constexpr double kFlankSpacing = 0.4;
-    constexpr double depth = 8;  // rms heights below the highest summit, the range of the model
-    const double steepest = steepest_above(asperities, indenter, highest - depth * options.sigma);
+    const double steepest = steepest_above(asperities, indenter, highest - kDeepest * options.sigma);
     if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
-        Asperities found = search(indenter);
-        add_flanks(found, asperities, kFlankSpacing * options.mean_spacing, indenter.around);
+        FoundSummits found = search(indenter);
+        add_flanks(found.summits, asperities, kFlankSpacing * options.mean_spacing, indenter.around);
         return found;
     }
-    return moved_summits(asperities, indenter);
+    FoundSummits moved;
+    moved.summits = moved_summits(asperities, indenter);
+    return moved;
 }
 
 }  // namespace
@@ -59,7 +84,7 @@ ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_,
     : of_surface(given),
       search(std::move(search_)),
       of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
-      asperities(of_difference ? *of_difference : of_surface),
+      asperities(of_difference ? of_difference->summits : of_surface),
       indenter(indenter_),
       options(options_),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
@@ -93,7 +118,9 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
-    if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options);  // calibrated without adhesion
+    bool ellipses = true;
+    for (std::size_t k = 0; k < level.asperity.size() && ellipses; ++k) ellipses = law.spot(level.asperity[k], level.u[k]).has_value();
+    if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options, ellipses);  // calibrated without adhesion
     judge_range(level, indenter, options);
     // Summits of the surface are the contact points only if the indenter is nearly flat beside them, and no summits of the difference are
     // known to lie under a sharp tip.

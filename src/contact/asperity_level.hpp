@@ -8,6 +8,9 @@
 
 namespace rsc {
 
+// Range of the model: rms heights below the highest summit.
+inline constexpr double kDeepest = 8;
+
 // Resolves method `auto` to direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench.
 Method choose_method(const SolverOptions& options, const Kernel& kernel, const WorkingSet& candidates);
 
@@ -20,7 +23,7 @@ struct FlankTouch {
 struct ContactBodies {
     const Asperities& of_surface;
     SummitSearch search;
-    std::optional<Asperities> of_difference;
+    std::optional<FoundSummits> of_difference;
     mutable FlankTouch flanks;
     const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;

@@ -16,6 +16,8 @@ const char* error_cause(std::int32_t cause);
 
 // Sets force_error_expected, area_error_expected and error_cause of a level that has its contacts and counts. They are not set without
 // contact, or where the bounds were not calibrated: without interaction, with selection = 'paper', or if the mean spacing is unknown.
-void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options);
+// `ellipses`: all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to those of elements.
+void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                  bool ellipses = false);
 
 }  // namespace rsc

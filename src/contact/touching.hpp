@@ -20,8 +20,17 @@ private:
     Indenter indenter_;
 };
 
+// Summits of a difference, and the heights of the surface between them.
+struct FoundSummits {
+    Asperities summits;
+    std::shared_ptr<const HeightMap> map;  // null if the heights are not kept
+    double points_per_wave = 0;            // of the map, in its shortest wave; 0: unknown
+    double shift_x = 0, shift_y = 0;       // position of the summits minus that in the map [length]
+    int threads = 1;                       // for work on the heights
+};
+
 // Finds the summits of the surface minus the face of an indenter. Empty for asperities given as a list, without a surface.
-using SummitSearch = std::function<Asperities(const Indenter&)>;
+using SummitSearch = std::function<FoundSummits(const Indenter&)>;
 
 // Largest ratio of the slope of the indenter's face to the rms slope of the surface at which moved_summits() is used; above it summits of
 // the difference appear and vanish.

@@ -156,6 +156,14 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
     return refined ? join_refined(parts, map.nx, map.ny, map.periodic && (!above || above->periodic()), count) : join(parts, count);
 }
 
+int summit_points(const Spectrum& spectrum, int n) {
+    int fine = n;
+    // An invalid n is rejected by RowSource.
+    if (n >= 2 && n % 2 == 0 && 2 * shortest_wave(spectrum) <= n)
+        while (fine < 4 * shortest_wave(spectrum) * (1 - 1e-12)) fine += n;
+    return fine;
+}
+
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences,
                            const BodyAbove* above) {
@@ -169,10 +177,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     }
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
-    int fine = n;
-    // An invalid n is rejected by RowSource.
-    if (refined && n >= 2 && n % 2 == 0 && 2 * shortest_wave(spectrum) <= n)
-        while (fine < 4 * shortest_wave(spectrum) * (1 - 1e-12)) fine += n;
+    const int fine = refined ? summit_points(spectrum, n) : n;
     RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();

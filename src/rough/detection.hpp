@@ -59,6 +59,9 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
                            const Breaks* breaks = nullptr);
 inline constexpr int kMeasuredReach = 6;
 
+// Points along a side of the grid on which summits between the points are found: n, or its smallest multiple with 4 points in lambda_s.
+int summit_points(const Spectrum& spectrum, int n);
+
 // Asperities of a synthetic surface, detected during synthesis without storing the surface: faster than find_asperities(synthesize(...)),
 // in half the memory, with bitwise the same result (with a lay nearer to the y axis: that of the transposed surface). Throws as
 // synthesize(). With fewer than 4 points in lambda_s, Detail::subgrid uses the smallest multiple of n that has 4; the surface is the same.

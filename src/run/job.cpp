@@ -58,9 +58,10 @@ void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
     if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; model.search && (dx != 0 || dy != 0))
         model.search = [dx, dy, search = std::move(model.search)](Indenter indenter) {
             indenter.x0 -= dx, indenter.y0 -= dy;
-            Asperities found = search(indenter);
-            for (double& x : found.x) x += dx;
-            for (double& y : found.y) y += dy;
+            FoundSummits found = search(indenter);
+            for (double& x : found.summits.x) x += dx;
+            for (double& y : found.summits.y) y += dy;
+            found.shift_x += dx, found.shift_y += dy;
             return found;
         };
     static_cast<Domain&>(model.domain) = place;

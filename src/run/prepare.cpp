@@ -19,6 +19,9 @@ namespace {
 // Hertz asperities are at grid points, as in the paper; the other laws need the summits between the points.
 Detail detail_of(const Case& settings) { return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid; }
 
+// Largest number of points along a side of a synthetic surface whose heights are kept for the law.
+constexpr int kMostPointsKept = 4096;
+
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;
     for (double v : values) mean += v;
@@ -270,8 +273,9 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
                         waves = surface.origin.points_per_wave, measured, breaks](const Indenter& indenter) {
             const Face face(indenter);
             SummitCount unused;
-            Asperities found = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
-            if (measured) drop_near_filled(found, unused, *kept, measured->filled, measured->shortest_wave);
+            FoundSummits found{{}, kept, waves, 0, 0, threads};
+            found.summits = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
+            if (measured) drop_near_filled(found.summits, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
         };
     require_summits(model, surface.origin.name, map.periodic ? "" : " inside the map");
@@ -335,10 +339,20 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     model.domain.rms_slope = std::sqrt(2 * s.m2);
     if (detail_of(settings) == Detail::subgrid)
         model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
-                        threads](const Indenter& indenter) {
+                        law = settings.asperities.law, threads](const Indenter& indenter) {
             const Face face(indenter);
-            return make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads, Detail::subgrid,
-                                   nullptr, &face);
+            FoundSummits found{{}, nullptr, 0, 0, 0, threads};
+            const int n = summit_points(spectrum, keys.n);
+            if (traits(law).needs_heights && n <= kMostPointsKept) {  // the same summits, with the heights
+                auto map = std::make_shared<HeightMap>(synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads));
+                found.points_per_wave = n / shortest_wave(spectrum);
+                found.summits = find_asperities(*map, curvature, nullptr, threads, Detail::subgrid, found.points_per_wave, &face);
+                found.map = std::move(map);
+            } else {
+                found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads,
+                                                Detail::subgrid, nullptr, &face);
+            }
+            return found;
         };
     return model;
 }

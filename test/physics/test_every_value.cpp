@@ -98,6 +98,7 @@ void write_map(const HeightMap& map, const std::string& path) {
 std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     const std::string micro = "&run length_unit = 'um', force_unit = 'mN', seed = 2147483647 /\n";
     const std::string bodies = "&solids E = 80, 200  nu = 0.35, 0.3  R = 900, 2500  resistivity = 2.0e-5, 3.0e-5";
+    const std::string round = "&solids E = 80, 200  nu = 0.35, 0.3  R = 3000, 8000  resistivity = 2.0e-5, 3.0e-5";  // no steep contact
     const std::string flats = "&solids E = 80, 200  nu = 0.35, 0.3  R = Infinity, Infinity  resistivity = 2.0e-5, 3.0e-5";
     const std::string surface = "&surface n = 128, L = 100, L_lambda_l = 2, L_lambda_s = 16, hurst = 0.7, sigma = 0.5";
     const std::string rough = "&surface n = 128, L = 100, L_lambda_l = 2, L_lambda_s = 16, hurst = 0.6, plateau = .true., sigma = 1.5";
@@ -117,7 +118,7 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     all.push_back({"ellipses", micro + bodies + " /\n" + rough + " /\n&asperities law = 'elliptic' /\n" +
                                    "&indentation levels = 2, 1, centre = 60, 41 /\n&solver method = 'mesh', interaction = 'none' /\n" +
                                    out + " /\n"});
-    all.push_back({"fourth_order", bodies + " /\n" + rough + " /\n&asperities law = 'fourth_order' /\n&solver method = 'mesh' /\n" +
+    all.push_back({"fourth_order", round + " /\n" + rough + " /\n&asperities law = 'fourth_order' /\n&solver method = 'mesh' /\n" +
                                        "&indentation levels = 1.8, 0.5, -1.2 /\n" + out + ", format = 'classic' /\n"});
     all.push_back({"force", "&run seed = -5 /\n" + bodies + " /\n" + surface +
                                 " /\n&indentation control = 'force', levels = 200, 900, centre = 57, 38 /\n" + out +

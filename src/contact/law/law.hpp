@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/indentation.hpp"
+#include "contact/spots.hpp"
 
 namespace rsc {
 
@@ -11,6 +12,7 @@ struct LawTraits {
     bool needs_curvatures;  // kappa1, kappa2 and angle of every asperity
     bool needs_biharmonic;  // nabla^4 z at every summit
     bool between_points;    // uses summits between grid points, not grid maxima (rough/detection.hpp)
+    bool needs_heights;     // uses the heights around summits where the indenter is steep (ellipse_law.hpp)
     bool sinks;             // a flattened summit sinks in as a whole (hardness.hpp)
     bool elliptic_spots;    // the contact area is that of the union of elliptic spots; otherwise the sum of circular areas
 };
@@ -49,6 +51,9 @@ public:
     virtual double area(int asperity, double u) const = 0;  // contact area [length^2]; 0 for u <= 0
     virtual double axes(int asperity) const = 0;            // b/a <= 1 of the contact ellipse
     virtual bool beyond(int asperity, double u) const = 0;  // true beyond the range of validity of the law
+    // Spot with its centre counted from the summit, if that depends on the penetration; otherwise the spot is an ellipse about the summit
+    // with area(), axes() and the direction of the summit.
+    virtual std::optional<Spot> spot(int asperity, double u) const { return (void)asperity, (void)u, std::nullopt; }
 
     // Functions that only some models need. Hardness: growth of the area, and smallest penetration at which the mean pressure f/A reaches a
     // value.
@@ -75,7 +80,7 @@ public:
 // fourth_order  the elliptic law for the profile A (1 - J0(q r)) (bessel_profile.hpp, delta = u/F2), which is r^2/(2 R_e) - b r^4 to fourth
 //               order, b = q^2/(32 R_e), and remains bounded: curvature 1/R_e, q^2 = -nabla^4 z/nabla^2 z = biharmonic/(kappa1 + kappa2),
 //               A = 2/(R_e q^2). Beyond delta = 2 A (q a = pi), where the contact would reach its neighbours, a and the stiffness 2 E* a
-//               are constant.
+//               are constant. Where the indenter is steep, the most loaded ellipse of each summit is used instead (ellipse_law.hpp).
 // Throws Error(bad_input) if data required by the law are missing.
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
 

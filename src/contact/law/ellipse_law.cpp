@@ -1,0 +1,317 @@
+#include "contact/law/ellipse_law.hpp"
+
+#include "contact/law/most_loaded.hpp"
+#include "rough/detection.hpp"
+#include "rough/parallel.hpp"
+
+namespace rsc {
+namespace {
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+// Force, slope and work at a penetration.
+struct Response {
+    double force = 0, slope = 0, work = 0;
+};
+
+// Convex force with given values and slopes at nodes, the first of which is the origin. Between two of them the slope is S_k + (S_k+1 - S_k)
+// x^q, 0 < x < 1, with the q that gives the right difference of forces: 1/2 for a paraboloid in the first interval. It is not negative if
+// the slope of the chord lies between those at the nodes.
+class Table {
+public:
+    Table() = default;
+    explicit Table(std::vector<LoadedEllipse> ellipses) : node_(std::move(ellipses)) {
+        node_.insert(node_.begin(), LoadedEllipse{});
+        keep_convex();
+        work_.assign(node_.size(), 0.0);
+        for (std::size_t k = 1; k < node_.size(); ++k) work_[k] = within(k, 1).work;
+    }
+
+    bool empty() const { return node_.size() < 2; }
+    double last() const { return node_.back().u; }
+    const std::vector<LoadedEllipse>& nodes() const { return node_; }
+
+    Response at(double u) const {
+        if (!(u > 0)) return {};
+        const std::size_t k = above(u);
+        if (k < node_.size()) return within(k, (u - node_[k - 1].u) / (node_[k].u - node_[k - 1].u));
+        const LoadedEllipse& e = node_.back();
+        const double past = u - e.u;
+        return {e.force + e.stiffness * past, e.stiffness, work_.back() + past * (e.force + 0.5 * e.stiffness * past)};
+    }
+
+    LoadedEllipse ellipse(double u) const {
+        const std::size_t k = std::min(above(u), node_.size() - 1);
+        const LoadedEllipse &low = node_[k == 1 ? 1 : k - 1], &high = node_[k];
+        LoadedEllipse e = high;
+        if (k == 1 || u > high.u) {  // like the spot of a paraboloid, also beyond the table, where the area would else remain constant
+            const double root = std::sqrt(std::max(u / high.u, 0.0));
+            e.major *= root, e.minor *= root;
+            return e;
+        }
+        const double rise = high.stiffness - low.stiffness;  // the size of the spot follows the stiffness
+        const double w = rise > 0 ? std::clamp((at(u).slope - low.stiffness) / rise, 0.0, 1.0) : 1.0;
+        // The ellipses are mixed by their matrices, which do not depend on how the angle is counted.
+        const auto mixed = [&](auto part) { return (1 - w) * part(low) + w * part(high); };
+        const double t = mixed([](const LoadedEllipse&v) { return 0.5 * (v.major + v.minor); }),
+                     x = mixed([](const LoadedEllipse&v) { return 0.5 * (v.major - v.minor) * std::cos(2 * v.angle); }),
+                     y = mixed([](const LoadedEllipse&v) { return 0.5 * (v.major - v.minor) * std::sin(2 * v.angle); });
+        e.dx = mixed([](const LoadedEllipse& v) { return v.dx; }), e.dy = mixed([](const LoadedEllipse& v) { return v.dy; });
+        e.major = t + std::hypot(x, y), e.minor = t - std::hypot(x, y), e.angle = 0.5 * std::atan2(y, x);
+        return e;
+    }
+
+private:
+    // The first node beyond u; the number of nodes if there is none.
+    std::size_t above(double u) const {
+        return static_cast<std::size_t>(
+            std::upper_bound(node_.begin(), node_.end(), u, [](double v, const LoadedEllipse& e) { return v < e.u; }) - node_.begin());
+    }
+
+    Response within(std::size_t k, double x) const {
+        const LoadedEllipse &low = node_[k - 1], &high = node_[k];
+        const double length = high.u - low.u, rise = high.stiffness - low.stiffness,
+                     mean = (high.force - low.force) / length - low.stiffness;
+        const double q = rise > 0 && mean > 0 ? std::clamp(rise / mean - 1, 1e-3, 1e3) : 1.0, power = rise * std::pow(x, q);
+        Response r;
+        r.slope = low.stiffness + power;
+        r.force = low.force + length * x * (low.stiffness + power / (q + 1));
+        r.work = work_[k - 1] + length * x * (low.force + length * x * (0.5 * low.stiffness + power / ((q + 1) * (q + 2))));
+        return r;
+    }
+
+    // Leaves out nodes below the tangent of another one: a local maximum of the load that is not the largest.
+    void keep_convex() {
+        constexpr double rounding = 1e-9;
+        std::sort(node_.begin() + 1, node_.end(), [](const LoadedEllipse& a, const LoadedEllipse& b) { return a.u < b.u; });
+        std::vector<bool> below(node_.size(), false);
+        for (std::size_t k = 1; k < node_.size(); ++k)
+            for (std::size_t m = 1; m < node_.size() && !below[k]; ++m)
+                below[k] = m != k && node_[m].force + node_[m].stiffness * (node_[k].u - node_[m].u) > (1 + rounding) * node_[k].force;
+        std::vector<LoadedEllipse> kept;
+        for (std::size_t k = 0; k < node_.size(); ++k)
+            if (!below[k]) kept.push_back(node_[k]);
+        node_ = std::move(kept);
+    }
+
+    std::vector<LoadedEllipse> node_;
+    std::vector<double> work_;
+};
+
+class EllipseLaw final : public Law {
+public:
+    EllipseLaw(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing)
+        : other_(std::move(other)),
+          found_(found),
+          asperities_(found.summits),
+          indenter_(indenter),
+          spacing_(spacing),
+          stencil_(found.points_per_wave > 0 ? Stencil::band_limited(found.points_per_wave) : Stencil::polynomial(kMeasuredReach / 2)),
+          state_(asperities_.size()),
+          table_(asperities_.size()),
+          widest_(asperities_.size()),
+          clearance_(asperities_.size()) {
+        for (std::size_t i = 0; i < clearance_.size(); ++i)
+            clearance_[i] = indenter_.clearance(asperities_.x[i], asperities_.y[i], asperities_.z[i]);
+        by_x_.resize(clearance_.size());
+        std::iota(by_x_.begin(), by_x_.end(), 0);
+        std::sort(by_x_.begin(), by_x_.end(),
+                  [&](int a, int b) { return std::tie(asperities_.x[at(a)], a) < std::tie(asperities_.x[at(b)], b); });
+    }
+
+    void prepare(std::span<const int> asperities) override {
+        other_->prepare(asperities);
+        // The ellipses of these, of the lower summits in them, and so on.
+        std::vector<int> next(asperities.begin(), asperities.end()), fresh, added;
+        while (!next.empty()) {
+            fresh.clear();
+            for (int i : next)
+                if (state_[at(i)] == State::unknown) state_[at(i)] = State::alone, fresh.push_back(i);
+            next.clear();
+            parallel_for(fresh.size(), 4, found_.threads, [&](std::size_t k) { table_[at(fresh[k])] = alone(fresh[k]); });
+            for (int i : fresh) {
+                widest_[at(i)] = table_[at(i)].nodes().back();
+                for (const LoadedEllipse& e : table_[at(i)].nodes())
+                    for (int j : members(i, e, true)) next.push_back(j);
+                if (table_[at(i)].empty())
+                    near(i, 2 * spacing_, [&](int j) {
+                        if (lower(i, j)) next.push_back(j);
+                    });
+            }
+            added.insert(added.end(), fresh.begin(), fresh.end());
+        }
+        std::sort(added.begin(), added.end(), [&](int a, int b) { return lower(a, b); });
+        for (int i : added)
+            if (table_[at(i)].empty())
+                near(i, 2 * spacing_, [&](int j) {
+                    const Vec2 d = between(j, i);
+                    if (lower(i, j) && contains(widest_[at(j)], d.x, d.y)) state_[at(i)] = State::covered;
+                });
+        for (int i : added) share(i);
+    }
+
+    void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
+        for (int k = 0; k < n; ++k) {
+            const Table& table = table_[at(asperity[k])];
+            if (state_[at(asperity[k])] == State::covered) {
+                force[k] = slope[k] = work[k] = 0;
+                continue;
+            }
+            if (table.empty()) {
+                other_->respond(1, asperity + k, u + k, force + k, slope + k, work + k);
+                continue;
+            }
+            const Response r = table.at(u[k]);
+            force[k] = r.force, slope[k] = r.slope, work[k] = r.work;
+        }
+    }
+
+    double force(int asperity, double u) const override {
+        const Table& table = table_[at(asperity)];
+        if (state_[at(asperity)] == State::covered) return 0;
+        return table.empty() ? other_->force(asperity, u) : table.at(u).force;
+    }
+
+    double area(int asperity, double u) const override {
+        const Table& table = table_[at(asperity)];
+        if (state_[at(asperity)] == State::covered) return 0;
+        if (table.empty()) return other_->area(asperity, u);
+        if (!(u > 0)) return 0;
+        const LoadedEllipse e = table.ellipse(u);
+        return std::numbers::pi * e.major * e.minor;
+    }
+
+    double axes(int asperity) const override { return other_->axes(asperity); }
+    bool beyond(int asperity, double u) const override {
+        const Table& table = table_[at(asperity)];
+        return table.empty() ? other_->beyond(asperity, u) : u > table.last();
+    }
+
+    std::optional<Spot> spot(int asperity, double u) const override {
+        const Table& table = table_[at(asperity)];
+        if (table.empty() || !(u > 0)) return std::nullopt;
+        const LoadedEllipse e = table.ellipse(u);
+        return Spot{e.dx, e.dy, e.major, e.minor, e.angle};
+    }
+
+private:
+    enum class State : char { unknown, alone, covered };  // covered: no spot of its own, but inside that of a higher summit
+
+    bool lower(int a, int b) const { return std::tie(clearance_[at(a)], b) < std::tie(clearance_[at(b)], a); }
+
+    Table alone(int i) const {
+        constexpr double window = 1.3, fine = 45;  // half width over the widest ellipse; points in it
+        const std::size_t k = at(i);
+        const int steps = std::clamp(static_cast<int>(std::ceil(fine * std::max(found_.map->dx, found_.map->dy) / spacing_)), 1, 8);
+        const HeightsAround heights(found_, stencil_, indenter_, asperities_.x[k], asperities_.y[k], window * spacing_, steps);
+        const double k1 = asperities_.kappa1[k], k2 = asperities_.kappa2[k];
+        auto ellipses = most_loaded_ellipses(heights, indenter_.E_star, std::sqrt(k1 * k2), k1 / k2, asperities_.angle[k], spacing_);
+        // A spot that contains a higher summit is that of the higher one.
+        const auto end =
+            std::find_if(ellipses.begin(), ellipses.end(), [&](const LoadedEllipse& e) { return !members(i, e, false).empty(); });
+        ellipses.erase(end, ellipses.end());
+        return Table(std::move(ellipses));
+    }
+
+    Vec2 between(int i, int j) const {
+        return {indenter_.around.nearest_x(asperities_.x[at(j)] - asperities_.x[at(i)]),
+                indenter_.around.nearest_y(asperities_.y[at(j)] - asperities_.y[at(i)])};
+    }
+
+    // Visits the other summits within a distance in x and in y.
+    template <class Visit>
+    void near(int i, double distance, Visit&& visit) const {
+        const double x = asperities_.x[at(i)];
+        auto j = std::partition_point(by_x_.begin(), by_x_.end(), [&](int k) { return asperities_.x[at(k)] < x - distance; });
+        for (; j != by_x_.end() && asperities_.x[at(*j)] <= x + distance; ++j)
+            if (*j != i && std::abs(asperities_.y[at(*j)] - asperities_.y[at(i)]) <= distance) visit(*j);
+    }
+
+    // Lower or higher summits in an ellipse of i that touch at its penetration, in the order of their numbers. (Across the border of a
+    // periodic surface none are found: contacts there are out of validity.)
+    std::vector<int> members(int i, const LoadedEllipse& e, bool lower_ones) const {
+        std::vector<int> found;
+        if (!(e.u > 0)) return found;
+        near(i, e.major + std::hypot(e.dx, e.dy), [&](int j) {
+            if (lower(j, i) != lower_ones || clearance_[at(i)] - e.u >= clearance_[at(j)]) return;
+            const Vec2 d = between(i, j);
+            if (contains(e, d.x, d.y)) found.push_back(j);
+        });
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+    // Forces of lower summits if they and summit i, which is first, carry F together at its penetration u without the others. Returns that
+    // left to i.
+    double shared(double u, double F, const std::vector<int>& members, std::vector<double>& f) const {
+        constexpr int most = 500;
+        const std::size_t n = members.size();
+        std::vector<double> fresh(n);
+        f.assign(n, 0.0), f[0] = F;
+        const auto left = [&](std::size_t k) {
+            double v = u - (clearance_[at(members[0])] - clearance_[at(members[k])]);
+            for (std::size_t l = 0; l < n; ++l) {
+                if (l == k) continue;
+                const Vec2 d = between(members[k], members[l]);
+                v -= f[l] / (std::numbers::pi * indenter_.E_star * std::hypot(d.x, d.y));
+            }
+            return v;
+        };
+        for (int i = 0; i < most; ++i) {
+            fresh[0] = F;
+            for (std::size_t k = 1; k < n; ++k) fresh[k] = table_[at(members[k])].at(left(k)).force, fresh[0] -= fresh[k];
+            double change = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+                fresh[k] = std::max(fresh[k], 0.0);
+                change = std::max(change, std::abs(fresh[k] - f[k]));
+                f[k] += 0.5 * (fresh[k] - f[k]);
+            }
+            if (change <= 1e-10 * F) break;
+        }
+        return left(0);
+    }
+
+    // Subtracts what the lower summits in the ellipses of i carry; their own tables are complete.
+    void share(int i) {
+        const Table& table = table_[at(i)];
+        std::vector<LoadedEllipse> nodes;
+        bool changed = false;
+        for (const LoadedEllipse& e : table.nodes()) {
+            if (!(e.u > 0)) continue;
+            std::vector<int> group = members(i, e, true);
+            std::erase_if(group, [&](int j) { return table_[at(j)].empty(); });
+            nodes.push_back(e);
+            if (group.empty()) continue;
+            changed = true;
+            group.insert(group.begin(), i);
+            const double step = 1e-4 * e.u;
+            std::vector<double> low, high;
+            const double u0 = shared(e.u - step, e.force - step * e.stiffness, group, low),
+                         u1 = shared(e.u + step, e.force + step * e.stiffness, group, high);
+            nodes.back().u = 0.5 * (u0 + u1), nodes.back().force = 0.5 * (low[0] + high[0]);
+            nodes.back().stiffness = (high[0] - low[0]) / (u1 - u0);
+            if (!(u0 > 0 && u1 > u0 && low[0] > 0 && high[0] > low[0])) nodes.pop_back();
+        }
+        if (changed) table_[at(i)] = Table(std::move(nodes));
+    }
+
+    std::unique_ptr<Law> other_;
+    const FoundSummits& found_;
+    const Asperities& asperities_;
+    Indenter indenter_;
+    double spacing_;
+    Stencil stencil_;
+    std::vector<State> state_;
+    std::vector<Table> table_;
+    std::vector<LoadedEllipse> widest_;  // of each summit by itself
+    std::vector<double> clearance_;
+    std::vector<int> by_x_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_ellipse_law(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing) {
+    return std::make_unique<EllipseLaw>(std::move(other), found, indenter, spacing);
+}
+
+}  // namespace rsc
