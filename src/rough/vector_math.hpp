@@ -64,6 +64,15 @@ inline void square_roots(double* x, int count) {
 #endif
 }
 
+// The same for a count that is a multiple of 4.
+inline void square_roots(float* x, int count) {
+#if defined(__SSE2__)
+    for (int i = 0; i < count; i += 4) _mm_store_ps(x + i, _mm_sqrt_ps(_mm_load_ps(x + i)));
+#else
+    for (int i = 0; i < count; ++i) x[i] = std::sqrt(x[i]);
+#endif
+}
+
 // cos and sin of 2 pi u for 0 <= u < 1 (u in turns: the reduction to a quarter turn is exact).
 inline void cos_sin_turns(double u, double& cosine, double& sine) {
     constexpr double kShift = 6755399441055744.0;

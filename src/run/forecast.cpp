@@ -98,7 +98,10 @@ double punch_share(double under, double points) { return std::pow(under / points
 // in contact. Otherwise the time is that of the points under the indenter. A force takes some more products than a separation, and many
 // more where points yield.
 double element_level_seconds(const Job& job, double level, double points, bool is_force) {
-    if (job.indenter.period.finite()) return points * (2.4e-7 + 2.5e-6 * share_in_contact(job, level, is_force));
+    if (job.indenter.period.finite()) {
+        const double share = share_in_contact(job, level, is_force);
+        return points * (job.settings.solids.adhesion > 0 ? 2.4e-7 + 2.5e-6 * share : 9e-8 + 3e-6 * share);
+    }
     const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = punch_share(under, points);
     const bool yields = std::isfinite(job.settings.solids.hardness);
     const double force = is_force ? (yields ? 12 : 2.5) * (1 + 2 * share) : 1;
@@ -167,7 +170,7 @@ double expected_seconds(const Job& job, double workers) {
     // Elastic separations with half as many points again as the level before start from pressures that help little.
     constexpr double cold = 2.5, grown = 1.5;
     const bool steps = elements && !force && !layers && !job.indenter.period.finite() && !std::isfinite(job.settings.solids.hardness);
-    double before = 0;
+    double before = 0, longest = 0;
     for (const double level : job.levels) {
         const double under = steps ? points_under(job, level, points) : 0;
         if (elements)
@@ -177,7 +180,9 @@ double expected_seconds(const Job& job, double workers) {
             one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 2 : 1) * (job.indenter.period.finite() ? 8 : 1) *
                    level_seconds(job, expected_candidates(job, likely_separation(job, level)));
         before = under;
+        if (elements && job.indenter.period.finite()) longest = std::max(longest, element_level_seconds(job, level, points, force));
     }
+    one += 0.25 * longest;            // two flats: the check on a coarser grid
     constexpr double circles = 1e-6;  // for the weights of the radial means
     const auto& output = job.settings.output;
     one += circles * output.map_cells * output.radial_bins;
@@ -201,8 +206,11 @@ double expected_megabytes(const Job& job, double workers) {
     }
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each point under the indenter or in
     // contact, from the peaks of a dozen runs.
-    constexpr double program = 32e6, tables = 15e6, under = 170, touching = 150, adhesion = 49;
-    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = 10 + sticking, flats = 28 + sticking;
+    constexpr double program = 32e6, tables = 15e6, under = 170, adhesion = 49, record = 0.3e6;
+    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = 10 + sticking;
+    // From the second level on, two flats also keep the last level and its transform in double precision.
+    const bool several = job.indenter.period.finite() && job.levels.size() > 1 && job.settings.solids.adhesion <= 0;
+    const double flats = (several ? 36 : 28) + sticking, touching = several ? 240 : 150;
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);
     const bool force = job.settings.indentation.control != Control::separation;
     // Where most of the surface is under the indenter, its far products take more.
@@ -213,7 +221,7 @@ double expected_megabytes(const Job& job, double workers) {
         most = std::max(most, job.indenter.period.finite() ? points * (flats + touching * share_in_contact(job, level, force))
                                                            : tables + free * points + (under + deep * below / points) * below);
     }
-    return 1e-6 * (program + most * contacts_at_once);
+    return 1e-6 * (program + (several ? record * static_cast<double>(job.levels.size()) : 0.0) + most * contacts_at_once);
 }
 
 }  // namespace rsc

@@ -18,6 +18,9 @@ constexpr double kFiner = 1.5, kOnePixelFiner = 0.1, kPixelArea = 0.5;
 // Fewer points in the shortest wavelength than this cannot be halved, because a grid resolves wavelengths of more than two points.
 constexpr double kHalvedFrom = 5;
 
+// Two flats: changes of N with the grid are several times larger than this tolerance, and are needed to one digit.
+constexpr double kTolerance = 2e-5;
+
 // A map needs as many points a side for its half.
 constexpr int kFewestPoints = 16;
 
@@ -44,7 +47,9 @@ OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const Hei
         map_ = make_element_surface(other, number, threads).map;
         map_->x0 = map.x0, map_->y0 = map.y0;
     }
-    contact_ = make_element_contact(*map_, job.indenter, job.solver);
+    SolverOptions options = job.solver;
+    if (job.indenter.period.finite()) options.tolerance = std::max(options.tolerance, kTolerance);
+    contact_ = make_element_contact(*map_, job.indenter, options);
 }
 
 OtherGrid::~OtherGrid() = default;

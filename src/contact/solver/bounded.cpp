@@ -13,7 +13,9 @@ constexpr int kRows = 8;                  // that a thread takes at a time
 // Error above which the sets change so much that a round is made of two.
 constexpr double kUnsettled = 1e-3;
 // Later rounds of a stiffness reduce the residual to this part of its tolerance.
-constexpr double kEnough = 0.3;
+constexpr double kEnough = 0.8;
+// Part of a stiffness that products inside a round, exact to some per cent, determine well enough.
+constexpr double kSmall = 5e-5;
 
 }  // namespace
 
@@ -67,56 +69,59 @@ void BoundedSolver::find_free() {
     freed();
 }
 
+void BoundedSolver::precondition_ones(std::vector<double>& y) { precondition(std::vector<double>(free_.begin(), free_.end()), y); }
+
+// Leaves K one_ in image_ where it computes punch_.
+void BoundedSolver::prepare_constant(bool plain) {
+    if (!manner_.repeats && !wanted_) return;
+    if (plain)
+        one_.assign(free_.begin(), free_.end());
+    else
+        precondition_ones(one_);
+    whole_ = sum([&](std::size_t k) { return one_[k]; });
+    punch_ = 0;
+    if (wanted_ || plain) return;
+    multiply_roughly(one_, image_);
+    const double energy = sum([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
+    if (energy > 0) punch_ = 1 / energy;
+}
+
 // Conjugate gradients on the free pixels. If the sum of p is given, it is kept constant, and w is minimised up to a constant.
-void BoundedSolver::descend(int most_steps, double reduction) {
+double BoundedSolver::descend(int most_steps, double reduction) {
     const std::size_t n = p_.size();
     direction_.assign(n, 0.0);
     const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
         return sum([&](std::size_t k) { return a[k] * b[k]; });
     };
     // A single step follows the gradient itself, which remains a descent direction after projection on the bounds.
-    const bool plain = most_steps == 1;
+    const bool plain = most_steps == 1, constant = manner_.repeats || wanted_;
     std::vector<double> residual(n);
-    for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 1 : 0;
-    // Correction by a constant pressure, which is most effective near full contact.
-    double whole = 0, punch = 0;
-    const bool constant = manner_.repeats || wanted_;
-    if (constant) {
-        if (plain)
-            one_ = residual;
-        else
-            precondition(residual, one_);
-        whole = sum([&](std::size_t k) { return one_[k]; });
-        if (!wanted_ && !plain) {
-            multiply_roughly(one_, image_);
-            const double energy = sum([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
-            punch = energy > 0 ? 1 / energy : 0;
-        }
-    }
-    double last = 0, first = 0;
-    for (int step = 0;; ++step) {
+    double last = 0, first = 0, decrease = 0;
+    for (int step = 0; step < most_steps; ++step) {
         for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 0 - w_[k] : 0.0;
         if (plain)
             y_ = residual;
         else
             precondition(residual, y_);
         if (constant) {
-            const double c = wanted_ ? -sum([&](std::size_t k) { return y_[k]; }) / whole : punch * product(one_, residual);
+            const double c = wanted_ ? -sum([&](std::size_t k) { return y_[k]; }) / whole_ : punch_ * product(one_, residual);
             for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
         }
         const double ry = product(residual, y_);
         if (step == 0) first = ry;
-        if (step == most_steps || !(ry > reduction * reduction * first)) return;
+        if (!(ry > reduction * reduction * first)) break;
         const double beta = step > 0 ? ry / last : 0.0;
         last = ry;
         for (std::size_t k = 0; k < n; ++k) direction_[k] = y_[k] + beta * direction_[k];
         stopping_point();
         multiply_roughly(direction_, image_);
         const double curvature = product(direction_, image_);
-        if (!(curvature > 0)) return;
+        if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
         for (std::size_t k = 0; k < n; ++k) p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k];
+        decrease += alpha * ry;
     }
+    return decrease;
 }
 
 // Clips pressures at their bounds, and restores their sum by adding pressure as a lower flat would. Returns true if any was clipped.
@@ -152,6 +157,7 @@ void BoundedSolver::descend_again(int most_steps) {
     for (std::size_t k = 0; k < p_.size(); ++k) w_[k] += image_[k];
     find_Z0();
     find_free();
+    prepare_constant(most_steps == 1);
     descend(most_steps, manner_.reduction);
 }
 
@@ -208,6 +214,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         find_free();
         before_p_ = p_;
         before_w_ = w_;
+        prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
         if (manner_.repeats && outcome.residual > kUnsettled) descend_again(steps);
         const bool cut = bound();
@@ -228,18 +235,29 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     const double count = sum([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
     std::fill(p_.begin(), p_.end(), 0.0);
     std::fill(w_.begin(), w_.end(), -1.0);
-    double residual = 0;
+    const auto rms = [&] { return std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count); };
+    const auto value = [&] { return sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; }); };
+    prepare_constant(false);
+    if (const double c = whole_ * punch_; manner_.repeats && c > 0)  // the first step is known
+        for (std::size_t k = 0; k < n; ++k) p_[k] = c * one_[k], w_[k] = c * image_[k] - 1;
+    double residual = 0, answer = 0;
     for (int round = 0; round < most_rounds && count > 0; ++round) {
-        descend(most_steps, round == 0 ? reduction : std::max(reduction, kEnough * tolerance / residual));
-        if (most_rounds == 1) break;
-        multiply(p_, w_, !manner_.repeats);
-        for (double& v : w_) v -= 1;
-        residual = std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count);
+        const double decrease = descend(most_steps, round == 0 ? reduction : std::max(reduction, kEnough * tolerance / residual));
+        if (manner_.repeats && round > 0 && decrease <= kSmall * answer && rms() <= tolerance) {
+            residual = tolerance, answer += decrease;
+            break;
+        }
+        if (most_rounds > 1) {
+            multiply(p_, w_, !manner_.repeats);
+            for (double& v : w_) v -= 1;
+            residual = rms();
+        }
+        answer = value();
         if (residual <= tolerance) break;
     }
     // The error of 2 1'q - q'Kq is of second order in the residual. Without convergence there is no stiffness.
     constexpr double useless = 0.1;
-    const double answer = residual <= useless ? sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; }) : std::nan("");
+    if (!(residual <= useless)) answer = std::nan("");
     p_ = p;
     w_ = w;
     wanted_ = wanted;

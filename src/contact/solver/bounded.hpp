@@ -43,6 +43,8 @@ protected:
     virtual void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) { multiply(x, Kx, false); }
     // Preconditioner: y approximates K^-1 r over the free pixels and is 0 elsewhere.
     virtual void precondition(const std::vector<double>& r, std::vector<double>& y) = 0;
+    // The same for r = 1.
+    virtual void precondition_ones(std::vector<double>& y);
     // Sum of the squared penetrations of pixels outside the set, from the last multiply() with p.
     virtual double outside() { return 0; }
     // Updates the set for the next round, including p_, w_ and z_.
@@ -70,7 +72,9 @@ protected:
     double error();
     void find_free();
     void find_Z0();
-    void descend(int most_steps, double reduction);
+    // Returns the decrease of p'Kp - 2 (z - Z0)'p by its steps.
+    double descend(int most_steps, double reduction);
+    void prepare_constant(bool plain);
     void descend_again(int most_steps);
     bool bound();
     bool fell();
@@ -87,7 +91,11 @@ protected:
     std::vector<char> free_;  // not held at a bound
 
 private:
-    std::vector<double> y_, one_, direction_, image_, before_p_, before_w_, partial_;
+    std::vector<double> y_, direction_, image_, before_p_, before_w_, partial_;
+    // Correction by a constant pressure on the free pixels, which is most effective near full contact: K^-1 times 1 as the preconditioner has
+    // it, its sum, and 1/(one'K one).
+    std::vector<double> one_;
+    double whole_ = 0, punch_ = 0;
 };
 
 }  // namespace rsc

@@ -207,28 +207,41 @@ void PeriodicGrid::multiply_roughly(const std::vector<double>& x, std::vector<do
 
 // y = K^-1, truncated to kReach pixels and with a correction for the farther ones, times r over the free pixels.
 void PeriodicGrid::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    const std::size_t n = r.size();
-    from_.resize(n), to_.resize(n), y.resize(n);
-    for (std::size_t k = 0; k < n; ++k) from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
+    from_.resize(r.size()), to_.resize(r.size());
+    for (std::size_t k = 0; k < r.size(); ++k) from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
+    correct(y);
+}
+
+void PeriodicGrid::precondition_ones(std::vector<double>& y) {
+    from_.assign(free_.begin(), free_.end());
+    to_ = ones_;
+    correct(y);
+}
+
+// Corrects to_, the truncated K^-1 times from_, and copies it to y.
+void PeriodicGrid::correct(std::vector<double>& y) {
     if (far_is_set_) far_->subtract({rows_, column_}, from_.data(), to_.data(), threads());
+    y.resize(to_.size());
     double product = 0;
-    for (std::size_t k = 0; k < n; ++k) y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0, product += r[k] * y[k];
-    if (far_is_set_ && !(product > 0)) {  // the correction is not proved to be positive definite
-        far_is_set_ = false;
-        precondition(r, y);
+    for (std::size_t k = 0; k < y.size(); ++k) {
+        y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0;
+        product += static_cast<double>(from_[k]) * y[k];
     }
+    if (!far_is_set_ || product > 0) return;
+    far_is_set_ = false;  // the correction is not proved to be positive definite
+    plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
+    correct(y);
 }
 
 void PeriodicGrid::freed() {
-    far_is_set_ = false;
-    if (!far_->exists()) return;
-    from_.resize(free_.size()), to_.resize(free_.size());
-    for (std::size_t k = 0; k < free_.size(); ++k) from_[k] = free_[k] ? 1.0f : 0.0f;
-    plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
-    for (std::size_t k = 0; k < free_.size(); ++k) to_[k] = free_[k] ? std::max(to_[k], 0.0f) : 0.0f;
-    far_->set({rows_, column_}, to_, threads());
-    far_is_set_ = true;
+    far_is_set_ = far_->exists();
+    from_.assign(free_.begin(), free_.end()), ones_.resize(free_.size());
+    plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
+    if (!far_is_set_) return;
+    std::vector<float> m = ones_;
+    for (std::size_t k = 0; k < m.size(); ++k) m[k] = free_[k] ? std::max(m[k], 0.0f) : 0.0f;
+    far_->set({rows_, column_}, std::move(m), threads());
 }
 
 bool PeriodicGrid::judge_exactly(bool exact, double residual, int) { return exact || residual < kSingle; }
@@ -247,7 +260,7 @@ ElementsOutcome PeriodicGrid::solve(Given given, double tolerance, int most_iter
 
 double PeriodicGrid::stiffness(bool back) {
     // The answer's error is of second order in these.
-    constexpr double tolerance = 5e-4, reduction = 5e-3;
+    constexpr double tolerance = 5e-4, reduction = 2e-2;
     constexpr int rounds = 20, steps = 60;
     return BoundedSolver::stiffness(back, tolerance, rounds, steps, reduction);
 }

@@ -66,6 +66,8 @@ private:
     double outside() override;
     void renew() override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
+    void precondition_ones(std::vector<double>& y) override;
+    void correct(std::vector<double>& y);
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
 
@@ -81,8 +83,8 @@ private:
     PixelStencil inverse_;  // preconditioner, within its reach and beyond
     std::unique_ptr<BlockCorrection> far_;
     bool far_is_set_ = false;
-    std::unique_ptr<SplitPixels> split_;  // null: not for this grid
-    std::vector<float> from_, to_;
+    std::unique_ptr<SplitPixels> split_;   // null: not for this grid
+    std::vector<float> from_, to_, ones_;  // ones_: truncated K^-1 times 1 over the free pixels
     long products_ = 0;
     bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
     std::vector<std::int32_t> column_;  // of the set
