@@ -83,12 +83,13 @@ namespace {
 constexpr int kBatch = Differences::kBatch;
 constexpr int kLanes = 8;  // partial sums, fixed so that the sum has the same bits on every machine
 
-// Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < kBatch; (0, 0) must not be among them.
-RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, const Stretch& stretched, int kx, int ky_first, double* amplitude) {
+// Relative amplitudes sqrt(Phi/Phi0) of the power law at (kx, ky_first + i), i < count; (0, 0) must not be among them. Here and below, count
+// is a multiple of kLanes.
+RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, const Stretch& stretched, int kx, int ky_first, int count, double* amplitude) {
     const double x2 = stretched.xx * kx * kx, xy = 2 * stretched.xy * kx, yy = stretched.yy;
     const double log_ql2 = vector_math::log_positive(s.L_lambda_l * s.L_lambda_l);
     const double exponent = -0.5 * (1.0 + s.hurst);
-    for (int i = 0; i < kBatch; ++i) {
+    for (int i = 0; i < count; ++i) {
         const double y = static_cast<double>(ky_first + i);
         amplitude[i] = vector_math::exp_moderate(exponent * (vector_math::log_positive(x2 + y * (xy + yy * y)) - log_ql2));
     }
@@ -101,9 +102,9 @@ struct Lanes {
 
 // Adds up the energies of a batch of coefficients and their moments in ky, lane by lane.
 RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* re, const double* im, const double* difference,
-                                         int ky_first, Lanes& total) {
+                                         int ky_first, int count, Lanes& total) {
     Lanes sums = total;
-    for (int i = 0; i < kBatch; i += kLanes)
+    for (int i = 0; i < count; i += kLanes)
         for (int l = 0; l < kLanes; ++l) {
             const int k = i + l;
             const double y = static_cast<double>(ky_first + k);
@@ -123,11 +124,11 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
     total = sums;
 }
 
-RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, const Stretch& stretched, int kx, int ky_first, double* amplitude),
-             (s, stretched, kx, ky_first, amplitude))
+RSC_DISPATCH(power_law, power_law_body, (const Spectrum& s, const Stretch& stretched, int kx, int ky_first, int count, double* amplitude),
+             (s, stretched, kx, ky_first, count, amplitude))
 RSC_DISPATCH(add_energies, add_energies_body,
-             (const double* amplitude, const double* re, const double* im, const double* difference, int ky_first, Lanes& total),
-             (amplitude, re, im, difference, ky_first, total))
+             (const double* amplitude, const double* re, const double* im, const double* difference, int ky_first, int count, Lanes& total),
+             (amplitude, re, im, difference, ky_first, count, total))
 
 double sum(const double* lanes) {
     double total = 0;
@@ -140,17 +141,17 @@ void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key,
               int last, std::complex<double>* coefficient, Lanes& lanes) {
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
     for (int ky = first; ky <= last; ky += kBatch) {
-        const int count = std::min(kBatch, last - ky + 1);
+        const int count = std::min(kBatch, last - ky + 1), whole = (count + kLanes - 1) / kLanes * kLanes;
         if (spectrum.tabulated())
             for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, kx, ky + i));
         else
-            power_law(spectrum, limits.stretched, kx, ky, amplitude);
-        std::fill(amplitude + count, amplitude + kBatch, 0.0);
+            power_law(spectrum, limits.stretched, kx, ky, whole, amplitude);
+        std::fill(amplitude + count, amplitude + whole, 0.0);
         if (!spectrum.tabulated() && kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
             for (int i = 0; i < count; ++i)
                 if (limits.stretched(kx, ky + i) < limits.lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);
-        add_energies(amplitude, re, im, differences.from(ky), ky, lanes);
+        add_energies(amplitude, re, im, differences.from(ky), ky, whole, lanes);
         for (int i = 0; i < count; ++i) coefficient[i] = {amplitude[i] * re[i], amplitude[i] * im[i]};
         coefficient += count;
     }

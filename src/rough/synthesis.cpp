@@ -1,6 +1,7 @@
 #include "rough/synthesis.hpp"
 
 #include "error.hpp"
+#include "rough/dispatch.hpp"
 #include "rough/modes.hpp"
 #include "rough/parallel.hpp"
 #include "rough/reshape.hpp"
@@ -13,13 +14,48 @@ fftw_complex* fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
 using Buffer = std::unique_ptr<double[], HeightMap::Free>;
 
+// Distance of rows: aligned to 64 bytes, and not a power of two apart.
+std::ptrdiff_t row_distance(int n) { return (n + 7) / 8 * 8 + 8; }
+
 HeightMap empty_map(double L, int n) {
     HeightMap map;
-    map.allocate(n, n, (n + 7) / 8 * 8 + 8);  // rows aligned to 64 bytes, and not a power of two apart
+    map.allocate(n, n, row_distance(n));
     map.dx = map.dy = L / n;
     map.periodic = true;
     return map;
 }
+
+// Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`. n and rows must be even.
+RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance) {
+    using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+    using Places [[gnu::vector_size(32)]] = std::int64_t;
+    constexpr Places even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
+    const int rows4 = rows - rows % 4, n4 = n - n % 4;
+    for (int i = 0; i < n4; i += 4) {
+        double* const out = to + i * distance;
+        // The distance is too large for the hardware prefetcher.
+        const double* const soon = to + std::min(i + 4, n - 4) * distance;
+        for (int k = 0; k < 4; ++k)
+            for (int r = 0; r < rows; r += 8) __builtin_prefetch(soon + k * distance + r, 1);
+        for (int r = 0; r < rows4; r += 4) {
+            const double* const in = from + r * stride + i;
+            const Four &a = reinterpret_cast<const Four&>(in[0]), &b = reinterpret_cast<const Four&>(in[stride]);
+            const Four &c = reinterpret_cast<const Four&>(in[2 * stride]), &d = reinterpret_cast<const Four&>(in[3 * stride]);
+            const Four ab0 = __builtin_shuffle(a, b, even), ab1 = __builtin_shuffle(a, b, odd);
+            const Four cd0 = __builtin_shuffle(c, d, even), cd1 = __builtin_shuffle(c, d, odd);
+            double* const place = out + r;
+            reinterpret_cast<Four&>(place[0]) = __builtin_shuffle(ab0, cd0, low);
+            reinterpret_cast<Four&>(place[distance]) = __builtin_shuffle(ab1, cd1, low);
+            reinterpret_cast<Four&>(place[2 * distance]) = __builtin_shuffle(ab0, cd0, high);
+            reinterpret_cast<Four&>(place[3 * distance]) = __builtin_shuffle(ab1, cd1, high);
+        }
+    }
+    for (int r = 0; r < rows; ++r)
+        for (int i = r < rows4 ? n4 : 0; i < n; ++i) to[i * distance + r] = from[r * stride + i];
+}
+RSC_DISPATCH(transpose_rows, transpose_body,
+             (const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance),
+             (from, stride, rows, n, to, distance))
 
 }  // namespace
 
@@ -54,6 +90,8 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
                                             std::to_string(most) + ": n must be at least " + std::to_string(2 * most + (tilted ? 2 : 0)));
     column_stride_ = (n + 3) / 4 * 4 + 4;  // multiples of 64 bytes, and columns not a power of two apart
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
+    // For these sizes FFTW's complex transform takes less time than two real ones. The bits of isotropic surfaces are kept.
+    pairs_ = spectrum.aspect != 1 && n >= 64 && n <= 2048 && (n & (n - 1)) == 0;
     columns_data_.reset(allocate_doubles(2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
                                          "the modes of a synthetic surface"));
     draw(spectrum, normalise, seed, realization, threads, difference_step);
@@ -70,7 +108,7 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
     std::vector<Buffer> block;
     // So many rows at once that what they write to a row of the other surface is whole lines of the cache.
     constexpr int wide = 2 * kBlock;
-    const std::ptrdiff_t stride = (n_ + 7) / 8 * 8 + 8;
+    const std::ptrdiff_t stride = row_distance(n_);
     for (int t = 0; t < threads; ++t) {
         scratch.emplace_back(other);
         block.emplace_back(allocate_doubles(static_cast<std::size_t>(wide * stride), "rows of a synthetic surface"));
@@ -81,17 +119,7 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
         double* const rows = block[worker].get();
         const int first = b * wide, count = std::min(wide, n_ - first);
         other.rows(first, count, rows, stride, scratch[worker]);
-        for (int i = 0; i < n_; i += 2) {  // pairs of pairs: n is even
-            double *const to = whole_.row(i) + first, *const next = to + whole_.stride;
-            // The stride is too large for the hardware prefetcher.
-            const double* const soon = whole_.row(std::min(i + 8, n_ - 2)) + first;
-            for (int r = 0; r < count; r += 8) __builtin_prefetch(soon + r, 1), __builtin_prefetch(soon + whole_.stride + r, 1);
-            for (int r = 0; r < count; r += 2) {
-                const double *const from = rows + r * stride + i, *const below = from + stride;
-                const double a = from[0], b = below[0], c = from[1], d = below[1];
-                to[r] = a, to[r + 1] = b, next[r] = c, next[r + 1] = d;
-            }
-        }
+        transpose_rows(rows, stride, count, n_, whole_.row(0) + first, whole_.stride);
     });
 }
 
@@ -102,12 +130,19 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     const auto doubles = static_cast<std::size_t>(2 * column_stride_);
     std::vector<Buffer> drawn(static_cast<std::size_t>(threads));
     for (auto& buffer : drawn) buffer.reset(allocate_doubles(doubles, "a column of a synthetic surface"));
-    Buffer row(allocate_doubles(2 * static_cast<std::size_t>(row_stride_), "a row of a synthetic surface"));
+    Buffer row(allocate_doubles(4 * static_cast<std::size_t>(row_stride_), "a row of a synthetic surface"));
     FftwPlan column_plan;
     {
         const auto lock = fftw_planning();
         column_plan.reset(fftw_plan_dft_1d(n_, fftw(drawn[0].get()), fftw(store), FFTW_BACKWARD, FFTW_ESTIMATE));
-        row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row.get()), row.get() + row_stride_, FFTW_ESTIMATE));
+        if (pairs_) {  // real and imaginary parts exchanged: FFTW knows only forward transforms of separate parts
+            const fftw_iodim all{n_, 1, 1};
+            double *const from = row.get(), *const to = from + 2 * row_distance(n_);
+            row_plan_.reset(
+                fftw_plan_guru_split_dft(1, &all, 0, nullptr, from + row_distance(n_), from, to + row_distance(n_), to, FFTW_ESTIMATE));
+        } else {
+            row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row.get()), row.get() + row_stride_, FFTW_ESTIMATE));
+        }
     }
     if (!column_plan || !row_plan_) throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
 
@@ -151,29 +186,63 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
 }
 
 RowSource::Scratch::Scratch(const RowSource& source)
-    : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_), "rows of a synthetic surface")) {}
+    : coefficients_(allocate_doubles(static_cast<std::size_t>((kBlock + 4) * source.row_stride_), "rows of a synthetic surface")) {}
+
+// Rows j ... j + count - 1, count at most kBlock, by transforms of row 2i + sqrt(-1) row 2i + 1. parts: kBlock + 4 rows.
+void RowSource::make_pairs(int j, int count, double* out, std::ptrdiff_t stride, double* parts) const {
+    const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
+    const std::ptrdiff_t apart = row_distance(n_);  // of the parts
+    const int first = j - j % 2, rows = (j + count + 1) / 2 * 2 - first;
+    const double factor = factor_;
+    for (int kx = 0; kx < columns_; ++kx) {
+        const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + first);
+        const bool real = kx == 0 || 2 * kx == n_;  // the coefficients of a row are its own mirror image here
+        double *to = parts + kx, *mirror = parts + (real ? kx : n_ - kx);
+        for (int r = 0; r < rows; r += 2, to += 2 * apart, mirror += 2 * apart) {
+            const double a = factor * from[2 * r], b = real ? 0 : factor * from[2 * r + 1];
+            const double c = factor * from[2 * r + 2], d = real ? 0 : factor * from[2 * r + 3];
+            to[0] = a - d, to[apart] = b + c;
+            mirror[0] = a + d, mirror[apart] = c - b;
+        }
+    }
+    double* const spare = parts + rows * apart;  // for a row that is not wanted
+    for (int r = 0; r < rows; r += 2) {
+        double *const re = parts + r * apart, *const im = re + apart;
+        if (const int none = n_ + 1 - 2 * columns_; none > 0) std::fill_n(re + columns_, none, 0.0), std::fill_n(im + columns_, none, 0.0);
+        const int at = first + r - j;  // row of `out`
+        const bool direct = at >= 0 && at + 1 < count && stride == apart;
+        double* const to = direct ? out + at * stride : spare;
+        fftw_execute_split_dft(row_plan_.get(), im, re, to + apart, to);
+        if (direct) continue;
+        if (at >= 0) std::copy_n(to, n_, out + at * stride);
+        if (at + 1 < count) std::copy_n(to + apart, n_, out + (at + 1) * stride);
+    }
+}
+
+// The same rows by a real transform of each.
+void RowSource::make_rows(int j, int count, double* out, std::ptrdiff_t stride, double* coefficients) const {
+    const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
+    const double factor = factor_;
+    for (int kx = 0; kx < columns_; ++kx) {
+        const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + j);
+        double* const to = coefficients + 2 * kx;
+        for (int r = 0; r < count; ++r) {
+            to[r * row_stride_] = factor * from[2 * r];
+            to[r * row_stride_ + 1] = factor * from[2 * r + 1];
+        }
+    }
+    for (int r = 0; r < count; ++r) {
+        double* const row = coefficients + r * row_stride_;
+        std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes here; the previous transform has overwritten the zeros
+        fftw_execute_dft_c2r(row_plan_.get(), fftw(row), out + r * stride);
+    }
+}
 
 void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const {
-    const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
-    double* const coefficients = scratch.coefficients_.get();
-    const double factor = factor_;
-    auto& plan = *row_plan_;
     while (count > 0) {
         j = (j % n_ + n_) % n_;
         const int block = std::min({count, kBlock, n_ - j});
-        for (int kx = 0; kx < columns_; ++kx) {
-            const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + j);
-            double* const to = coefficients + 2 * kx;
-            for (int r = 0; r < block; ++r) {
-                to[r * row_stride_] = factor * from[2 * r];
-                to[r * row_stride_ + 1] = factor * from[2 * r + 1];
-            }
-        }
-        for (int r = 0; r < block; ++r) {
-            double* const row = coefficients + r * row_stride_;
-            std::fill(row + 2 * columns_, row + n_ + 2, 0.0);  // no modes here; the previous transform has overwritten the zeros
-            fftw_execute_dft_c2r(&plan, fftw(row), out + r * stride);
-        }
+        (this->*(pairs_ ? &RowSource::make_pairs : &RowSource::make_rows))(j, block, out, stride, scratch.coefficients_.get());
         j += block;
         count -= block;
         out += block * stride;

@@ -49,8 +49,11 @@ private:
                    double difference_step);
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
               double difference_step);
+    void make_pairs(int j, int count, double* out, std::ptrdiff_t stride, double* parts) const;
+    void make_rows(int j, int count, double* out, std::ptrdiff_t stride, double* coefficients) const;
 
     int n_ = 0;
+    bool pairs_ = false;                // rows 2i and 2i + 1 are the parts of one complex transform
     int columns_ = 0;                   // kx = 0 ... columns_ - 1 hold modes
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers
     std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles
