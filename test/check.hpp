@@ -35,7 +35,7 @@ inline double worse(double worst, std::initializer_list<double> errors) {
     return worst;
 }
 
-// The files' tests by name, and what stands behind the name on the command line.
+// The files' tests by name.
 inline std::map<std::string, void (*)()>& tests() {
     static std::map<std::string, void (*)()> all;
     return all;
@@ -44,8 +44,6 @@ inline bool add(const std::string& file, void (*run)()) {
     const std::size_t begin = file.rfind("test_") + 5;
     return tests().emplace(file.substr(begin, file.rfind('.') - begin), run).second;
 }
-inline std::vector<std::string> arguments;
-
 inline int summary() {
     std::printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 ? 0 : 1;

@@ -1,9 +1,8 @@
-// Runs the tests of the files named, or of all: test_unit [NAME [its arguments]].
+// Runs the tests of the files named, or of all: test_unit [NAME].
 #include "check.hpp"
 
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "";
-    for (int i = 2; i < argc; ++i) check::arguments.emplace_back(argv[i]);
     int run = 0;
     for (const auto& [file, test] : check::tests())
         if (name.empty() || name == file) test(), ++run;

@@ -8,7 +8,6 @@
 
 #include "contact/asperity_contact.hpp"
 #include "contact/interaction/pairs.hpp"
-#include "contact/spots.hpp"
 #include "rough/detection.hpp"
 #include "rough/parallel.hpp"
 
@@ -91,18 +90,6 @@ void bench_solve() {
     std::printf("  mean ratio %.0f (wanted: 200)\n", all_dgesv / all_direct);
 }
 
-void bench_laws() {
-    std::printf("\nlaws: 100 levels on the same sub-grid summits, solving only, one core (law / hertz)\n");
-    double hertz = 0, fourth = 0;
-    for (int realization = 1; realization <= 4; ++realization) {
-        const Asperities a = make_asperities(Spectrum{}, 2048, Normalise::sample, 1, realization, Curvature::geometric, nullptr, nullptr, 1,
-                                             Detail::subgrid);
-        hertz += shortest(10, [&] { indent(a, 0.01, Method::direct, 100); });
-        fourth += shortest(10, [&] { indent(a, 0.01, Method::direct, 100, LawKind::fourth_order); });
-    }
-    std::printf("  hertz %.1f ms, fourth_order %.1f ms, ratio %.2f (wanted: 1.3)\n", 250 * hertz, 250 * fourth, fourth / hertz);
-}
-
 double bare_transform(int n) {
     const auto size = static_cast<std::size_t>(n);
     double* data = fftw_alloc_real(size * 2 * (size / 2 + 1));
@@ -133,14 +120,6 @@ void bench_realization() {
     }
     std::printf("  bare %.1f ms, surface and detection %.1f ms, levels %.1f ms, all in %.1f ms, ratio %.2f (wanted: 2.5)\n", 1e3 * bare,
                 1e3 * make, 1e3 * solve, 1e3 * whole, whole / bare);
-}
-
-void bench_rough() {
-    std::printf("\nrough: sigma = 0.1, 100 levels, all in, one core\n");
-    std::vector<Level> levels;
-    const double time = shortest(2, [&] { levels = indent(surface(0.1, 1), 0.1, Method::automatic, 100); });
-    std::printf("  %d candidates, %zu contacts at the last level, %ld products: %.2f s (wanted: 5 s)\n", levels.back().candidates,
-                levels.back().f.size(), sum(levels, &Level::products), time);
 }
 
 void bench_pairs() {
@@ -218,28 +197,6 @@ void bench_largest() {
     std::printf("  peak memory %.0f MB (wanted: 2000; 512 MB of it the bare transform's)\n", peak_memory_mb());
 }
 
-// Pairs of close spots: what one huge spot among many small ones costs, and sizes spread over decades.
-void bench_close() {
-    constexpr std::size_t n = 80000;
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    std::vector<double> x(n), y(n), alike(n), spread(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        x[i] = uniform(random);
-        y[i] = uniform(random);
-        alike[i] = 1e-3 * uniform(random);
-        spread[i] = 1e-4 / std::pow(uniform(random) + 1e-4, 0.8);
-    }
-    std::vector<double> huge(alike);
-    huge[n / 2] = 0.5;
-    long pairs = 0;
-    const auto cost = [&](const std::vector<double>& a) { return shortest(3, [&] { pairs = count_overlapping(x, y, a); }); };
-    const double time = cost(alike), with_huge = cost(huge), with_spread = cost(spread);
-    std::printf(
-        "\nclose: pairs among %zu spots of like sizes in %.4f s; one huge spot among them %.1f times that, sizes over 3 decades %.1f\n", n,
-        time, with_huge / time, with_spread / time);
-}
-
 // A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the elastic levels down.
 void bench_adhesion() {
     const Asperities a = surface(0.01, 1);
@@ -274,11 +231,8 @@ const Part kParts[] = {
     {"pairs", bench_pairs},
     {"realization", bench_realization},
     {"solve", bench_solve},
-    {"laws", bench_laws},
-    {"rough", bench_rough},
     {"largest", bench_largest},
     {"many", bench_many},
-    {"close", bench_close},
     {"adhesion", bench_adhesion},
     {"made", bench::made},
     {"layers", bench::layers},

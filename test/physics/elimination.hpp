@@ -4,7 +4,8 @@
 #include "std.hpp"
 
 // Solves A x = b by elimination; A is n x n.
-inline std::vector<double> solved(std::vector<double> A, std::vector<double> b) {
+template <class Real>
+std::vector<Real> solved(std::vector<Real> A, std::vector<Real> b) {
     const std::size_t n = b.size();
     for (std::size_t k = 0; k < n; ++k) {
         std::size_t pivot = k;
@@ -13,7 +14,7 @@ inline std::vector<double> solved(std::vector<double> A, std::vector<double> b) 
         for (std::size_t j = 0; j < n; ++j) std::swap(A[k * n + j], A[pivot * n + j]);
         std::swap(b[k], b[pivot]);
         for (std::size_t i = k + 1; i < n; ++i) {
-            const double q = A[i * n + k] / A[k * n + k];
+            const Real q = A[i * n + k] / A[k * n + k];
             for (std::size_t j = k; j < n; ++j) A[i * n + j] -= q * A[k * n + j];
             b[i] -= q * b[k];
         }
@@ -23,4 +24,12 @@ inline std::vector<double> solved(std::vector<double> A, std::vector<double> b) 
         b[k] /= A[k * n + k];
     }
     return b;
+}
+
+// The same with the rows of A apart.
+template <class Real>
+std::vector<Real> solved(const std::vector<std::vector<Real>>& rows, const std::vector<Real>& b) {
+    std::vector<Real> A;
+    for (const auto& row : rows) A.insert(A.end(), row.begin(), row.end());
+    return solved(A, b);
 }

@@ -412,23 +412,6 @@ void test_fuller_tabor() {
     }
 }
 
-// What cannot be had together is refused by name.
-void test_refused() {
-    const Asperities a = of({0.5}, {0.5}, {0.1}, {0.7});
-    const Indenter tip{kE, kFlat, 0.5, 0.5};
-    const auto refused = [&](const std::function<void(SolverOptions&)>& change) {
-        SolverOptions options = sticky(0.01);
-        change(options);
-        CHECK_THROWS(make_asperity_contact(a, tip, options), Error);
-    };
-    refused([](SolverOptions& o) { o.hardness.H0 = 3; });
-    refused([](SolverOptions& o) { o.method = Method::dgesv; });
-    refused([](SolverOptions& o) { o.selection = Selection::paper; });
-    const auto contact = make_asperity_contact(a, tip, sticky(0.01));
-    CHECK_THROWS(contact->at_separation(std::nan("")), Error);
-    CHECK_THROWS(contact->at_force(kFlat), Error);
-}
-
 }  // namespace
 
 TESTS {
@@ -442,7 +425,6 @@ TESTS {
     test_memory();
     test_elastic_limit();
     test_fuller_tabor();
-    test_refused();
     test_one();
     test_groups();
     test_minimiser();

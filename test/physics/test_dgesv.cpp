@@ -4,12 +4,7 @@
 
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
-#include "contact/equivalent.hpp"
-#include "contact/ranking.hpp"
 #include "physics/random_asperities.hpp"
-#include "rough/detection.hpp"
-#include "rough/spectrum.hpp"
-#include "rough/synthesis.hpp"
 
 using namespace rsc;
 
@@ -29,45 +24,6 @@ WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) 
         set.g0.push_back(g0);
     }
     return set;
-}
-
-// |F - f(<g0 - B F>)| / |F| by plain sums.
-double true_residual(const Asperities& a, double E_star, const WorkingSet& set, const std::vector<double>& force) {
-    double error2 = 0, force2 = 0;
-    for (std::size_t i = 0; i < force.size(); ++i) {
-        double v = set.g0[i];
-        for (std::size_t j = 0; j < force.size(); ++j)
-            if (j != i) v -= force[j] / (std::numbers::pi * E_star * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
-        const double r = a.radius[static_cast<std::size_t>(set.asperity[i])];
-        const double f = v > 0 ? 4.0 / 3.0 * E_star * std::sqrt(r) * std::pow(v, 1.5) : 0.0;
-        error2 += (force[i] - f) * (force[i] - f);
-        force2 += force[i] * force[i];
-    }
-    return std::sqrt(error2 / force2);
-}
-
-// The iteration at one level, called directly. Returns the number of solves.
-int solve_alone(const Asperities& a, const Indenter& indenter, double sigma, double Z0) {
-    const WorkingSet set = candidates(a, indenter, Z0);
-    const auto law = make_law(LawKind::hertz, a, indenter.E_star);
-    law->prepare(set.asperity);
-    const PaperMethod method{0.01 * sigma, 5.0, kResidual, 100};
-    std::vector<double> v, force;
-    const PaperOutcome outcome = solve_by_dgesv(*law, *make_kernel(Interaction::point, indenter.E_star), set, method, v, force);
-    CHECK(outcome.converged && !outcome.singular);
-    CHECK(outcome.iterations <= kMostSolves);
-    CHECK_RELATIVE(outcome.delta, method.delta0 / std::pow(method.cut, outcome.iterations - 1), 1e-12);
-    CHECK(outcome.residual <= kResidual);
-    CHECK(true_residual(a, indenter.E_star, set, force) <= 1.01 * kResidual);
-    return outcome.iterations;
-}
-
-void well_separated() {
-    for (unsigned seed = 0; seed < 4; ++seed) {
-        const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300 + seed);
-        const Indenter indenter{1.0, 2.5, 0.5, 0.5};
-        for (const double Z0 : {0.01, 0.0, -0.01}) solve_alone(a, indenter, 0.01, Z0);
-    }
 }
 
 // K against central differences of R, at forces where some points are within delta of touching, some far inside, some far outside.
@@ -151,7 +107,6 @@ void says_what_it_did() {
 }  // namespace
 
 TESTS {
-    well_separated();
     matrix();
     says_what_it_did();
 }

@@ -1,4 +1,4 @@
-// Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, a scalar equation, and JKR as its limit.
+// Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as its limit.
 #include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
@@ -60,27 +60,6 @@ void test_one() {
     }
 }
 
-// Two and six in symmetry feel what each other one pulls: the same as one alone at the penetration g0 - c f.
-void test_groups() {
-    const Maugis law{0.5, 0.01, 1.0};
-    const double range = law.range();
-    for (int n : {2, 6}) {
-        std::vector<double> x, y;
-        for (int k = 0; k < n; ++k) x.push_back(0.4 * std::cos(2 * pi * k / n)), y.push_back(0.4 * std::sin(2 * pi * k / n));
-        double c = 0;
-        for (int k = 1; k < n; ++k) c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
-        const Asperities a = of(x, y, law.r);
-        const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(law.w, range));
-        for (double m : {1.05, 1.1, 1.2, 1.3}) {
-            const Maugis::State state = law.at(m);
-            const Level level = contact->at_separation(-state.u - c * state.f);
-            CHECK(level.contacts == n);
-            CHECK_CLOSE(level.force, n * state.f, 1e-9 * n * std::max(std::abs(state.f), pi * law.w * law.r));
-        }
-        CHECK(contact->at_separation(5 * range).force == 0);
-    }
-}
-
 // With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of them.
 void test_limit() {
     std::mt19937 generator(3);
@@ -115,6 +94,5 @@ void test_limit() {
 
 TESTS {
     test_one();
-    test_groups();
     test_limit();
 }

@@ -70,42 +70,6 @@ void test_minimiser() {
     }
 }
 
-// A spherical tip moves to and fro over attached asperities at one separation.
-void test_moves() {
-    int jumps = 0;
-    for (unsigned seed : {1u, 2u, 5u}) {
-        const RandomAsperities system = random_asperities(5, seed, 0.2);
-        const double range = range_of(system.w, 0.5), length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
-        const Indenter tip{kE, 5.0, 0.5, 0.5};
-        Asperities under = system.asperities;
-        set_clearances(under, system.asperities, tip, 0.5, 0.5);
-        const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
-        PathMinimiser slow(under, kE, DugdaleEdge{under, system.w, range});
-        slow.Z = top + range;
-        slow.go_to(Z, 0.1 * length);
-        const auto contact = make_asperity_contact(system.asperities, tip, sticky(system.w, range));
-        (void)contact->at_separation(Z);
-        double x = 0.5;
-        for (const double to : {0.8, 0.2, 0.5}) {
-            constexpr int parts = 6, fine = 20;
-            const double from = x;
-            for (int k = 1; k <= parts * fine; ++k) {
-                x = from + k * (to - from) / (parts * fine);
-                set_clearances(under, system.asperities, tip, x, 0.5);
-                slow.Z = std::nextafter(Z, 1.0);
-                slow.go_to(Z, 1.0);
-                if (k % fine != 0) continue;
-                contact->move_tip(x, 0.5);
-                const Level level = contact->at_separation(Z);
-                jumps += level.jumps;
-                CHECK(static_cast<int>(level.tractions.x.size()) == slow.attached());
-                CHECK_CLOSE(level.force, slow.force(), 1e-7 * std::max(std::abs(level.force), system.w));
-            }
-        }
-    }
-    CHECK(jumps > 3);
-}
-
 void test_work() {
     for (double lambda : {0.3, 2.0}) {
         const RandomAsperities system = random_asperities(5, 31, 0.2);
@@ -119,6 +83,5 @@ void test_work() {
 
 TESTS {
     test_minimiser();
-    test_moves();
     test_work();
 }

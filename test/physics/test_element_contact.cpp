@@ -1,13 +1,10 @@
 // Elements against what is known: Hertz, conservation of energy, an independent solver by Fourier transforms, and themselves by another
 // way (alone or in a series, by separation or by force, pixels of other shapes).
-#include <fftw3.h>
 
 #include "check.hpp"
 #include "contact/element_contact.hpp"
-#include "contact/interaction/pixel_kernels.hpp"
-#include "contact/lateral.hpp"
-#include "contact/ranking.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 #include "rough/synthesis.hpp"
 
 using namespace rsc;
@@ -16,14 +13,6 @@ namespace {
 
 constexpr double kE = 94706.168;  // the paper's gold under a rigid sphere
 constexpr double kPi = std::numbers::pi;
-
-HeightMap flat(int nx, int ny, double dx, double dy) {
-    HeightMap map;
-    map.allocate(nx, ny, nx);
-    map.dx = dx, map.dy = dy;
-    std::fill_n(map.data.get(), nx * ny, 0.0);
-    return map;
-}
 
 SolverOptions options(double tolerance) {
     SolverOptions o;
@@ -45,7 +34,7 @@ void hertz() {
     for (const double cells : {10.0, 20.0, 40.0}) {  // pixels a contact radius
         const double R = 2.5, a = 2.5e-3, delta = a * a / R, h = a / cells;
         const int n = static_cast<int>(2.6 * cells);
-        const HeightMap map = flat(n, n, h, h);
+        const HeightMap map = flat_map(n, n, h, h);
         // Off the symmetry of the pixels, so that no luck helps.
         ElementContact contact(map, {kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, options(1e-8));
         const Level level = contact.at_separation(-delta);
@@ -67,7 +56,7 @@ void hertz() {
         CHECK_RELATIVE(contact.energy(), 0.4 * N * delta, 0.2 / (cells * cells));
         CHECK_CLOSE(contact.first_touch(), 0.0, 0.25 * h * h / R);
         // Pixels twice as long as wide see the same sphere.
-        const HeightMap longer = flat(n / 2, n, 2 * h, h);
+        const HeightMap longer = flat_map(n / 2, n, 2 * h, h);
         ElementContact other(longer, {kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, options(1e-8));
         CHECK_RELATIVE(other.at_separation(-delta).force, N, 0.4 / (cells * cells));
         // Pressing with the force finds the depth.

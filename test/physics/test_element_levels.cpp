@@ -7,6 +7,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/interaction/lattice.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
+#include "physics/elimination.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
@@ -20,27 +21,6 @@ constexpr double kSame = 1e-8, kTolerance = 1e-11;
 constexpr double kResistivity[2] = {2, 3};
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-// A x = b by elimination with pivots.
-Vector eliminate(std::vector<Vector> A, Vector b) {
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t i = k; i < n; ++i)
-            if (std::abs(A[i][k]) > std::abs(A[pivot][k])) pivot = i;
-        std::swap(A[k], A[pivot]), std::swap(b[k], b[pivot]);
-        for (std::size_t i = k + 1; i < n; ++i) {
-            const double factor = A[i][k] / A[k][k];
-            for (std::size_t j = k; j < n; ++j) A[i][j] -= factor * A[k][j];
-            b[i] -= factor * b[k];
-        }
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t j = k + 1; j < n; ++j) b[k] -= A[k][j] * b[j];
-        b[k] /= A[k][k];
-    }
-    return b;
-}
 
 struct Truth {
     const HeightMap& map;
@@ -114,7 +94,7 @@ struct Truth {
                     if (state[l] == 2) b[i] -= K[free[i]][l] * H;
                 for (std::size_t j = 0; j < free.size(); ++j) A[i][j] = K[free[i]][free[j]];
             }
-            const Vector q = eliminate(A, b);
+            const Vector q = solved(A, b);
             p.assign(n(), 0.0), w.assign(n(), 0.0);
             for (std::size_t i = 0; i < free.size(); ++i) p[free[i]] = q[i];
             for (std::size_t k = 0; k < n(); ++k)
@@ -153,7 +133,7 @@ struct Truth {
         for (std::size_t i = 0; i < touching.size(); ++i)
             for (std::size_t j = 0; j < touching.size(); ++j) A[i][j] = K[touching[i]][touching[j]];
         double sum = 0;
-        for (double q : eliminate(A, Vector(touching.size(), 1.0))) sum += q;
+        for (double q : solved(A, Vector(touching.size(), 1.0))) sum += q;
         return -sum * pixel();
     }
     // -1: beyond a border.

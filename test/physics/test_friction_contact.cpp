@@ -3,6 +3,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/lateral.hpp"
+#include "physics/elimination.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -97,23 +98,15 @@ void spots_against_slip_problem() {
 // potential at the distance d by I (rho_1 + rho_2)/(2 pi d). Solved for all spots by elimination; rho_1 + rho_2 = 1.
 double conductance_of_spots(const Asperities& a, const Level& level) {
     const std::size_t n = level.asperity.size();
-    std::vector<std::vector<Real>> row(n, std::vector<Real>(n + 1, 1));
-    for (std::size_t i = 0; i < n; ++i) {
+    std::vector<Real> A(n * n);
+    for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) {
             const auto p = static_cast<std::size_t>(level.asperity[i]), q = static_cast<std::size_t>(level.asperity[j]);
             const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
-            row[i][j] = i == j ? 1 / (4 * Real(level.a[i])) : 1 / (2 * std::numbers::pi_v<Real> * d);
+            A[i * n + j] = i == j ? 1 / (4 * Real(level.a[i])) : 1 / (2 * std::numbers::pi_v<Real> * d);
         }
-    }
-    for (std::size_t k = 0; k < n; ++k) {
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i == k) continue;
-            const Real factor = row[i][k] / row[k][k];
-            for (std::size_t j = k; j <= n; ++j) row[i][j] -= factor * row[k][j];
-        }
-    }
     Real sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += row[k][n] / row[k][k];
+    for (const Real current : solved(A, std::vector<Real>(n, 1))) sum += current;
     return static_cast<double>(sum);
 }
 

@@ -1,5 +1,4 @@
-// Hundreds of random systems against the independent slow solver (independent.hpp); how fast Newton converges; and what follows
-// from an energy: the symmetry of the response, dW/dg = F, a minimum.
+// Hundreds of random systems against the independent slow solver (independent.hpp).
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "physics/independent.hpp"
@@ -80,8 +79,7 @@ const Family kFamilies[] = {
 void against_slow_solver() {
     int systems = 0;
     for (const Family& family : kFamilies) {
-        double worst_force = 0, worst_load = 0, worst_area = 0;
-        int unique = 0, contacts = 0, sweeps = 0;
+        int unique = 0;
         for (int k = 0; k < family.systems; ++k) {
             const unsigned seed = 1000u + static_cast<unsigned>(k);
             Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing, 0.01, family.radius, family.spread, seed);
@@ -89,7 +87,6 @@ void against_slow_solver() {
             const double Z0 = 0.01 - 0.02 * (k % 5);  // down to where every summit under the sphere is pressed
             const auto reference = independent::press(summits_of(a, family.law), family.R, 0.5, 0.5, Z0, 1e-15L);
             CHECK(reference.converged);
-            sweeps = std::max(sweeps, reference.sweeps);
             const bool all_methods = k % 10 == 0;
             for (Method method : {Method::direct, Method::dgesv, Method::mesh, Method::automatic}) {
                 if (method != Method::direct && !all_methods) continue;
@@ -107,74 +104,16 @@ void against_slow_solver() {
                     difference = check::worse(difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
                 }
                 CHECK(difference <= kTolerance * N);
-                if (N > 0) {
-                    worst_load = check::worse(worst_load, std::abs(level.force / N - 1));
-                    worst_area = check::worse(worst_area, std::abs(level.area / A - 1));
-                    worst_force = std::max(worst_force, difference / N);
-                }
-                contacts = std::max(contacts, static_cast<int>(level.f.size()));
             }
         }
         // The comparison is worth something only where most systems have one solution, and many contacts.
         CHECK(unique >= 9 * family.systems / 10);
         systems += unique;
-        std::printf("%-12s %3d of %3d systems unique, up to %d contacts, %d sweeps: load %.1e, area %.1e, a force %.1e of the load\n",
-                    family.name, unique, family.systems, contacts, sweeps, worst_load, worst_area, worst_force);
+        std::printf("%-12s %3d of %3d systems unique\n", family.name, unique, family.systems);
     }
     CHECK(systems >= 450);
 }
 
-// dF_i/dg_j = dF_j/dg_i (reciprocity), and dW/dg_i = F_i (the forces come from an energy), by central differences in the height
-// of single asperities, of second order in h/u; asperities that are nearly out of touch are left out, where the slope is not
-// smooth.
-void reciprocity() {
-    for (unsigned seed = 0; seed < 6; ++seed) {
-        Asperities a = random_asperities(80, 0.03, 0.01, 1e-3, 0.5, 400 + seed);
-        const double Z0 = -0.015, h = 2e-7;
-        const auto press = [&](const Asperities& set, double* energy) {
-            AsperityContact contact(set, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
-            const Level level = contact.at_separation(Z0);
-            if (energy) *energy = contact.energy();
-            std::vector<double> F(set.size(), 0.0);
-            for (std::size_t c = 0; c < level.f.size(); ++c) F[at(level.asperity[c])] = level.f[c];
-            return F;
-        };
-        const Level level = AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct)).at_separation(Z0);
-        std::vector<std::size_t> chosen;
-        for (std::size_t c = 0; c < level.f.size() && chosen.size() < 6; ++c) {
-            if (level.u[c] > 1e-3) chosen.push_back(at(level.asperity[c]));
-        }
-        CHECK(chosen.size() == 6);
-        const auto F = press(a, nullptr);
-        std::vector<std::vector<double>> response;
-        for (std::size_t j : chosen) {
-            double energy_up = 0, energy_down = 0;
-            const double z = a.z[j];
-            a.z[j] = z + h;
-            auto up = press(a, &energy_up);
-            a.z[j] = z - h;
-            const auto down = press(a, &energy_down);
-            a.z[j] = z;
-            CHECK_RELATIVE((energy_up - energy_down) / (2 * h), F[j], 1e-6);
-            for (std::size_t i = 0; i < up.size(); ++i) up[i] = (up[i] - down[i]) / (2 * h);
-            response.push_back(up);
-        }
-        double largest_off_diagonal = 0;
-        for (std::size_t p = 0; p < chosen.size(); ++p) {
-            CHECK(response[p][chosen[p]] > 0);
-            for (std::size_t q = 0; q < p; ++q) {
-                const double ij = response[p][chosen[q]], ji = response[q][chosen[p]];
-                CHECK_CLOSE(ij, ji, 1e-7 * std::sqrt(response[p][chosen[p]] * response[q][chosen[q]]));
-                largest_off_diagonal = std::max(largest_off_diagonal, std::abs(ij) / response[p][chosen[p]]);
-            }
-        }
-        CHECK(largest_off_diagonal > 1e-3);  // the symmetry is not that of zeros
-    }
-}
-
 }  // namespace
 
-TESTS {
-    against_slow_solver();
-    reciprocity();
-}
+TESTS { against_slow_solver(); }

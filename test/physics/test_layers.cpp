@@ -5,13 +5,14 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/bessel.hpp>
 
-#include "case/registry.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/interaction/lattice.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
+#include "physics/elimination.hpp"
 #include "random_asperities.hpp"
 
 using namespace rsc;
@@ -19,28 +20,6 @@ using namespace rsc;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
-
-// Gaussian elimination with the largest pivot of each column.
-template <class Real>
-std::vector<Real> solve(std::vector<std::vector<Real>> A, std::vector<Real> b) {
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t p = k;
-        for (std::size_t i = k; i < n; ++i)
-            if (std::abs(A[i][k]) > std::abs(A[p][k])) p = i;
-        std::swap(A[k], A[p]), std::swap(b[k], b[p]);
-        for (std::size_t i = k + 1; i < n; ++i) {
-            const Real f = A[i][k] / A[k][k];
-            for (std::size_t j = k; j < n; ++j) A[i][j] -= f * A[k][j];
-            b[i] -= f * b[k];
-        }
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t j = k + 1; j < n; ++j) b[k] -= A[k][j] * b[j];
-        b[k] /= A[k][k];
-    }
-    return b;
-}
 
 LayeredBody body_of(const std::vector<Layer>& layers, double E, double nu) {
     LayeredBody body;
@@ -94,7 +73,7 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
             for (int c = 0; c < (l < layers ? 4 : 2); ++c) put(4 * l + static_cast<std::size_t>(c), state(below, c, 0), -1);
         row += static_cast<std::size_t>(conditions);
     }
-    const std::vector<Real> x = solve(A, b);
+    const std::vector<Real> x = solved(A, b);
     Real down = 0;
     for (int c = 0; c < 4; ++c) down += x[static_cast<std::size_t>(c)] * state(body.layer[0], c, 0).down;
     const Real nu = body.layer[0].nu;  // a half-space: 2 (1 - nu^2)/(E k)
@@ -198,27 +177,19 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
         }
     std::vector<double> flat(n + 1, E / kPi), curved;
     for (double x : t) curved.push_back(E / kPi * x * x / R);
-    flat = solve(A, flat), curved = solve(A, curved);
+    flat = solved(A, flat), curved = solved(A, curved);
     const double depth = curved[n] / flat[n];
     double force = 0;
     for (std::size_t i = 0; i < n; ++i) force += 2 * kPi * weight[i] * (depth * flat[i] - curved[i]);
     return {depth, force};
 }
 
-HeightMap flat_map(int n, double h) {
-    HeightMap map;
-    map.allocate(n, n, n);
-    map.dx = map.dy = h, map.x0 = map.y0 = 0.5 * h;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) map.row(j)[i] = 0;
-    return map;
-}
-
 void sphere_on_a_layer() {
     const double R = 50, a = 1;
     const int n = 96;
     const double pixel = 2.6 * a / n;
-    const HeightMap map = flat_map(n, pixel);
+    HeightMap map = flat_map(n, n, pixel, pixel);
+    map.x0 = map.y0 = 0.5 * pixel;
     for (const double ratio : {10.0, 1.0, 0.1})  // of the layer's modulus to the base's
         for (const double h : {0.2, 0.5, 1.0, 2.0, 5.0}) {
             const LayeredBody body = body_of({{h * a, 100 * ratio, 0.4}}, 100, 0.3);
@@ -246,11 +217,10 @@ void same(Contact& one, const Level& a, Contact& other, const Level& b, double t
 }
 
 HeightMap rough_map(int n, double h) {
-    HeightMap map = flat_map(n, h);
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-            map.row(j)[i] =
-                0.01 * (std::cos(0.9 * i + 0.3 * j) + std::cos(0.5 * i - 0.8 * j + 1) + 0.7 * std::sin(0.31 * i * i / n + 0.7 * j));
+    HeightMap map = height_map(n, n, h, h, [n](int i, int j) {
+        return 0.01 * (std::cos(0.9 * i + 0.3 * j) + std::cos(0.5 * i - 0.8 * j + 1) + 0.7 * std::sin(0.31 * i * i / n + 0.7 * j));
+    });
+    map.x0 = map.y0 = 0.5 * h;
     return map;
 }
 
@@ -361,37 +331,6 @@ void repeating() {
     same(*alike, alike->at_separation(0.012), *none, none->at_separation(0.012), 1e-6);
 }
 
-// What cannot be is refused, each with the key that is wrong.
-void refusals() {
-    const auto problems = [](std::vector<std::pair<const char*, const char*>> keys) {
-        Case settings;
-        try {
-            for (const auto& [key, value] : keys) set_key(settings, key, value);
-        } catch (const Error&) {
-            return std::string("value");
-        }
-        const auto found = check_case(settings);
-        return found.empty() ? std::string() : std::string(found.front().keys.front()->name);
-    };
-    using Keys = std::vector<std::pair<const char*, const char*>>;
-    const Keys good = {{"solids%layer_thickness", "0.1, 0.2"}, {"solids%layer_E", "1e3, 2e3"}, {"solids%layer_nu", "0.5, 0.1"}};
-    const auto with = [&](Keys more) {
-        Keys all = good;
-        all.insert(all.end(), more.begin(), more.end());
-        return problems(all);
-    };
-    CHECK(problems(good).empty());
-    CHECK(with({{"solids%E", "Infinity, Infinity"}}).empty());
-    CHECK(problems({{"solids%layer_thickness", "0.1"}}) == "layer_E");
-    CHECK(with({{"solids%layer_E", "1e3"}}) == "layer_E");
-    CHECK(with({{"solids%layer_nu", "0.3, 0.3, 0.3"}}) == "layer_nu");
-    CHECK(with({{"solids%friction", "0.3"}}) == "friction");
-    CHECK(with({{"solids%resistivity", "1, 1"}}) == "resistivity");
-    for (const char* wrong : {"-0.1, 1", "0, 1", "NaN, 1", "Infinity, 1", "9*0.1"})
-        CHECK(!with({{"solids%layer_thickness", wrong}}).empty());
-    for (const char* wrong : {"0.6, 0.1", "-1, 0.1", "NaN, 0.1"}) CHECK(!with({{"solids%layer_nu", wrong}}).empty());
-}
-
 }  // namespace
 
 TESTS {
@@ -401,5 +340,4 @@ TESTS {
     limits();
     methods();
     repeating();
-    refusals();
 }

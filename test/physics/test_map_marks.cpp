@@ -1,5 +1,6 @@
 // Points of a measured map that asperities do not represent: those of its border, and spikes one point wide.
 #include "check.hpp"
+#include "height_maps.hpp"
 
 #include "contact/asperity_contact.hpp"
 #include "rough/breaks.hpp"
@@ -13,14 +14,10 @@ namespace {
 constexpr int kPoints = 64;
 
 HeightMap hills(double at_border, double spike) {
-    HeightMap map;
-    map.allocate(kPoints, kPoints, kPoints);
-    map.dx = map.dy = 1.0 / kPoints;
-    for (int j = 0; j < kPoints; ++j)
-        for (int i = 0; i < kPoints; ++i) {
-            const auto hill = [&](double x, double y) { return std::exp(-(std::pow(i - x, 2) + std::pow(j - y, 2)) / 50); };
-            map.row(j)[i] = 1e-3 * (hill(30, 34) + at_border * hill(20, -2) + 1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
-        }
+    HeightMap map = height_map(kPoints, kPoints, 1.0 / kPoints, 1.0 / kPoints, [=](int i, int j) {
+        const auto hill = [&](double x, double y) { return std::exp(-(std::pow(i - x, 2) + std::pow(j - y, 2)) / 50); };
+        return 1e-3 * (hill(30, 34) + at_border * hill(20, -2) + 1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
+    });
     map.row(50)[50] += spike;
     return map;
 }

@@ -1,13 +1,10 @@
 // Contacts of measured maps: what a map's pixels, orientation and spectrum have to do with it, and what not.
-#include <netcdf.h>
 #include <unistd.h>
 
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
 #include "error.hpp"
-#include "file/netcdf_writer.hpp"
 #include "read/inputs.hpp"
 #include "result_reader.hpp"
 #include "rough/defects.hpp"
@@ -22,64 +19,6 @@ namespace {
 
 const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_measured_" + std::to_string(getpid()));
 std::string in_folder(const std::string& name) { return (folder / name).string(); }
-
-struct Curve {
-    double force[3], area[3];
-};
-
-// Three levels of a sphere on the map.
-Curve press(const HeightMap& map, const char* law, double sigma) {
-    Case settings;
-    set_key(settings, "asperities%law", std::string("'") + law + "'");
-    set_key(settings, "indentation%centre", "0.5, 0.5");
-    Surface surface;
-    surface.map.allocate(map.nx, map.ny, map.stride);
-    surface.map.dx = map.dx, surface.map.dy = map.dy, surface.map.x0 = map.x0, surface.map.y0 = map.y0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) surface.map.row(j)[i] = map(i, j);
-    surface.origin.sigma = sigma;
-    const SurfaceModel model = make_surface_model(surface, settings, 1);
-    AsperityContact contact(model.asperities, indenter_of(settings, model.domain), solver_of(settings, model.domain));
-    Curve c{};
-    const double levels[] = {2.5, 1.5, 1.0};
-    for (int k = 0; k < 3; ++k) {
-        const Level level = contact.at_separation(levels[k] * sigma);
-        c.force[k] = level.force, c.area[k] = level.area;
-        CHECK(level.force > 0);
-    }
-    return c;
-}
-
-// Columns of the map with step `skip_x`, rows with `skip_y`.
-HeightMap thinned(const HeightMap& map, int skip_x, int skip_y) {
-    HeightMap thin;
-    thin.allocate(map.nx / skip_x, map.ny / skip_y, map.nx / skip_x);
-    thin.dx = map.dx * skip_x, thin.dy = map.dy * skip_y;
-    for (int j = 0; j < thin.ny; ++j)
-        for (int i = 0; i < thin.nx; ++i) thin.row(j)[i] = map(i * skip_x, j * skip_y);
-    return thin;
-}
-
-void rectangular_pixels() {
-    // 16 points a wave in one direction and 32 in the other, against 16 and 32 in both, between the points: the same surface.
-    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
-    HeightMap fine = synthesize(s, 1024, Normalise::sample, 4, 1);
-    fine.periodic = false;
-    constexpr double kSame = 1e-3;  // relative
-    const Curve square = press(thinned(fine, 1, 1), "fourth_order", s.sigma);
-    for (const auto& [x, y] : {std::pair{1, 2}, std::pair{2, 1}, std::pair{2, 2}}) {
-        const Curve other = press(thinned(fine, x, y), "fourth_order", s.sigma);
-        for (int k = 0; k < 3; ++k) {
-            CHECK_RELATIVE(other.force[k], square.force[k], kSame);
-            CHECK_RELATIVE(other.area[k], square.area[k], 3 * kSame);
-        }
-    }
-    // On the grid (hertz) second differences miss more in the coarser direction: no more than square pixels of that size do.
-    const Curve fine_hertz = press(thinned(fine, 1, 1), "hertz", s.sigma), coarse_hertz = press(thinned(fine, 2, 2), "hertz", s.sigma);
-    const Curve mixed = press(thinned(fine, 1, 2), "hertz", s.sigma);
-    const double coarse_error = std::abs(coarse_hertz.force[2] / fine_hertz.force[2] - 1);
-    CHECK(coarse_error < 0.02 && std::abs(mixed.force[2] / fine_hertz.force[2] - 1) < coarse_error + 0.002);
-}
 
 double mean_of(const std::vector<double>& v) {
     double sum = 0;
@@ -204,7 +143,6 @@ void filled_points() {
 
 TESTS {
     std::filesystem::create_directories(folder);
-    rectangular_pixels();
     twins_of_an_oblong_map();
     filled_points();
     twins();

@@ -73,28 +73,6 @@ void direct_and_mesh() {
     CHECK_RELATIVE(force[1], force[0], 1e-8);
 }
 
-// A cluster in a growing cell: the images add kSelf/(pi E* L) to what every force does, and quadrupoles of order (size/L)^3 in the end.
-void large_periods() {
-    Asperities a = on_square(60, 21, 0.05, 2e-3);
-    for (auto* x : {&a.x, &a.y})
-        for (double& v : *x) v *= 0.3;
-    const double Z0 = 0.004;
-    AsperityContact free(a, {kE, kInfinity, 0, 0}, options(Method::direct));
-    double before = 0, uncorrected = 0;
-    for (double L : {2.0, 4.0, 8.0, 16.0}) {
-        AsperityContact periodic(a, flats(L), options(Method::direct));
-        const double N = periodic.at_separation(Z0).force;
-        const double plain = N / free.at_separation(Z0).force - 1;
-        const double corrected = N / free.at_separation(Z0 + kSelf * N / (pi * kE * L)).force - 1;
-        CHECK(std::abs(corrected) < 0.05 * std::abs(plain) && std::abs(plain) > 1e-4);
-        if (before != 0) {
-            CHECK(std::abs(before / corrected) > 7 && std::abs(before / corrected) < 9);
-            CHECK(uncorrected / plain > 1.8 && uncorrected / plain < 2.4);
-        }
-        before = corrected, uncorrected = plain;
-    }
-}
-
 // Force control is the inverse of separation control; stiffness and force are the derivatives of force and energy.
 void controls_and_derivatives() {
     constexpr double kInverse = 1e-9, kDifference = 1e-6;
@@ -126,6 +104,5 @@ void controls_and_derivatives() {
 TESTS {
     asperities_and_images();
     direct_and_mesh();
-    large_periods();
     controls_and_derivatives();
 }

@@ -1,9 +1,7 @@
-// Elements between two flats that repeat: against an independent solver, closed forms, conservation, and themselves by another way.
+// Elements between two flats that repeat: against closed forms, conservation, and on grids of any shape.
 #include "check.hpp"
 #include "contact/element_contact.hpp"
-#include "contact/lateral.hpp"
 #include "error.hpp"
-#include "physics/periodic_elements.hpp"
 #include "rough/synthesis.hpp"
 
 #include "rough/parallel.hpp"
@@ -38,41 +36,6 @@ HeightMap rough(int n, double L_lambda_s, double* slope = nullptr) {
     const Spectrum spectrum{1, 0.8, 4, L_lambda_s, false, kSigma};
     if (slope) *slope = std::sqrt(2 * theoretical_moments(spectrum).m2);
     return synthesize(spectrum, n, Normalise::sample, 1, 1, nullptr, 1);
-}
-
-std::vector<double> values(const HeightMap& map) {
-    std::vector<double> z;
-    for (int j = 0; j < map.ny; ++j) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
-    return z;
-}
-
-// Conjugate gradients in double on the whole grid: the same pixels to a few that carry next to nothing, the same separation. By force and
-// at the separation found.
-void independent(int n, double L_lambda_s) {
-    constexpr double kArea = 1e-4, kSeparation = 1e-6, kForce = 1e-5;
-    double slope;
-    const HeightMap map = rough(n, L_lambda_s, &slope);
-    const auto contact = make_element_contact(map, flat(map), options(1e-8));
-    PeriodicElementSolver other(n, 1, values(map), kE);
-    for (const double p : {0.1, 0.05, 0.02, 0.005}) {
-        const double N = p * kE * slope;
-        const PeriodicElements truth = other.press(N, 1e-8, 20000);
-        const Level level = contact->at_force(N);
-        CHECK(level.status == LevelStatus::converged);
-        std::printf(
-            "%d^2, p/(E* h') = %.3f: A %.6f, %.1e from the independent one; separation %.1e sigma; %d rounds, %ld products (its: %d)\n", n,
-            p, level.area, level.area / truth.border - 1, (level.separation - truth.separation) / kSigma, level.iterations,
-            static_cast<long>(level.products), 2 * truth.iterations);
-        CHECK(truth.gap < 1e-8);
-        CHECK_RELATIVE(level.force, N, 1e-12);
-        CHECK_RELATIVE(level.area, truth.border, kArea);
-        CHECK_RELATIVE(level.area_pixels, truth.area_fraction, kArea);
-        CHECK_CLOSE(level.separation / kSigma, truth.separation / kSigma, kSeparation);
-        const Level again = contact->at_separation(level.separation);
-        CHECK(again.status == LevelStatus::converged);
-        CHECK_RELATIVE(again.force, N, kForce);
-        CHECK_RELATIVE(again.area, level.area, kArea);
-    }
 }
 
 // A wave of one direction: Westergaard (Johnson 1985, section 13.2): p/p* = sin^2(pi A/(2 A0)), p* = E* k Delta/2.
@@ -177,8 +140,6 @@ void threads_change_no_bit() {
 }  // namespace
 
 TESTS {
-    if (!check::arguments.empty()) return independent(512, 32);
-    independent(128, 16);
     westergaard();
     any_grid();
     threads_change_no_bit();

@@ -4,6 +4,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -14,16 +15,11 @@ constexpr double kE = 10, kFlat = std::numeric_limits<double>::infinity();
 const Relaxation kBody{{0.3, 0.4}, {0.2, 3}};
 
 HeightMap waves() {
-    HeightMap map;
     constexpr int n = 32;
-    map.allocate(n, n, n);
-    map.dx = map.dy = 1.0 / n, map.x0 = map.y0 = 0;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            const double x = 2 * std::numbers::pi * i / n, y = 2 * std::numbers::pi * j / n;
-            map.row(j)[i] = 0.01 * (std::cos(x) * std::cos(2 * y + 1) + 0.7 * std::cos(3 * x + 2 * y) + 0.4 * std::sin(5 * y - 2 * x));
-        }
-    return map;
+    return height_map(n, n, 1.0 / n, 1.0 / n, [](int i, int j) {
+        const double x = 2 * std::numbers::pi * i / n, y = 2 * std::numbers::pi * j / n;
+        return 0.01 * (std::cos(x) * std::cos(2 * y + 1) + 0.7 * std::cos(3 * x + 2 * y) + 0.4 * std::sin(5 * y - 2 * x));
+    });
 }
 
 // Six asperities, or a wavy map.
@@ -162,32 +158,6 @@ void test_memory(const Kind& model) {
     CHECK_THROWS(copy->recall({0.0, 3.0}, nullptr), Error);
 }
 
-// A paraboloid by pixels and as an asperity: pressed, held under the force, let back.
-void test_one_summit() {
-    HeightMap map;
-    constexpr int n = 96;
-    map.allocate(n, n, n);
-    map.dx = map.dy = 1.0 / n, map.x0 = map.y0 = 0.5 / n;
-    constexpr double radius = 2;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) map.row(j)[i] = -(std::pow((i + 0.5) / n - 0.5, 2) + std::pow((j + 0.5) / n - 0.5, 2)) / (2 * radius);
-    Asperities one;
-    one.x = one.y = {0.5}, one.z = {0}, one.radius = {radius};
-    SolverOptions options;
-    options.tolerance = 1e-8;
-    options.relaxation = kBody;
-    const Indenter flat{kE, kFlat, 0.5, 0.5};
-    AsperityContact asperity(one, flat, options);
-    ElementContact elements(map, flat, options);
-    for (int k = 0; k <= 30; ++k) {
-        const double t = 0.05 * k, depth = 0.04 * (t < 0.5 ? 0.3 + t : t < 1 ? 0.8 : 1.4 - 0.6 * t);
-        asperity.set_time(t), elements.set_time(t);
-        const Level a = asperity.at_separation(-depth), e = elements.at_separation(-depth);
-        CHECK_RELATIVE(a.force, e.force, 0.01);
-        CHECK_RELATIVE(a.area, e.area, 0.04);
-    }
-}
-
 }  // namespace
 
 TESTS {
@@ -197,5 +167,4 @@ TESTS {
         test_path(kind);
         test_memory(kind);
     }
-    test_one_summit();
 }

@@ -1,5 +1,5 @@
 // The screen of runs: the numbers of its tables are those of the result file, and remarks stand there when the levels ask for them
-// (test_remarks has each threshold). And the case of twins that lies beside a measured map's result.
+// (test_remarks has each threshold).
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "result_reader.hpp"
@@ -88,47 +88,9 @@ void levels(const Folder& folder) {
     CHECK(few.failed == 2 && few.says("NOT CONVERGED") && few.messages.find("2 of 2 levels did not converge") != std::string::npos);
 }
 
-void compared(const Folder& folder) {
-    const std::string path = folder / "compared.nc";
-    const Screen screen = run(kSurface + "/ &compare levels=2 / &indentation levels=5,2 /", path);
-    const Reader file(path);
-    const std::size_t at = screen.text.find("asperities N ", screen.text.find("compared with elements"));
-    CHECK(at != std::string::npos);
-    if (at == std::string::npos) return;
-    double N = 0, A = 0;
-    CHECK(std::sscanf(screen.text.c_str() + at, "asperities N %lf %%, A %lf %%", &N, &A) == 2);
-    CHECK_CLOSE(N, 100 * (file.values("force")[1] / file.values("compare_force")[0] - 1), 0.006);
-    CHECK_CLOSE(A, 100 * (file.values("contact_area")[1] / file.values("compare_contact_area")[0] - 1), 0.006);
-}
-
-void twins(const Folder& folder) {
-    std::ofstream map(folder / "map.txt");
-    for (int j = 0; j < 40; ++j, map << "\n")
-        for (int i = 0; i < 50; ++i) {
-            double z = 0;
-            for (int k = 1; k <= 12; ++k)
-                z += 0.01 * std::sin(0.55 * k * std::cos(k + 1.0) * i + 0.6 * k * std::sin(k * 1.3) * j + k * k) / k;
-            map << z << " ";
-        }
-    map.close();
-    const std::string text = "&surface L=5.0 source='heights' file='" + folder / "map.txt" + "' / &indentation levels=3 /";
-    const std::string file = folder / "measured.nc", twins = folder / "measured_twins.nml";
-    const Screen screen = run(text, file);
-    CHECK(screen.says("map: 50 x 40 points of 0.1 x 0.1 mm, 5 x 4 mm") && screen.says(("twins: " + twins).c_str()));
-    const Case twin = read_case_text(bytes(twins), twins).settings;  // surfaces with the spectrum that was measured
-    CHECK(twin.surface.source == Source::spectrum || twin.surface.source == Source::synthetic);
-    std::ofstream(twins, std::ios::app) << "! and more";
-    run(text, file);
-    CHECK(bytes(twins).find("! and more") == std::string::npos);
-    std::ofstream(twins) << "mine\n";  // not written by rsc
-    CHECK(run(text, file).says("left alone") && bytes(twins) == "mine\n");
-}
-
 }  // namespace
 
 TESTS {
     const Folder folder;
     levels(folder);
-    compared(folder);
-    twins(folder);
 }

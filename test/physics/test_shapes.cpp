@@ -6,6 +6,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/friction.hpp"
 #include "contact/indenter/shapes.hpp"
+#include "height_maps.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -14,13 +15,10 @@ namespace {
 
 constexpr double kE = 100, kInfinity = std::numeric_limits<double>::infinity();
 
+// The origin between points, or on one.
 HeightMap flat_map(int nx, int ny, double h) {
-    HeightMap map;
-    map.allocate(nx, ny, nx);
-    map.dx = map.dy = h;
-    map.x0 = -0.5 * h * (nx - 1), map.y0 = -0.5 * h * (ny - 1);  // the origin between points, or on one
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) map.row(j)[i] = 0;
+    HeightMap map = ::flat_map(nx, ny, h, h);
+    map.x0 = -0.5 * h * (nx - 1), map.y0 = -0.5 * h * (ny - 1);
     return map;
 }
 

@@ -157,21 +157,5 @@ class Maps(Program):
         np.testing.assert_allclose(r["height"][same], self.z[same], rtol=1e-12)
 
 
-class Cases(Program):
-    def test_what_is_wrong_is_said_at_once(self):
-        said = self.run_case("&surface source = 'heights' file = 'absent.txt' missing = 'fil' /\n&indentation levels = 1.0 start = 3.0 /", status=2)
-        for word in ("absent.txt", "fil", "start"):
-            self.assertIn(word, said)
-
-    def test_a_list_of_levels_replaces_the_others(self):
-        text = "&surface n = 64 L_lambda_l = 4 L_lambda_s = 16 /\n&indentation start = 3.5 stop = 2.5 steps = 2 /"
-        self.run_case(text, "-s", "indentation%levels=3.0,2.0")
-        first = self.result()["force"]
-        done = subprocess.run([os.environ["RSC_PROGRAM"], self.path("r.nc"), "-o", self.path("again.nc")], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with netCDF4.Dataset(self.path("again.nc")) as again:
-            np.testing.assert_array_equal(again["force"][:], first)
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -1,4 +1,4 @@
-"""The library as a guest of Python: Ctrl-C, NetCDF from several threads, states, many contacts, arrays with holes, damaged results."""
+"""The library as a guest of Python: Ctrl-C, many contacts, arrays with holes, damaged results."""
 import os
 import signal
 import tempfile
@@ -54,18 +54,6 @@ class Guest(unittest.TestCase):
 
         with self.assertRaisesRegex(RuntimeError, "enough"):
             case.run(self.path("long.nc"), refuse)
-
-    def test_netcdf_in_threads(self):
-        def run(member):
-            file = self.path(f"{threading.get_ident()}.nc")
-            member.run(file)
-            return float(rsc.read(file, xarray=False)["force_mean"][-1])
-
-        case = rsc.Case(SMALL)
-        case["indentation%steps"] = 2
-        over = {"surface%sigma": [0.01 + 0.001 * k for k in range(8)]}
-        alone, together = (rsc.study(case, over, run, threads=threads) for threads in (1, 4))
-        self.assertEqual([force for _, force in alone], [force for _, force in together])
 
     def test_holes(self):
         heights = np.ma.masked_greater(np.random.default_rng(1).normal(size=(8, 8)), 0.5)

@@ -1,6 +1,5 @@
 // The C interface against closed forms. Every value of a level against the result file: test_api_run.
 #include "check.hpp"
-#include "physics/random_asperities.hpp"
 #include "unit/library.hpp"
 
 namespace {
@@ -77,55 +76,6 @@ void test_single() {
     CHECK(N == 0);
 }
 
-// On many asperities, interacting: both kinds of arrays agree and add up to N; deflections at the summits.
-void test_many() {
-    const rsc::Asperities asperities = random_asperities(3000, 0.008, 0.01, 3e-3, 0.3, 5);
-    const AsperitiesHandle a = take(asperities);
-    const CaseHandle options = tight();
-    ContactHandle c;
-    OK(rsc_contact_create(&c, a, 9e4, 20, 0.5, 0.5, options));
-    double N = 0;
-    std::int64_t contacts = 0;
-    OK(rsc_contact_indent(c, 0.01, &N));
-    OK(rsc_contact_result(c, nullptr, nullptr, nullptr, &contacts));
-    const auto n = static_cast<std::size_t>(contacts);
-    std::vector<std::int32_t> which(n);
-    std::vector<double> f(n), r(n), u(n), all_f(asperities.size(), -1), all_r(asperities.size()), all_u(asperities.size());
-    OK(rsc_contact_spots(c, contacts, which.data(), f.data(), r.data(), u.data()));
-    OK(rsc_contact_per_asperity(c, static_cast<std::int64_t>(asperities.size()), all_f.data(), all_r.data(), all_u.data()));
-    CHECK(contacts > 100);
-    double sum = 0, largest_error = 0, most_beyond = 0;
-    std::vector<double> xs, ys;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto m = static_cast<std::size_t>(which[i]);
-        CHECK(all_f[m] == f[i] && all_r[m] == r[i] && all_u[m] == u[i]);
-        sum += f[i];
-        xs.push_back(asperities.x[m]);
-        ys.push_back(asperities.y[m]);
-    }
-    CHECK_RELATIVE(sum, N, 1e-14);
-    double everywhere = 0;
-    for (const double v : all_f) everywhere += v;
-    CHECK_RELATIVE(everywhere, N, 1e-13);
-    // At a summit in contact that no other spot covers, the lowering is the penetration without interaction, and a little more: other
-    // spots act as spots here, as points on each other, which is at most (3 pi/8 - 1) a^2/d^2 less (at their edge).
-    std::vector<double> w(n);
-    OK(rsc_contact_deflection(c, contacts, xs.data(), ys.data(), w.data()));
-    for (std::size_t i = 0; i < n; ++i) {
-        const double rho2 = std::pow(xs[i] - 0.5, 2) + std::pow(ys[i] - 0.5, 2);
-        const double g0 = asperities.z[static_cast<std::size_t>(which[i])] + std::sqrt(20.0 * 20.0 - rho2) - 20.0 - 0.01;
-        double most = 0;
-        for (std::size_t j = 0; j < n; ++j) {
-            const double d = std::hypot(xs[i] - xs[j], ys[i] - ys[j]);
-            if (j != i) most += f[j] / (kPi * 9e4 * d) * (3 * kPi / 8 - 1) * r[j] * r[j] / (d * d);
-        }
-        largest_error = std::max({largest_error, g0 - w[i], w[i] - g0 - most});
-        most_beyond = std::max(most_beyond, w[i] - g0);
-    }
-    CHECK_CLOSE(largest_error, 0, 1e-10 * 0.01);
-    CHECK(most_beyond > 1e-8);
-}
-
 // A copy has the resistance of one circular spot (Holm), and a text that does not fit is cut while its whole length is known.
 void test_copy_and_cut() {
     const double r = 0.3, zero = 0, u = 1e-3;
@@ -150,6 +100,5 @@ void test_copy_and_cut() {
 TESTS {
     CHECK(message().empty());
     test_single();
-    test_many();
     test_copy_and_cut();
 }

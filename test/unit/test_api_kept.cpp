@@ -1,5 +1,6 @@
 // Contacts saved in files continue bit for bit; many contacts in one call give the results of single calls, for any number of threads.
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
@@ -83,6 +84,11 @@ void contacts_in_files(const Folder& folder) {
     const std::int32_t full = rsc_contact_save(contact, file.c_str());
     CHECK(setrlimit(RLIMIT_FSIZE, &usual) == 0);
     CHECK(full == RSC_FILE && says("cannot write") && bytes(file) == before && !std::ifstream(file + ".new"));
+    // Another's file is not overwritten, and neither a device nor a pipe that nobody writes is read.
+    const std::string source = folder.write("source.f90", "end"), fifo = folder / "fifo";
+    CHECK(rsc_contact_save(contact, source.c_str()) == RSC_FILE && bytes(source) == "end");
+    CHECK(mkfifo(fifo.c_str(), 0600) == 0 && rsc_contact_restore(&again, asperities, fifo.c_str()) == -3);
+    CHECK(rsc_contact_restore(&again, asperities, "/dev/zero") == -3 && !again);
     std::string spoilt = bytes(file);
     spoilt[spoilt.size() / 2] ^= 4;
     std::ofstream(folder / "spoilt", std::ios::binary) << spoilt;
@@ -128,17 +134,6 @@ void many_contacts() {
     CHECK(rsc_contacts_press(n, made.data(), force.data(), nullptr, nullptr, 1) == -2 && says("different"));
     made[3] = kept;
     for (auto& c : made) OK(rsc_contact_destroy(&c));
-    // One that does not converge is no wrong argument: its numbers are there.
-    CaseHandle few;
-    OK(rsc_case_create(&few));
-    OK(rsc_case_set(few, "solver%max_iterations", "1"));
-    rsc_contact* two[2] = {nullptr, nullptr};
-    OK(rsc_contact_create(&two[0], asperities, 94e3, 2.5, 0.5, 0.5, nullptr));
-    OK(rsc_contact_create(&two[1], asperities, 94e3, 2.5, 0.5, 0.5, few));
-    const double deep[2] = {0.002, 0.002};
-    CHECK(rsc_contacts_indent(2, two, deep, forces.data(), status.data(), 1) == RSC_NOT_CONVERGED && says("contact 1:"));
-    CHECK(status[0] == RSC_SUCCESS && status[1] == RSC_NOT_CONVERGED && forces[0] > 0 && forces[1] > 0);
-    for (auto& c : two) OK(rsc_contact_destroy(&c));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Close pairs: all of them, each once, whatever the sizes, against the double loop; the same order at every call.
+// Close pairs: all of them, each once, whatever the sizes, also across the borders of a surface that repeats, against the double loop; the same
+// order at every call.
 #include "contact/close_pairs.hpp"
 
 #include "check.hpp"
@@ -11,17 +12,17 @@ namespace {
 using Vector = std::vector<double>;
 using Pairs = std::vector<std::tuple<std::size_t, std::size_t, double>>;
 
-Pairs found(const Vector& x, const Vector& y, const Vector& reach) {
+Pairs found(const Vector& x, const Vector& y, const Vector& reach, const Period& period) {
     Pairs pairs;
-    for_close_pairs(x, y, reach, [&](std::size_t i, std::size_t j, double d) { pairs.emplace_back(i, j, d); });
+    for_close_pairs(x, y, reach, period, [&](std::size_t i, std::size_t j, double d) { pairs.emplace_back(i, j, d); });
     return pairs;
 }
 
-Pairs by_double_loop(const Vector& x, const Vector& y, const Vector& reach) {
+Pairs by_double_loop(const Vector& x, const Vector& y, const Vector& reach, const Period& period) {
     Pairs pairs;
     for (std::size_t i = 0; i < x.size(); ++i) {
         for (std::size_t j = i + 1; j < x.size(); ++j) {
-            const double dx = x[i] - x[j], dy = y[i] - y[j], limit = reach[i] + reach[j];
+            const double dx = period.nearest_x(x[i] - x[j]), dy = period.nearest_y(y[i] - y[j]), limit = reach[i] + reach[j];
             if (!(reach[i] > 0) || !(reach[j] > 0) || dx * dx + dy * dy >= limit * limit) continue;
             pairs.emplace_back(i, j, std::sqrt(dx * dx + dy * dy));
         }
@@ -29,12 +30,19 @@ Pairs by_double_loop(const Vector& x, const Vector& y, const Vector& reach) {
     return pairs;
 }
 
-void the_same(const Vector& x, const Vector& y, const Vector& reach) {
-    Pairs pairs = found(x, y, reach);
-    CHECK(pairs == found(x, y, reach));
+void the_same(const Vector& x, const Vector& y, const Vector& reach, const Period& period = {}) {
+    Pairs pairs = found(x, y, reach, period);
+    CHECK(pairs == found(x, y, reach, period));
     std::sort(pairs.begin(), pairs.end());
-    CHECK(pairs == by_double_loop(x, y, reach));
-    CHECK(count_overlapping(x, y, reach) == static_cast<long>(pairs.size()));
+    const Pairs truth = by_double_loop(x, y, reach, period);
+    bool same = pairs.size() == truth.size();
+    for (std::size_t k = 0; same && k < pairs.size(); ++k) {
+        const auto& [i, j, d] = pairs[k];
+        const auto& [p, q, distance] = truth[k];
+        same = i == p && j == q && std::abs(d - distance) <= (period.finite() ? 1e-14 : 0);
+    }
+    CHECK(same);
+    CHECK(count_overlapping(x, y, reach, period) == static_cast<long>(pairs.size()));
 }
 
 // Sizes from equal to spread over ten decades, squares and thin strips of points; some points have no reach.
@@ -73,9 +81,24 @@ void one_huge_spot() {
     }
 }
 
+// Points some periods away, too.
+void repeating() {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int set = 0; set < 60; ++set) {
+        Vector x, y, reach;
+        for (int i = 0; i < 80; ++i) {
+            x.push_back(uniform(random) + (i % 5 - 2)), y.push_back(0.7 * uniform(random));
+            reach.push_back(i % 9 == 0 ? 0 : (set % 3 == 0 && i == 4 ? 0.3 : 0.05) * uniform(random));
+        }
+        the_same(x, y, reach, {1, 0.7});
+    }
+}
+
 }  // namespace
 
 TESTS {
     random_points();
     one_huge_spot();
+    repeating();
 }

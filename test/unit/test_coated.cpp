@@ -18,27 +18,9 @@ struct Coated {
     }
 };
 
-double deflection_at(rsc_contact* contact, double x, double y) {
-    double found = std::nan("");
-    OK(rsc_contact_deflection(contact, 1, &x, &y, &found));
-    return found;
-}
-
 const std::string kSphere = " R=Infinity,2.5", kBody = "E=1e5,Infinity nu=0.3,0" + kSphere;
 const char* const kValues[] = {"force",           "contact_area",    "energy",   "stiffness",
                                "lateral_force_x", "lateral_force_y", "moment_x", "contacts"};
-
-// Layers like the body below them are not there, in every number.
-void alike() {
-    Coated plain(kBody), coated(kBody + " layer_thickness=0.05,0.1 layer_E=1e5,1e5 layer_nu=0.3,0.3");
-    CHECK(force_at(plain.contact, 0.004) > 0);
-    force_at(coated.contact, 0.004);
-    for (const char* name : kValues) CHECK_RELATIVE(value(coated.contact, name), value(plain.contact, name), 1e-6);
-    for (const double x : {0.1, 0.5, 0.93})
-        CHECK_RELATIVE(deflection_at(coated.contact, x, 0.3), deflection_at(plain.contact, x, 0.3), 1e-6);
-    double length = 0;
-    CHECK(rsc_contact_value(coated.contact, "conductance_length", &length) != RSC_SUCCESS);
-}
 
 // What a file gives back goes on as the original does; the lateral force is the gradient of the energy.
 void kept(const std::string& more, const Folder& folder) {
@@ -77,7 +59,6 @@ void yielding() {
 
 TESTS {
     const Folder folder;
-    alike();
     kept("", folder);
     kept("&indentation boundary='periodic' /", folder);
     yielding();

@@ -104,40 +104,10 @@ void test_fill_values() {
     CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
 }
 
-// Forces that are too small to be resolved by the separation are refused; larger ones are reached.
-void test_small_forces() {
-    const double x[] = {0.5}, z[] = {0.01}, r[] = {0.05};
-    AsperitiesHandle asperities;
-    ContactHandle contact;
-    OK(rsc_asperities_take(&asperities, 1, x, x, z, r, nullptr, nullptr, nullptr, nullptr));
-    OK(rsc_contact_create(&contact, asperities, 1e5, 2.5, 0.5, 0.5, nullptr));
-    int met = 0, told = 0;
-    for (double N = 1; N > 1e-26; N *= 0.1) {
-        double found = 0;
-        const std::int32_t status = rsc_contact_press(contact, N, nullptr);
-        CHECK(status == RSC_SUCCESS || status == -2);
-        if (status == RSC_SUCCESS) {
-            OK(rsc_contact_value(contact, "force", &found));
-            CHECK_RELATIVE(found, N, 2e-6);
-            ++met;
-        } else {
-            ++told;
-        }
-    }
-    CHECK(met > 8 && told > 3);
-    rsc_contact* gone = contact;
-    OK(rsc_contact_destroy(&contact));
-#if !defined(__SANITIZE_ADDRESS__)
-    CHECK(rsc_contact_press(gone, 1, nullptr) == -1 && rsc_contact_destroy(&gone) == -1);  // released
-#endif
-    CHECK(rsc_surface_moments(reinterpret_cast<rsc_surface*>(asperities.get()), nullptr, nullptr, nullptr) == -1);
-}
-
 }  // namespace
 
 TESTS {
     for (const Format format : {Format::netcdf4, Format::classic}) test_damage(Folder(), format);
     test_inputs(Folder());
     test_fill_values();
-    test_small_forces();
 }

@@ -8,7 +8,6 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "file/whole_file.hpp"
-#include "unit/library.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -91,45 +90,10 @@ void test_many_writers(const Folder& folder) {
     CHECK(folder.files() == 1 && bytes(path) == "note");
 }
 
-// Threads that save contacts to one path all succeed, and a contact is restored from it; other people's files stay.
-void test_saves(const Folder& folder) {
-    const double x[] = {0.3, 0.7}, z[] = {0.01, 0.012}, r[] = {0.05, 0.04};
-    AsperitiesHandle asperities;
-    ContactHandle contact;
-    const std::string path = folder / "save", source = folder / "source.f90";
-    OK(rsc_asperities_take(&asperities, 2, x, x, z, r, nullptr, nullptr, nullptr, nullptr));
-    OK(rsc_contact_create(&contact, asperities, 1e5, 2.5, 0.5, 0.5, nullptr));
-    OK(rsc_contact_indent(contact, 0.0, nullptr));
-    std::ofstream(source) << "end";
-    CHECK(rsc_contact_save(contact, source.c_str()) == RSC_FILE && bytes(source) == "end");
-    if (geteuid() != 0) CHECK(rsc_contact_save(contact, "/dev/full") == RSC_FILE);
-    std::vector<std::thread> threads;
-    std::vector<int> failed(4);
-    for (std::size_t t = 0; t < 4; ++t)
-        threads.emplace_back([&, t] {
-            ContactHandle copy;
-            failed[t] += rsc_contact_copy(&copy, contact) != RSC_SUCCESS;
-            for (int k = 0; k < 25; ++k) {
-                ContactHandle again;
-                failed[t] += rsc_contact_save(copy, path.c_str()) != RSC_SUCCESS;
-                failed[t] += rsc_contact_restore(&again, asperities, path.c_str()) != RSC_SUCCESS;
-            }
-        });
-    for (std::thread& thread : threads) thread.join();
-    for (const int f : failed) CHECK(f == 0);
-    CHECK(folder.files() == 2);
-    ContactHandle again;
-    CHECK(rsc_contact_restore(&again, asperities, "/dev/zero") == -3 && !again);
-    const std::string fifo = folder / "nobody writes";
-    CHECK(mkfifo(fifo.c_str(), 0600) == 0);
-    CHECK(rsc_contact_restore(&again, asperities, fifo.c_str()) == -3 && !again);  // and does not wait for a writer
-}
-
 }  // namespace
 
 TESTS {
     test_what_may_be_replaced(Folder());
     test_temporaries(Folder());
     test_many_writers(Folder());
-    test_saves(Folder());
 }

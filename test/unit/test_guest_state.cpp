@@ -74,48 +74,6 @@ void test_moved(const std::string& keys, const Folder& folder) {
     }
 }
 
-// Ways of the tip over attached asperities: a level after a way there and back is that of the new state; a copy on the way has its jumps; a
-// step over the border of a surface that repeats takes the short way; bodies with an edge are refused.
-void test_ways() {
-    const std::string soft =
-        "&surface n=256 L=2 sigma=1e-3 L_lambda_l=8 L_lambda_s=32 / &compare levels='none' / "
-        "&solids E=2,Infinity nu=0.49,0 adhesion=2e-5 R=Infinity,";
-    Made made(soft + "50 /");
-    rsc_contact* const contact = made.contact;
-    const auto move = [&](double x) { OK(rsc_contact_move_tip(contact, x, 1.0)); };
-    move(0.9);
-    const double first = force_at(contact, 0.0);
-    move(1.2), move(0.9);
-    ContactHandle copy;
-    OK(rsc_contact_copy(&copy, contact));
-    const double back = force_at(contact, 0.0), jumps = value(contact, "jumps");
-    CHECK(jumps > 0 && std::abs(back / first - 1) > 0.1);
-    CHECK_RELATIVE(force_at(contact, 1e-12), back, kTolerance);
-    CHECK_RELATIVE(force_at(copy, 0.0), back, kTolerance);
-    CHECK(value(copy, "jumps") == jumps);
-    copy = {};
-
-    double x = 0;
-    const auto over_border = [&](int steps) {
-        OK(rsc_contact_rollback(contact));
-        for (int k = 1; k <= steps; ++k) move(1.96 + 0.08 * k / steps);
-        OK(rsc_contact_tip(contact, &x, nullptr));
-        CHECK_CLOSE(x, 0.04, 1e-12);
-        return force_at(contact, 2.0e-3);
-    };
-    move(1.96);
-    force_at(contact, 2.0e-3);
-    OK(rsc_contact_commit(contact));
-    const double lost = value(contact, "energy_lost"), at_once = over_border(1), lost_at_once = value(contact, "energy_lost");
-    CHECK_RELATIVE(over_border(4), at_once, kTolerance);
-    CHECK_RELATIVE(value(contact, "energy_lost"), lost_at_once, 1e-4);
-    CHECK(lost_at_once < 1.2 * lost);  // the long way would lose eight times as much
-
-    Made punch(soft + "Infinity / &indenter shape='punch' radius=0.3 /");
-    force_at(punch.contact, 0.0);
-    CHECK(rsc_contact_move_tip(punch.contact, 1.1, 1.0) == -2 && says("edge"));
-}
-
 struct Path {
     double N = 0, Qx = 0, Qy = 0, tangential = 0, lost = 0;
 };
@@ -194,7 +152,6 @@ TESTS {
     test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
     for (const char* keys : {"", "adhesion_range=2e-4", "adhesion_range=0.02 / &elements points_per_wave=4 / &solver model='elements'"})
         test_moved(keys, Folder());
-    test_ways();
     test_rolling();
     test_watched(Folder());
 }

@@ -1,7 +1,6 @@
-// Shapes of the indenter against their definitions: derivatives by differences, bounds by sampling, symmetries; rankings under each as it moves.
+// Shapes of the indenter against their definitions: derivatives by differences, bounds by sampling, symmetries.
 #include "check.hpp"
 #include "contact/indenter/shapes.hpp"
-#include "contact/ranking.hpp"
 #include "error.hpp"
 #include "physics/random_asperities.hpp"
 #include "rough/surface.hpp"
@@ -101,29 +100,6 @@ void bounds(const char* name, bool sharp) {
         CHECK(std::abs(s->height(p.x * (1 - 1e-9), p.y * (1 - 1e-9)) - 0.004) < (sharp ? 0.0041 : 1e-8));
 }
 
-// As a ranking that moves ranks, one made there does.
-void ranking(const char* name) {
-    const Asperities rough = random_asperities(500, 0.005, 0.01, 1e-3, 0.3, 1);
-    std::mt19937_64 random(3);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    Indenter tip{1.0, shape(name, keys()), 0.5, 0.5};
-    Ranking moved;
-    moved.assign(rough, tip);
-    int differences = 0;
-    for (int k = 0; k < 100; ++k) {
-        Ranking fresh;
-        fresh.assign(rough, tip);
-        std::vector<int> seen;
-        const double Z0 = fresh.highest() - 0.02 * std::abs(uniform(random));
-        const std::size_t count = fresh.above(Z0, seen);
-        differences += moved.highest() != fresh.highest() || moved.above(Z0, seen) != count;
-        for (std::size_t r = 0; r < count; ++r) differences += moved[r].asperity != fresh[r].asperity;
-        tip.x0 += 1e-3 * uniform(random), tip.y0 += 1e-3 * uniform(random);
-        moved.move(tip.x0, tip.y0);
-    }
-    CHECK(differences == 0);
-}
-
 }  // namespace
 
 TESTS {
@@ -131,7 +107,6 @@ TESTS {
         derivatives(row.name);
         bounds(row.name, false);
         bounds(row.name, true);
-        ranking(row.name);
         CHECK(std::string(shape(row.name, keys())->name()) == row.name);
     }
     // Equal radii: the sphere to (rho/R)^2. Turned by any angle with the place: the same.

@@ -1,10 +1,8 @@
-// The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with other parameters; and everything that
-// asks for the nearest image: close pairs, spots, products.
+// The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with other parameters; and
+// spots across the borders.
 #include "check.hpp"
-#include "contact/close_pairs.hpp"
 #include "contact/interaction/kernel.hpp"
 #include "contact/interaction/lattice.hpp"
-#include "contact/interaction/mesh.hpp"
 #include "contact/spots.hpp"
 #include "error.hpp"
 
@@ -82,35 +80,6 @@ void lattice_sums() {
     CHECK_THROWS(Lattice({0, 1}), Error);
 }
 
-void close_pairs_wrap() {
-    using Pair = std::tuple<std::size_t, std::size_t>;
-    std::mt19937_64 random(5);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    const Period period{1, 0.7};
-    long met = 0;
-    for (int set = 0; set < 60; ++set) {
-        std::vector<double> x, y, reach;
-        for (int i = 0; i < 80; ++i) {
-            x.push_back(uniform(random) + (i % 5 - 2)), y.push_back(0.7 * uniform(random));
-            reach.push_back(i % 9 == 0 ? 0 : (set % 3 == 0 && i == 4 ? 0.3 : 0.05) * uniform(random));
-        }
-        std::vector<Pair> found, truth;
-        for_close_pairs(x, y, reach, period, [&](std::size_t i, std::size_t j, double d) {
-            found.emplace_back(i, j);
-            CHECK_CLOSE(d, std::hypot(period.nearest_x(x[i] - x[j]), period.nearest_y(y[i] - y[j])), 1e-14);
-        });
-        for (std::size_t i = 0; i < x.size(); ++i)
-            for (std::size_t j = i + 1; j < x.size(); ++j)
-                if (reach[i] > 0 && reach[j] > 0 &&
-                    std::hypot(period.nearest_x(x[i] - x[j]), period.nearest_y(y[i] - y[j])) < reach[i] + reach[j])
-                    truth.emplace_back(i, j);
-        std::sort(found.begin(), found.end());
-        CHECK(found == truth);
-        met += static_cast<long>(truth.size());
-    }
-    CHECK(met > 500);
-}
-
 // Heaps of ellipses in the middle of the cell, and moved across its borders; a chain of circles around the torus.
 void spots_wrap() {
     std::mt19937_64 random(7);
@@ -144,6 +113,5 @@ void spots_wrap() {
 TESTS {
     closed_forms();
     lattice_sums();
-    close_pairs_wrap();
     spots_wrap();
 }

@@ -1,6 +1,5 @@
 // Surfaces with a direction, with heights that are not Gaussian, and what is measured of them.
 #include "check.hpp"
-#include "contact/touching.hpp"
 #include "error.hpp"
 #include "format.hpp"
 #include "rough/detection.hpp"
@@ -72,28 +71,6 @@ void summits() {
         }
         CHECK(worst < 1e-9);
     }
-}
-
-// The same under a ball, which is not in the middle.
-void summits_under_a_ball() {
-    const Spectrum s = model(3, 70);
-    const HeightMap map = made(s, 256);
-    Indenter tip;
-    tip.E_star = 1, tip.shape = 3.0, tip.x0 = 0.6, tip.y0 = 0.3;
-    const Face face(tip);
-    const Asperities all = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid, 256 / shortest_wave(s), &face);
-    const Asperities found =
-        make_asperities(s, 256, Normalise::sample, 3, 7, Curvature::geometric, nullptr, nullptr, 2, Detail::subgrid, nullptr, &face);
-    CHECK(found.size() == all.size() && found.size() > 100);
-    double worst = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        double nearest = HUGE_VAL;
-        for (std::size_t k = 0; k < all.size(); ++k)
-            nearest = std::min(nearest, std::hypot(all.x[k] - found.x[i], all.y[k] - found.y[i]) + std::abs(all.z[k] - found.z[i]) +
-                                            std::abs(all.kappa2[k] / found.kappa2[i] - 1));
-        worst = check::worse(worst, nearest);
-    }
-    CHECK_CLOSE(worst, 0, 1e-6);  // where Newton's method ends
 }
 
 // The closed forms of the moments against sums over the modes drawn, whose mean over surfaces they are, and against finite differences.
@@ -290,7 +267,6 @@ void texture() {
 }  // namespace
 
 TESTS {
-    summits_under_a_ball();
     directions();
     summits();
     moments();

@@ -221,16 +221,6 @@ void circle() {
                 CHECK_CLOSE(mean_phi, std::log(phi), 0.05);
                 CHECK(told < 16 * scatter && scatter < 3 * told);  // errors are of nine in ten
             }
-    // The mean over many, scattering by 0.002: a mean of few squared amplitudes has too small a logarithm, which is corrected for.
-    const Spectrum s{.L = 3, .hurst = 0.8, .L_lambda_l = 2, .L_lambda_s = 60, .sigma = 0.02};
-    double mean = 0;
-    for (int k = 1; k <= 100; ++k) {
-        HeightMap map = synthesize(s, 192, Normalise::ensemble, 5, k);
-        map.periodic = false;
-        mean += fit_self_affine(measure_spectrum(map)).hurst.value / 100;
-    }
-    std::printf("hurst, mean of 100: %.4f off\n", mean - s.hurst);
-    CHECK_CLOSE(mean, s.hurst, 0.015);
 }
 
 }  // namespace

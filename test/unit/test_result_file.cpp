@@ -1,5 +1,4 @@
 // The result file: everything of the interface is there and described, values come back.
-// With arguments `--sample ONE MANY` it only writes a result of one and of three realizations, for the tests of the readers.
 #include <netcdf.h>
 #include <unistd.h>
 
@@ -82,42 +81,6 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     CHECK(file.values("height_x")[1] == 1.0 / sample::kPoints);
 }
 
-void test_many_realizations(const Folder& folder) {
-    const Result r = sample::result(3);
-    const std::string path = folder / "deep/er/many.nc";  // missing folders are made
-    write_result(r, path, {});
-    const Reader file(path);
-    test_conventions(file);
-    CHECK(!file.has("asperity_x") && !file.has("contact_start") && !file.has("height"));
-    CHECK(file.values("realization") == (std::vector<double>{1, 2, 3}));
-    CHECK(file.values("force_std") == r.observations.force.deviation);
-    for (std::size_t d = 0; d < 2; ++d) {
-        const GammaFit& fit = r.observations.distributions[d].gamma;
-        const std::pair<const char*, double> parameters[] = {{"alpha", fit.alpha},
-                                                             {"alpha_error", fit.alpha_error},
-                                                             {"beta", fit.beta},
-                                                             {"beta_error", fit.beta_error},
-                                                             {"delta", fit.delta},
-                                                             {"delta_error", fit.delta_error},
-                                                             {"gamma", fit.gamma},
-                                                             {"gamma_error", fit.gamma_error},
-                                                             {"ks_distance", fit.ks_distance}};
-        for (const auto& [name, value] : parameters) CHECK(std::isfinite(value) && file.numbers("pressure_pdf", name).at(d) == value);
-    }
-    CHECK(file.numbers("pressure_pdf", "alpha").size() == 2 && file.numbers("pressure_mean_pdf", "rayleigh_scale").size() == 2);
-}
-
-void test_same_case_same_file(const Folder& folder) {
-    ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
-    for (Format format : {Format::netcdf4, Format::cdf5, Format::classic}) {
-        write_result(sample::result(1), folder / "a.nc", {format, 4, ""});
-        write_result(sample::result(1), folder / "b.nc", {format, 4, ""});
-        CHECK(bytes(folder / "a.nc") == bytes(folder / "b.nc") && bytes(folder / "a.nc").size() > 1000);
-    }
-    CHECK(Reader(folder / "a.nc").text("", "history").find("1970-01-02T00:00:00Z") == 0);
-    ::unsetenv("SOURCE_DATE_EPOCH");
-}
-
 // Why read_sums refuses; "" if it does not.
 std::string refusal(const std::string& path, const ObserveOptions& options, std::size_t steps) {
     try {
@@ -191,15 +154,8 @@ void test_edges(const Folder& folder) {
 }  // namespace
 
 TESTS {
-    if (check::arguments.size() == 3 && check::arguments[0] == "--sample") {  // for test/fortran
-        write_result(sample::result(1), check::arguments[1], {});
-        write_result(sample::result(3), check::arguments[2], {Format::cdf5, 0, ""});
-        return;
-    }
     for (const auto& [format, compression] : {std::pair{Format::netcdf4, 4}, {Format::netcdf4, 0}, {Format::cdf5, 4}, {Format::classic, 4}})
         test_one_realization(Folder(), format, compression);
-    test_many_realizations(Folder());
-    test_same_case_same_file(Folder());
     test_sums(Folder());
     test_edges(Folder());
 }

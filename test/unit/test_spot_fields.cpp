@@ -1,12 +1,9 @@
 // What the contact spots do beside N: the lowering of the surface around them, and the lateral force on the sphere.
 #include "check.hpp"
-#include "contact/answers.hpp"
-#include "contact/asperity_contact.hpp"
 #include "contact/deflection.hpp"
 #include "contact/interaction/lattice.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/lateral.hpp"
-#include "physics/random_asperities.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
@@ -39,37 +36,6 @@ void test_one_spot() {
     for (const double ratio : {1e2, 1e4, 1e6, 1e9}) {
         const double d = ratio * a, s2 = 1 / (ratio * ratio);
         CHECK_RELATIVE(spot_deflection(f, a, d, E_star), f / (pi * E_star * d) * (1 + s2 / 10 + 9 * s2 * s2 / 280), 1e-13);
-    }
-}
-
-// F = -dW/d(x0, y0) along a path over a rough surface, by differences of the energy, far from places of symmetry.
-void test_lateral() {
-    const Asperities asperities = random_asperities(2000, 0.01, 0.01, 3e-3, 0.3, 11);
-    SolverOptions options;
-    options.tolerance = 1e-13;
-    for (const double R : {0.7, 5.0}) {
-        for (int place = 0; place < 5; ++place) {
-            const Indenter tip{9e4, R, 0.43 + 0.013 * place, 0.58 - 0.007 * place};
-            const double Z0 = -0.01, h = 2e-6;
-            AsperityContact contact(asperities, tip, options);
-            const Level level = contact.at_separation(Z0);
-            const Vec2 force = lateral_force(tip, level);
-            CHECK(level.asperity.size() > 20 && std::hypot(force.x, force.y) > 1e-4 * level.force);
-            // Five points: the error is h^4 of the fifth derivative of W, and rounding of W over h, some 1e-10 of the load.
-            const auto slope = [&](double along_x, double along_y) {
-                const auto energy = [&](int k) {
-                    contact.move_tip(tip.x0 + k * h * along_x, tip.y0 + k * h * along_y);
-                    contact.at_separation(Z0);
-                    return contact.energy();
-                };
-                return (8 * (energy(1) - energy(-1)) - (energy(2) - energy(-2))) / (12 * h);
-            };
-            const double tolerance = 1e-8 * level.force;
-            CHECK_CLOSE(force.x, -slope(1, 0), tolerance);
-            CHECK_CLOSE(force.y, -slope(0, 1), tolerance);
-            const Vec2 flat = lateral_force({tip.E_star, std::numeric_limits<double>::infinity(), tip.x0, tip.y0}, level);
-            CHECK(flat.x == 0 && flat.y == 0);
-        }
     }
 }
 
@@ -130,5 +96,4 @@ TESTS {
     test_fields();
     test_moment();
     test_one_spot();
-    test_lateral();
 }

@@ -1,4 +1,4 @@
-// Summits between the points of the grid, against the Fourier sum itself and closed forms; the errors on measured maps.
+// Summits between the points of the grid, against the Fourier sum itself and closed forms.
 #include "check.hpp"
 #include "error.hpp"
 #include "rough/detection.hpp"
@@ -156,56 +156,6 @@ void closed_form() {
     CHECK_THROWS(find_asperities(w.map(16, 16), Curvature::geometric, nullptr, 1, Detail::subgrid, 3.9), Error);
 }
 
-// Maps of which nothing is known: rms errors over the rms value, by points in the shortest wave.
-void measured() {
-    const Spectrum s = small_spectrum(2, 32);
-    std::printf("measured maps, rms errors of summits inside (of rms values; place in lambda_s)\n%16s %10s %10s %10s %10s %10s\n",
-                "points/lambda_s", "place", "height", "curvature", "biharmonic", "grid curv.");
-    std::array<double, 4> before{1, 1, 1, 1};
-    for (const int points : {4, 6, 8, 16}) {
-        const int n = 32 * points;
-        HeightMap map = synthesize(s, n, Normalise::sample, 3, 1);
-        const Asperities truth = make_asperities(s, n, Normalise::sample, 3, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
-        const Asperities grid = find_asperities(map, Curvature::geometric);
-        map.periodic = false;
-        const Asperities a = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
-        const double h = map.dx, lambda = s.L / s.L_lambda_s;
-        std::vector<double> place, height, curvature, quartic, second;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            const double margin = kMeasuredReach * h;
-            if (std::min({a.x[i], a.y[i], s.L - a.x[i], s.L - a.y[i]}) < margin + h) continue;  // shorter polynomials there
-            std::size_t t = 0;
-            double nearest = 1e300;
-            for (std::size_t k = 0; k < truth.size(); ++k)
-                if (const double d = std::hypot(truth.x[k] - a.x[i], truth.y[k] - a.y[i]); d < nearest) nearest = d, t = k;
-            place.push_back(nearest / lambda);
-            if (nearest > 0.1 * lambda) continue;
-            height.push_back(a.z[i] - truth.z[t]);
-            curvature.push_back(a.kappa1[i] - truth.kappa1[t]);
-            curvature.push_back(a.kappa2[i] - truth.kappa2[t]);
-            quartic.push_back(a.biharmonic[i] - truth.biharmonic[t]);
-            for (std::size_t k = 0; k < grid.size(); ++k)
-                if (std::hypot(grid.x[k] - truth.x[t], grid.y[k] - truth.y[t]) < h) second.push_back(grid.kappa1[k] - truth.kappa1[t]);
-        }
-        CHECK(height.size() > 100);
-        for (std::size_t k = 0, lost = 0; k < truth.size(); ++k) {  // summits near the border are there, too
-            if (std::min({truth.x[k], truth.y[k], s.L - h - truth.x[k], s.L - h - truth.y[k]}) < 2 * h) continue;
-            double nearest = 1e300;
-            for (std::size_t i = 0; i < a.size(); ++i) nearest = std::min(nearest, std::hypot(truth.x[k] - a.x[i], truth.y[k] - a.y[i]));
-            CHECK((lost += nearest > 0.1 * lambda) <= truth.size() / 100);
-        }
-        const std::array<double, 4> error{rms(place), rms(height) / rms(truth.z), rms(curvature) / rms(truth.kappa1),
-                                          rms(quartic) / rms(truth.biharmonic)};
-        std::printf("%16d %10.1e %10.1e %10.1e %10.1e %10.1e\n", points, error[0], error[1], error[2], error[3],
-                    rms(second) / rms(truth.kappa1));
-        for (std::size_t k = 0; k < error.size(); ++k) {
-            CHECK(error[k] < before[k]);
-            before[k] = error[k];
-        }
-    }
-    CHECK(before[2] < 1e-7 && before[3] < 1e-5);  // 16 points: a polynomial of degree 12 is all but exact
-}
-
 // A map that is not periodic and holds a polynomial of the stencil's degree: exact. An elongated summit alone has the biharmonic of the round
 // profile equivalent to it, a round one its own.
 void polynomial() {
@@ -281,7 +231,6 @@ void once_each() {
 TESTS {
     against_the_fourier_sum();
     closed_form();
-    measured();
     polynomial();
     once_each();
 }

@@ -1,14 +1,13 @@
-// What a level is worth: status, expected errors, grids of elements, borders, filled points, means of levels that failed.
-#include "case/registry.hpp"
+// What a level is worth: status, expected errors, grids of elements, borders, filled points.
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/spots.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
-#include "rough/surface.hpp"
 #include "run/job.hpp"
 #include "run/resolution.hpp"
 #include "unit/temporary_folder.hpp"
@@ -20,15 +19,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double kRounding = 1e-12;
 
-HeightMap map_of(int nx, int ny, double step, auto&& height) {
-    HeightMap map;
-    map.allocate(nx, ny, nx);
-    map.dx = map.dy = step;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) map.row(j)[i] = height(i, j);
-    return map;
-}
-
 // 4 hides all, 1 hides 2 and 3, and the order of two does not matter.
 void statuses() {
     using enum LevelStatus;
@@ -37,28 +27,7 @@ void statuses() {
         for (int b = 0; b < 5; ++b) CHECK(graver(order[a], order[b]) == order[std::max(a, b)]);
 }
 
-// Levels that failed, and values that are not there, leave the mean; the rest is as if they had never been.
-void means() {
-    Observations o;
-    o.realizations = 4, o.steps = 1;
-    for (const double force : {1.0, 2.0, 6.0, 100.0}) {
-        LevelValues level;
-        level.force = force;
-        level.resistance = force > 1 ? force : kNotComputed;
-        if (force == 100) level.status = LevelStatus::not_converged;
-        o.rows.push_back(level);
-    }
-    const LevelStatistics force = o.statistics([](const LevelValues& l) { return l.force; });
-    CHECK(force.count[0] == 3 && force.mean[0] == 3.0);
-    CHECK_RELATIVE(force.deviation[0], std::sqrt(7.0), kRounding);
-    CHECK_RELATIVE(force.error[0], std::sqrt(7.0 / 3), kRounding);
-    const LevelStatistics resistance = o.statistics([](const LevelValues& l) { return l.resistance; });
-    CHECK(resistance.count[0] == 2 && resistance.mean[0] == 4.0);
-    const LevelStatistics none = o.statistics([](const LevelValues&) { return kNotComputed; });
-    CHECK(none.count[0] == 0 && std::isnan(none.mean[0]));
-}
-
-// So do they in maps, radial means and distributions: of two realizations of which one failed, they are those of the other.
+// Levels that failed leave maps, radial means and distributions: of two realizations of which one failed, they are those of the other.
 void observed() {
     ObserveOptions options;
     options.map = make_map_grid(0, 0, 1, 1, 4);
@@ -83,29 +52,6 @@ void observed() {
     CHECK(*std::max_element(b.map_pressure.begin(), b.map_pressure.end()) > 0);
 }
 
-// A map covered by contact, whatever its cells: the fraction is the same in each, and nothing is lost.
-void cells() {
-    for (const int cells : {7, 32, 50, 64}) {
-        constexpr int n = 32;
-        Level level;
-        level.pixels.columns = n;
-        level.pixels.dx = level.pixels.dy = 0.25;
-        for (int k = 0; k < n * n; ++k)
-            level.pixels.index.push_back(k), level.pixels.contact.push_back(0), level.pixels.pressure.push_back(3.0);
-        level.add_contact(0, 4, 4, 3.0 * 64, std::sqrt(64 / pi), 0);
-        const MapGrid grid = make_map_grid(0, 0, 8, 8, cells);
-        const MapLevel map = map_level(grid, level);
-        CHECK(map.cell.size() == static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
-        double worst = 0, N = 0;
-        for (std::size_t k = 0; k < map.cell.size(); ++k) {
-            worst = check::worse(worst, std::abs(map.area[k] / (grid.side * grid.side) - 1));
-            N += map.force[k];
-        }
-        CHECK_CLOSE(worst, 0, 1e-10);
-        CHECK_RELATIVE(N, 192.0, 1e-10);
-    }
-}
-
 // What each spot has for itself adds up to the union; of two in one place one has all.
 void own_areas() {
     std::vector<Spot> spots;
@@ -125,7 +71,7 @@ void own_areas() {
 
 // A sphere far larger than the map presses every point: the contact ends where the map does, which is no border of its own, and says so.
 void borders() {
-    const HeightMap map = map_of(20, 16, 0.1, [](int, int) { return 0.0; });
+    const HeightMap map = height_map(20, 16, 0.1, 0.1, [](int, int) { return 0.0; });
     SolverOptions options;
     options.surface = {0, 0, 2.0, 1.6};
     ElementContact contact(map, {1e3, 1e4, 1.0, 0.8}, options);
@@ -138,7 +84,7 @@ void borders() {
 
 // Points of the coarser map lie on those of the finer one.
 void coarser() {
-    const HeightMap map = map_of(17, 12, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
+    const HeightMap map = height_map(17, 12, 1.0, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
     const HeightMap half = every_second_point(map);
     CHECK(half.nx == 9 && half.ny == 6 && half.dx == 2);
     CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
@@ -240,9 +186,7 @@ void bounds() {
 
 TESTS {
     statuses();
-    means();
     observed();
-    cells();
     own_areas();
     borders();
     coarser();

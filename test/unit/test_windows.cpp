@@ -56,24 +56,6 @@ void coverage() {
     CHECK(plateaus == 0);
 }
 
-// Heights rounded to a millionth of their rms leave what is found.
-void rounding() {
-    for (const double h : {0.8, 1.0}) {
-        const Spectrum s{.L = 1, .hurst = h, .L_lambda_l = 4, .L_lambda_s = 16, .sigma = 1e-3};
-        HeightMap map = window(s, 3, true);
-        const SelfAffineFit exact = fit_self_affine(measure_spectrum(map));
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i) map.row(j)[i] = 1e-9 * std::round(map(i, j) / 1e-9);
-        const SelfAffineFit rounded = fit_self_affine(measure_spectrum(map));
-        CHECK_CLOSE(rounded.hurst.value, exact.hurst.value, 0.02);
-        CHECK_RELATIVE(rounded.kl.value, exact.kl.value, 1e-12);
-        CHECK_RELATIVE(rounded.ks.value, exact.ks.value, 0.02);
-    }
-}
-
 }  // namespace
 
-TESTS {
-    coverage();
-    rounding();
-}
+TESTS { coverage(); }

@@ -109,28 +109,6 @@ void test_path(const std::string& keys) {
     CHECK_RELATIVE(press(one, 1, -0.0625, back), there, kTolerance);
 }
 
-// A wheel that rolls twice round: what it carries is what a contact carries there, its tangential force never exceeds mu N, and whole periods
-// from where it is it has not moved.
-void test_friction(const std::string& keys) {
-    const Round round(keys);
-    const ContactHandle contact = round.contact(0), there = round.contact(1);
-    FrictionHandle friction;
-    constexpr double mu = 0.4, Z0 = 0.01;
-    OK(rsc_friction_create(&friction, contact, mu, 0.8));
-    OK(rsc_friction_move_tip(friction, 1, 0));
-    double N = 0, Qx = 0, after = 0;
-    OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
-    CHECK(rsc_friction_update(friction, Z0, 2e-4, 0, &N, &Qx, nullptr, nullptr) == RSC_SUCCESS && Qx > 0);
-    OK(rsc_friction_move_tip(friction, -4, 7));
-    CHECK(rsc_friction_update(friction, Z0, 2e-4, 0, nullptr, &after, nullptr, nullptr) == RSC_SUCCESS && after == Qx);
-    for (int k = 1; k <= 16; ++k) {
-        OK(rsc_friction_move_tip(friction, k / 8.0, 0));
-        OK(rsc_friction_update(friction, Z0, 2e-4 + 1e-5 * k, 0, &N, &Qx, nullptr, nullptr));
-        CHECK_RELATIVE(N, press(there, k / 8.0 + 0.5, 0.5, Z0), kTolerance);
-        CHECK(std::abs(Qx) <= mu * N * (1 + 1e-12));
-    }
-}
-
 }  // namespace
 
 TESTS {
@@ -140,6 +118,4 @@ TESTS {
     test_contact(elements, true);
     test_path("hardness=1500 " + asperities);
     test_path("hardness=1500 " + elements);
-    test_friction(asperities);
-    test_friction(elements);
 }

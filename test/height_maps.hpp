@@ -1,0 +1,18 @@
+// Height maps of formulas.
+#pragma once
+
+#include "rough/surface.hpp"
+
+// nx x ny points in steps of dx, dy from (0, 0) on, with the height z(column, row).
+template <class Height>
+rsc::HeightMap height_map(int nx, int ny, double dx, double dy, Height&& z) {
+    rsc::HeightMap map;
+    map.allocate(nx, ny, nx);
+    map.dx = dx, map.dy = dy;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) map.row(j)[i] = z(i, j);
+    return map;
+}
+inline rsc::HeightMap flat_map(int nx, int ny, double dx, double dy) {
+    return height_map(nx, ny, dx, dy, [](int, int) { return 0.0; });
+}
