@@ -28,8 +28,6 @@ HeightMap empty_map(double L, int n) {
 // Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`. n and rows must be even.
 RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance) {
     using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-    using Places [[gnu::vector_size(32)]] = std::int64_t;
-    constexpr Places even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
     const int rows4 = rows - rows % 4, n4 = n - n % 4;
     for (int i = 0; i < n4; i += 4) {
         double* const out = to + i * distance;
@@ -41,13 +39,13 @@ RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride,
             const double* const in = from + r * stride + i;
             const Four &a = reinterpret_cast<const Four&>(in[0]), &b = reinterpret_cast<const Four&>(in[stride]);
             const Four &c = reinterpret_cast<const Four&>(in[2 * stride]), &d = reinterpret_cast<const Four&>(in[3 * stride]);
-            const Four ab0 = __builtin_shuffle(a, b, even), ab1 = __builtin_shuffle(a, b, odd);
-            const Four cd0 = __builtin_shuffle(c, d, even), cd1 = __builtin_shuffle(c, d, odd);
+            const Four ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+            const Four cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
             double* const place = out + r;
-            reinterpret_cast<Four&>(place[0]) = __builtin_shuffle(ab0, cd0, low);
-            reinterpret_cast<Four&>(place[distance]) = __builtin_shuffle(ab1, cd1, low);
-            reinterpret_cast<Four&>(place[2 * distance]) = __builtin_shuffle(ab0, cd0, high);
-            reinterpret_cast<Four&>(place[3 * distance]) = __builtin_shuffle(ab1, cd1, high);
+            reinterpret_cast<Four&>(place[0]) = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5);
+            reinterpret_cast<Four&>(place[distance]) = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
+            reinterpret_cast<Four&>(place[2 * distance]) = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
+            reinterpret_cast<Four&>(place[3 * distance]) = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
         }
     }
     for (int r = 0; r < rows; ++r)

@@ -218,17 +218,21 @@ private:
                 indenter_.around.nearest_y(asperities_.y[at(j)] - asperities_.y[at(i)])};
     }
 
-    // Visits the other summits within a distance in x and in y.
+    // Visits the other summits within a distance in x and in y, each once, also across the border of a surface that repeats.
     template <class Visit>
     void near(int i, double distance, Visit&& visit) const {
-        const double x = asperities_.x[at(i)];
-        auto j = std::partition_point(by_x_.begin(), by_x_.end(), [&](int k) { return asperities_.x[at(k)] < x - distance; });
-        for (; j != by_x_.end() && asperities_.x[at(*j)] <= x + distance; ++j)
-            if (*j != i && std::abs(asperities_.y[at(*j)] - asperities_.y[at(i)]) <= distance) visit(*j);
+        constexpr double half = 0.5 * (1 - 1e-9);
+        const double period = indenter_.around.x, reach = std::min(distance, half * period);
+        for (const double turn : {0.0, -1.0, 1.0}) {
+            if (turn != 0 && !std::isfinite(period)) break;
+            const double x = asperities_.x[at(i)] + (turn != 0 ? turn * period : 0.0);
+            auto j = std::partition_point(by_x_.begin(), by_x_.end(), [&](int k) { return asperities_.x[at(k)] < x - reach; });
+            for (; j != by_x_.end() && asperities_.x[at(*j)] <= x + reach; ++j)
+                if (*j != i && std::abs(between(i, *j).y) <= distance) visit(*j);
+        }
     }
 
-    // Lower or higher summits in an ellipse of i that touch at its penetration, in the order of their numbers. (Across the border of a
-    // periodic surface none are found: contacts there are out of validity.)
+    // Lower or higher summits in an ellipse of i that touch at its penetration, in the order of their numbers.
     std::vector<int> members(int i, const LoadedEllipse& e, bool lower_ones) const {
         std::vector<int> found;
         if (!(e.u > 0)) return found;
