@@ -75,7 +75,7 @@ void scan_row(const RowPlace& place, const double* below, const double* z, const
 bool append_summit(double x, double y, double z, const SecondOrder& second, Curvature curvature, Asperities& found) {
     const auto [a, b, c] = second;
     const double gauss = 4.0 * (a * b - c * c);  // kappa1 kappa2
-    if (!(gauss > 0.0)) return false;
+    if (!(gauss > 0.0 && a + b < 0.0) || !std::isfinite(gauss) || !std::isfinite(z)) return false;
     const double kappa1 = -(a + b) + std::sqrt((a - b) * (a - b) + 4.0 * c * c);
     found.x.push_back(x);
     found.y.push_back(y);

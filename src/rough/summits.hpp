@@ -61,7 +61,7 @@ struct SecondOrder {
 };
 
 // Appends a summit with its curvatures (paper, section 3, but kappa_a = |a + b|: the paper's factor 1/2 is an error). Returns false and
-// appends nothing if it is a saddle.
+// appends nothing if it is a saddle, a pit, or not finite (at the border of a body above).
 bool append_summit(double x, double y, double z, const SecondOrder& second, Curvature curvature, Asperities& found);
 
 }  // namespace rsc

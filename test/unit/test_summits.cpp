@@ -3,6 +3,7 @@
 #include "error.hpp"
 #include "rough/detection.hpp"
 #include "rough/modes.hpp"
+#include "rough/summits.hpp"
 #include "rough/synthesis.hpp"
 
 using namespace rsc;
@@ -229,6 +230,12 @@ void once_each() {
 }  // namespace
 
 TESTS {
+    {  // pits, saddles and points at the border of a body above are no summits
+        Asperities none;
+        for (const SecondOrder& second : {SecondOrder{1, 1, 0}, {-1, 1, 0}, {-HUGE_VAL, -1, 0}})
+            CHECK(!append_summit(0, 0, 0, second, Curvature::geometric, none));
+        CHECK(!append_summit(0, 0, HUGE_VAL, {-1, -1, 0}, Curvature::geometric, none) && none.size() == 0);
+    }
     against_the_fourier_sum();
     closed_form();
     polynomial();

@@ -152,6 +152,7 @@ HeightsAround::HeightsAround(const FoundSummits& found, const Stencil& stencil, 
         i0 = std::max(i0, reach), i1 = std::min(i1, map.nx - 1 - reach);
         j0 = std::max(j0, reach), j1 = std::min(j1, map.ny - 1 - reach);
     }
+    const Vec2 place = indenter.from_tip(x0, y0);  // all points are seen beside it, also half a period from the tip
     nx_ = (i1 - i0) * steps + 1, ny_ = (j1 - j0) * steps + 1;
     if (i1 - i0 < 3 || j1 - j0 < 3) return;
     hx_ = map.dx / steps, hy_ = map.dy / steps;
@@ -191,7 +192,7 @@ HeightsAround::HeightsAround(const FoundSummits& found, const Stencil& stencil, 
             for (int k = 0; k < nx_; ++k) to[k] += w[static_cast<std::size_t>(tap)] * from[k];
         }
         for (int k = 0; k < nx_; ++k) {
-            to[k] = indenter.clearance(x0 + left_ + k * hx_, y0 + low_ + l * hy_, to[k]);
+            to[k] -= indenter.shape->height(place.x + left_ + k * hx_, place.y + low_ + l * hy_);
             if (!std::isfinite(to[k])) return;
         }
     }
