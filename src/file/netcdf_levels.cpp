@@ -79,7 +79,7 @@ void ResultTable::levels() {
         if (std::holds_alternative<Method LevelValues::*>(q.member)) attributes = flags(kMethodNames, 1);  // 0 is 'auto'
         if (std::holds_alternative<Fallback LevelValues::*>(q.member)) attributes = flags(kFallbackNames, 0);
         append(attributes, comment(q.comment));
-        const auto absent = [&](const LevelValues& l) { return q.integer() ? q.of(l) == 0 : std::isnan(q.of(l)); };
+        const auto absent = [&](const LevelValues& l) { return std::isnan(q.beside ? l.*q.beside : q.of(l)); };
         if (!q.always && std::all_of(o_.rows.begin(), o_.rows.end(), absent)) continue;
         if (q.integer()) {
             add(q.name, dims, "1", q.meaning, of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }), attributes);

@@ -79,7 +79,7 @@ constexpr LevelQuantity kQuantities[] = {
                 "area of the surface; two flats: A0"},
     {.name = "plastic_contacts", .member = &V::plastic_contacts, .meaning = "contacts that yield",
      .comment = "mean pressure at the hardness H = H0 sqrt(1 + l/r), at the largest penetration so far; boundary elements: contacts with a "
-                "pixel at the hardness", .always = false},
+                "pixel at the hardness", .always = false, .beside = &V::plastic_work},
     {.name = "plastic_work", .member = &V::plastic_work, .length_power = 1, .force_power = 1,
      .meaning = "plastic work of all contacts since the first level",
      .comment = "boundary elements: H times the volume of the plastic residual; levels after yielding depend on the history", .always = false},
@@ -93,7 +93,7 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "jumps", .member = &V::jumps, .meaning = "number of jumps since the previous level",
      .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers; boundary "
                 "elements: connected sets of at least 8 points that began or ceased to attract and dissipated more than a tenth of w times their area "
-                "between the two levels; steps short beside adhesion_range tell jumps from smooth changes", .always = false},
+                "between the two levels; steps short beside adhesion_range tell jumps from smooth changes", .always = false, .beside = &V::least_force},
     {.name = "least_force", .member = &V::least_force, .force_power = 1, .meaning = "smallest force since the first level",
      .comment = "adhesion: including forces between levels; pull_off_force is its last value", .always = false},
     {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2,

@@ -17,8 +17,9 @@ struct LevelQuantity {
     bool of_step = false;                   // has the same value in every realization
     const char* meaning = "";               // long_name
     const char* comment = "";
-    bool always = true;       // false: written only if some level has it (computed, or a count above 0)
-    bool statistics = false;  // files also have name_mean and name_std over realizations
+    bool always = true;                     // false: written only if some level has it
+    double LevelValues::*beside = nullptr;  // a count: written with this quantity, even if it is 0 at all levels
+    bool statistics = false;                // files also have name_mean and name_std over realizations
     const char* plain = "";
     const char* heading = nullptr;  // of its column on the screen; null: not shown
     int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"

@@ -158,6 +158,14 @@ TESTS {
     for (const Run& run : runs) every_value(folder, run);
     CHECK(compared.size() >= 30);
 
+    // A count is in the file where it can be counted, also if it is 0: scripts ask for it by name.
+    for (const auto& [key, count] : {std::pair{"adhesion=1e-6", "jumps"}, std::pair{"hardness=1e9", "plastic_contacts"}}) {
+        CaseHandle away = case_of((surface + solids + " " + key + " / &indentation levels=5, 4 / &output contacts='none' /").c_str());
+        OK(rsc_case_set(away, "output%file", ("'" + (folder / "away.nc") + "'").c_str()));
+        OK(rsc_case_run(away, nullptr));
+        CHECK((Reader(folder / "away.nc").values(count) == Values{0, 0}));
+    }
+
     // Levels that do not converge are told, and the file is there all the same; a folder that cannot be made leaves nothing.
     CaseHandle c = case_of("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver max_iterations=1 /");
     OK(rsc_case_set(c, "output%file", ("'" + (folder / "unfinished.nc") + "'").c_str()));
