@@ -101,10 +101,10 @@ protected:
     virtual double closed() const { return -std::numeric_limits<double>::infinity(); }
 
     // Functions required by force control.
-    virtual double tolerance() const = 0;                         // relative tolerance of the force
-    virtual double force_at_most(double depth) = 0;               // upper bound at a depth below first touch; exact for one asperity
-    virtual std::optional<double> likely_separation() const = 0;  // initial guess; absent: near first touch
-    virtual std::size_t levels_since_move() const = 0;            // number of levels since the tip was moved, at most a few
+    virtual double tolerance() const = 0;            // relative tolerance of the force
+    virtual double force_at_most(double depth) = 0;  // upper bound at a depth below first touch; exact for one asperity
+    virtual std::optional<double> likely_separation() const { return {}; }  // initial guess; absent: near first touch
+    virtual std::size_t levels_since_move() const { return 0; }             // number of levels since the tip was moved, at most a few
 
 private:
     // Solves at the separation Z0 of the mean planes if shift() > 0.

@@ -24,7 +24,7 @@ HeightMap surface(int n, double L_lambda_s) {
 // One level at Z0, nothing known of others.
 Level cold(const HeightMap& map, const Indenter& indenter, double Z0, int runs, double& time) {
     Level level;
-    time = shortest(runs, [&] { level = ElementContact(map, indenter, options()).at_separation(Z0); });
+    time = shortest(runs, [&] { level = make_element_contact(map, indenter, options())->at_separation(Z0); });
     return level;
 }
 
@@ -75,8 +75,8 @@ void elements() {
     print_cold("4096^2, L/lambda_s = 512", map, 2);
     double force = 0;
     const double series = shortest(1, [&] {
-        ElementContact contact(map, kGold, options());
-        for (int k = 0; k < 100; ++k) force = contact.at_separation(0.01 * (4 - 3.0 * k / 99)).force;
+        const auto contact = make_element_contact(map, kGold, options());
+        for (int k = 0; k < 100; ++k) force = contact->at_separation(0.01 * (4 - 3.0 * k / 99)).force;
     });
     std::printf("  4096^2: heights made in %.2f s; 100 levels from 4 to 1 sigma, N = %.2f N at the last: %.2f s (wanted: 40)\n", make,
                 force, series);

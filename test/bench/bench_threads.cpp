@@ -66,8 +66,8 @@ void compare(const char* what, const std::function<void()>& work) {
 void levels(const HeightMap& map, int count) {
     SolverOptions options;
     options.max_iterations = 200;
-    ElementContact contact(map, kGold, options);
-    for (int k = 0; k < count; ++k) contact.at_separation(0.01 * (4 - 3.0 * k / (count - 1)));
+    const auto contact = make_element_contact(map, kGold, options);
+    for (int k = 0; k < count; ++k) contact->at_separation(0.01 * (4 - 3.0 * k / (count - 1)));
 }
 
 }  // namespace

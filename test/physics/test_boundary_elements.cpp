@@ -49,11 +49,11 @@ void elements(double E_star) {
         SolverOptions o;
         o.tolerance = 1e-6;
         o.max_iterations = 200;
-        ElementContact contact(map, {E_star, 2.5, 0.5, 0.5}, o);
+        const auto contact = make_element_contact(map, {E_star, 2.5, 0.5, 0.5}, o);
         CHECK(levels.size() == 5);
         double worst_N = 0, worst_A = 0;
         for (const Row& row : levels) {
-            const Level level = contact.at_separation(row.separation * spectrum.sigma);
+            const Level level = contact->at_separation(row.separation * spectrum.sigma);
             CHECK(level.status == LevelStatus::converged);
             worst_N = check::worse(worst_N, std::abs(level.force / row.N - 1));
             worst_A = check::worse(worst_A, std::abs(level.area_pixels / row.counted - 1));

@@ -41,8 +41,8 @@ void closed_form(const char* name, const ShapeKeys& keys, double depth, double s
     for (int k = 0; k < 2; ++k) {
         const int points = k == 0 ? n : 4 * n;
         const HeightMap map = flat_map(points, points, side / points);
-        ElementContact contact(map, {kE, s, 0, 0}, elements());
-        const Level level = contact.at_separation(-depth);
+        const auto contact = make_element_contact(map, {kE, s, 0, 0}, elements());
+        const Level level = contact->at_separation(-depth);
         errors[k] = std::abs(level.force / truth->force(depth) - 1);
         if (k == 1) {
             CHECK_RELATIVE(level.force, truth->force(depth), force_error);
@@ -116,8 +116,8 @@ void turned(const Asperities& asperities, const ShapeKeys& keys) {
 void friction(const char* name, const ShapeKeys& keys, double depth, double side) {
     const Shape s = shape(name, keys);
     const HeightMap map = flat_map(49, 49, side / 49);  // a point under the tip
-    ElementContact one(map, {kE, s, 0, 0}, elements()), other(map, {kE, s, 0, 0}, elements());
-    ContactCurve curve(one, other);
+    const auto one = make_element_contact(map, {kE, s, 0, 0}, elements()), other = make_element_contact(map, {kE, s, 0, 0}, elements());
+    ContactCurve curve(*one, *other);
     const Friction mu{0.3, 0.8};
     const double full = full_slip(curve, mu, depth), N = curve.load(depth).force, p = s->smooth(kE)->force_power;
     CHECK_RELATIVE(full, 0.3 / 0.8 * depth, 1e-9);
@@ -133,8 +133,8 @@ void hardness(const char* name, const ShapeKeys& keys, double depth, double side
     const HeightMap map = flat_map(49, 49, side / 49);  // a point under the tip
     SolverOptions options = elements();
     options.hardness.H0 = H;
-    ElementContact contact(map, {kE, shape(name, keys), 0, 0}, options);
-    const Level level = contact.at_separation(-depth);
+    const auto contact = make_element_contact(map, {kE, shape(name, keys), 0, 0}, options);
+    const Level level = contact->at_separation(-depth);
     for (const double p : level.pixels.pressure) CHECK(p <= H * (1 + 1e-12));
     CHECK_RELATIVE(level.force, H * level.area_pixels, 1e-3);
     CHECK(level.contacts == 1);
@@ -195,8 +195,8 @@ TESTS {
     keys.radii[0] = 1, keys.radii[1] = kInfinity;
     const int nx = 65, ny = 129;
     const HeightMap strip = flat_map(nx, ny, 0.1 / 64);
-    ElementContact roller(strip, {kE, shape("paraboloid", keys), 0, 0}, elements());
-    const Level line = roller.at_separation(-2e-3);
+    const auto roller = make_element_contact(strip, {kE, shape("paraboloid", keys), 0, 0}, elements());
+    const Level line = roller->at_separation(-2e-3);
     double sum = 0, peak = 0;
     for (std::size_t k = 0; k < line.pixels.index.size(); ++k)
         if (line.pixels.index[k] / nx == ny / 2) sum += line.pixels.pressure[k] * strip.dx, peak = std::max(peak, line.pixels.pressure[k]);
@@ -228,7 +228,6 @@ TESTS {
         precise.tolerance = 1e-12;
         lateral(row.name, keys, -0.002, 1e-6, 1e-6,
                 [&](const Indenter& tip) { return std::make_unique<AsperityContact>(asperities, tip, precise); });
-        lateral(row.name, keys, 4e-3, 1e-6, 1e-6,
-                [&](const Indenter& tip) { return std::make_unique<ElementContact>(rough, tip, elements(1e-11)); });
+        lateral(row.name, keys, 4e-3, 1e-6, 1e-6, [&](const Indenter& tip) { return make_element_contact(rough, tip, elements(1e-11)); });
     }
 }

@@ -74,7 +74,7 @@ void elements() {
     for (const auto& [x, edge] : {std::pair(0.5, 0), std::pair(0.05, 1)}) {
         for (int j = 0; j < 40; ++j)
             for (int i = 0; i < 40; ++i) map.row(j)[i] = -0.5 * (std::pow(i * 0.025 - x, 2) + std::pow(j * 0.025 - 0.5, 2));
-        const Level level = ElementContact(map, {1.0, 1e6, 0.5, 0.5}, options).at_separation(-0.0005);
+        const Level level = make_element_contact(map, {1.0, 1e6, 0.5, 0.5}, options)->at_separation(-0.0005);
         CHECK(level.contacts == 1 && level.edge_contacts == edge);
         CHECK(level.status == (edge > 0 ? LevelStatus::out_of_validity : LevelStatus::converged));
         // The disc about the tip that holds all pixels: the one at x and its four neighbours.
@@ -87,7 +87,7 @@ void elements() {
     for (int j = 0; j < 40; ++j)
         for (int i = 0; i < 40; ++i) map.row(j)[i] = -0.5 * (std::pow(i * 0.025 - 0.51, 2) + std::pow(j * 0.025 - 0.49, 2));
     const double a = 0.25, p0 = 2 * a / std::numbers::pi;
-    const Level level = ElementContact(map, {1.0, 1e6, 0.51, 0.49}, options).at_separation(-a * a);
+    const Level level = make_element_contact(map, {1.0, 1e6, 0.51, 0.49}, options)->at_separation(-a * a);
     CHECK(level.contacts == 1 && level.large_contacts == 1 && level.status == LevelStatus::converged);
     CHECK(level.area <= level.nominal_area && level.nominal_area < 1.4 * level.area);
     CHECK_CLOSE(level.extreme_area_fraction, 1 - std::pow(kExtreme / p0, 2), 0.03);  // a tenth of a is a pixel

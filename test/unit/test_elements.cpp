@@ -29,7 +29,7 @@ void rounds() {
     for (const auto& [most, status] : {std::pair{1, LevelStatus::not_converged}, {200, LevelStatus::converged}}) {
         SolverOptions options;
         options.max_iterations = most, options.tolerance = 1e-10;
-        CHECK(ElementContact(map, {2.0, 50.0, 0.5, 0.5}, options).at_separation(0.0).status == status);
+        CHECK(make_element_contact(map, {2.0, 50.0, 0.5, 0.5}, options)->at_separation(0.0).status == status);
     }
 }
 

@@ -74,8 +74,8 @@ void borders() {
     const HeightMap map = height_map(20, 16, 0.1, 0.1, [](int, int) { return 0.0; });
     SolverOptions options;
     options.surface = {0, 0, 2.0, 1.6};
-    ElementContact contact(map, {1e3, 1e4, 1.0, 0.8}, options);
-    const Level level = contact.at_separation(-0.1);
+    const auto contact = make_element_contact(map, {1e3, 1e4, 1.0, 0.8}, options);
+    const Level level = contact->at_separation(-0.1);
     CHECK_RELATIVE(level.area, 2.0 * 1.6, kRounding);
     CHECK_RELATIVE(level.area_pixels, 2.0 * 1.6, kRounding);
     CHECK(level.edge_contacts == 1 && level.status == LevelStatus::out_of_validity);

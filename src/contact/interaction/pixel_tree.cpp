@@ -48,10 +48,12 @@ struct Generation {
     std::vector<int> index;              // index of the box at each position of the rectangle, -1: none
     std::vector<Box> boxes;              // row by row
     std::vector<int> parent;             // in the next generation
-    // Pairs of boxes that interact through their points, sorted by chunk of kChunk boxes and by offset; they begin at
-    // pair_begin[chunk*kOffsets + offset].
-    std::vector<std::size_t> pair_begin;
-    std::vector<int> pair_from, pair_to;
+    // Pairs of boxes that interact through their points, by chunk of kChunk boxes to which they lead; those of an offset begin at begin[offset].
+    struct Pairs {
+        std::array<std::size_t, kOffsets + 1> begin{};
+        std::vector<std::array<int, 2>> from_to;
+    };
+    std::vector<Pairs> pairs;
 
     int find(int x, int y) const {
         x -= x0, y -= y0;
@@ -88,43 +90,21 @@ void enclose(Generation& g, const std::vector<Box>& boxes) {
 
 // Finds the pairs of boxes that are not adjacent but whose parents are (or that have no parents).
 void pair_up(Generation& g, bool last) {
-    const std::size_t chunks = (g.boxes.size() + kChunk - 1) / kChunk;
-    std::vector<std::vector<std::array<int, 3>>> found(chunks);
-    parallel_for(chunks, 4, g.boxes.size() > 2 * kThreads ? 0 : 1, [&](std::size_t c) {
-        for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
-            const Box b = g.boxes[k];
-            const int x_begin = last ? g.x0 : ((b.x >> 1) - 1) * 2, x_end = last ? g.x0 + g.nx : x_begin + 6;
-            const int y_begin = last ? g.y0 : ((b.y >> 1) - 1) * 2, y_end = last ? g.y0 + g.ny : y_begin + 6;
-            for (int y = y_begin; y < y_end; ++y)
-                for (int x = x_begin; x < x_end; ++x) {
-                    if (std::abs(x - b.x) <= 1 && std::abs(y - b.y) <= 1) continue;
-                    const int from = g.find(x, y);
-                    if (from >= 0) found[c].push_back({(y - b.y + 3) * 7 + x - b.x + 3, from, static_cast<int>(k)});
-                }
+    g.pairs.resize((g.boxes.size() + kChunk - 1) / kChunk);
+    parallel_for(g.pairs.size(), 4, g.boxes.size() > 2 * kThreads ? 0 : 1, [&](std::size_t c) {
+        Generation::Pairs& pairs = g.pairs[c];
+        for (int o = 0; o < kOffsets; ++o) {
+            const int dx = o % 7 - 3, dy = o / 7 - 3;
+            for (std::size_t k = c * kChunk; k < std::min(g.boxes.size(), (c + 1) * kChunk); ++k) {
+                const Box b = g.boxes[k];
+                const bool adjacent = std::abs(dx) <= 1 && std::abs(dy) <= 1;
+                const bool cousins = std::abs(((b.x + dx) >> 1) - (b.x >> 1)) <= 1 && std::abs(((b.y + dy) >> 1) - (b.y >> 1)) <= 1;
+                if (adjacent || !(cousins || last)) continue;
+                if (const int from = g.find(b.x + dx, b.y + dy); from >= 0) pairs.from_to.push_back({from, static_cast<int>(k)});
+            }
+            pairs.begin[at(o) + 1] = pairs.from_to.size();
         }
     });
-    g.pair_begin.assign(chunks * kOffsets + 1, 0);
-    std::size_t total = 0;
-    for (std::size_t c = 0; c < chunks; ++c) {
-        std::array<std::size_t, kOffsets> count{};
-        for (const auto& pair : found[c]) ++count[at(pair[0])];
-        for (int o = 0; o < kOffsets; ++o) {
-            g.pair_begin[c * kOffsets + at(o)] = total;
-            total += count[at(o)];
-        }
-    }
-    g.pair_begin.back() = total;
-    g.pair_from.resize(total);
-    g.pair_to.resize(total);
-    for (std::size_t c = 0; c < chunks; ++c) {
-        std::array<std::size_t, kOffsets> next;
-        for (int o = 0; o < kOffsets; ++o) next[at(o)] = g.pair_begin[c * kOffsets + at(o)];
-        for (const auto& pair : found[c]) {
-            const std::size_t n = next[at(pair[0])]++;
-            g.pair_from[n] = pair[1];
-            g.pair_to[n] = pair[2];
-        }
-    }
 }
 
 int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
@@ -203,22 +183,7 @@ public:
             }
         }
     }
-    void down_to_tile(const double* point, double* values) const {
-        double line[kMostPoints];
-        for (int r = 0; r < rows_; ++r) {
-            const double* wy = &rows_of_[at(r * q_)];
-            for (int i = 0; i < q_; ++i) {
-                line[i] = 0;
-                for (int j = 0; j < q_; ++j) line[i] += wy[j] * point[j * q_ + i];
-            }
-            for (int c = 0; c < kTileColumns; ++c) {
-                const double* wx = &columns_of_[at(c * q_)];
-                double sum = 0;
-                for (int i = 0; i < q_; ++i) sum += wx[i] * line[i];
-                values[r * kTileColumns + c] += sum;
-            }
-        }
-    }
+    void down_to_tile(const double* point, double* values) const { expand(rows_of_, rows_, columns_of_, kTileColumns, point, values); }
     void up(int half_x, int half_y, const double* child, double* parent) const {
         double part[kMostPoints * kMostPoints];
         const double *cx = child_[half_x].data(), *cy = child_[half_y].data();
@@ -233,20 +198,7 @@ public:
                 for (int i = 0; i < q_; ++i) parent[j * q_ + i] += cy[k * q_ + j] * part[k * q_ + i];
     }
     void down(int half_x, int half_y, const double* parent, double* child) const {
-        double part[kMostPoints * kMostPoints];
-        const double *cx = child_[half_x].data(), *cy = child_[half_y].data();
-        for (int k = 0; k < q_; ++k) {
-            double* to = part + k * q_;
-            std::fill_n(to, q_, 0.0);
-            for (int j = 0; j < q_; ++j)
-                for (int i = 0; i < q_; ++i) to[i] += cy[k * q_ + j] * parent[j * q_ + i];
-        }
-        for (int j = 0; j < q_; ++j)
-            for (int k = 0; k < q_; ++k) {
-                double sum = 0;
-                for (int i = 0; i < q_; ++i) sum += cx[k * q_ + i] * part[j * q_ + i];
-                child[j * q_ + k] += sum;
-            }
+        expand(child_[half_y], q_, child_[half_x], q_, parent, child);
     }
 
     // Transfer matrices of a generation by offset of the source box, created on first use.
@@ -258,6 +210,24 @@ public:
     const std::vector<std::vector<double>>& made(std::size_t generation) const { return matrices_[generation]; }
 
 private:
+    // Adds to[r*columns + c] the sum of rows_of(r, j) columns_of(c, i) point[j*q + i].
+    void expand(const std::vector<double>& rows_of, int rows, const std::vector<double>& columns_of, int columns, const double* point,
+                double* to) const {
+        double line[kMostPoints];
+        for (int r = 0; r < rows; ++r) {
+            const double* wy = &rows_of[at(r * q_)];
+            std::fill_n(line, q_, 0.0);
+            for (int j = 0; j < q_; ++j)
+                for (int i = 0; i < q_; ++i) line[i] += wy[j] * point[j * q_ + i];
+            for (int c = 0; c < columns; ++c) {
+                const double* wx = &columns_of[at(c * q_)];
+                double sum = 0;
+                for (int i = 0; i < q_; ++i) sum += wx[i] * line[i];
+                to[r * columns + c] += sum;
+            }
+        }
+    }
+
     void make_matrices() {
         const std::size_t generation = matrices_.size();
         const double half_x = 0.5 * kTileColumns * std::ldexp(1.0, static_cast<int>(generation));
@@ -403,7 +373,7 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         down_[l].resize(generations[l].boxes.size() * points);
         if (l > 0) std::fill(up_[l].begin(), up_[l].end(), 0.0);
         loaded_[l].assign(generations[l].boxes.size(), 0);
-        if (!generations[l].pair_from.empty()) interpolation.matrices(l);
+        if (levels > 1 || leaf.boxes.size() > 1) interpolation.matrices(l);
     }
     // A product has parallel loops over the tiles, over the boxes of each size, over transfers between boxes of all sizes, and back.
     const int threads = tiles > kThreads ? 0 : 1;
@@ -442,23 +412,23 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     const PixelKernels& kernels = pixel_kernels();
     std::vector<std::pair<std::size_t, std::size_t>> chunks;  // generation, chunk
     for (std::size_t l = 0; l < levels; ++l)
-        for (std::size_t c = 0; c * kOffsets + 1 < generations[l].pair_begin.size(); ++c) chunks.emplace_back(l, c);
+        for (std::size_t c = 0; c < generations[l].pairs.size(); ++c) chunks.emplace_back(l, c);
     parallel_for(chunks.size(), 1, threads, [&](std::size_t job) {
         stopping_point();
         const std::size_t l = chunks[job].first, c = chunks[job].second;
-        const Generation& g = generations[l];
+        const Generation::Pairs& pairs = generations[l].pairs[c];
         const std::size_t first = c * kChunk * points, last = std::min((c + 1) * kChunk * points, down_[l].size());
         std::fill(down_[l].begin() + static_cast<std::ptrdiff_t>(first), down_[l].begin() + static_cast<std::ptrdiff_t>(last), 0.0);
-        if (g.pair_from.empty()) return;
         std::vector<const double*> from;
         std::vector<double*> to;
         for (std::size_t o = 0; o < kOffsets; ++o) {
             from.clear();
             to.clear();
-            for (std::size_t k = g.pair_begin[c * kOffsets + o]; k < g.pair_begin[c * kOffsets + o + 1]; ++k) {
-                if (!loaded_[l][at(g.pair_from[k])]) continue;
-                from.push_back(up_[l].data() + at(g.pair_from[k]) * points);
-                to.push_back(down_[l].data() + at(g.pair_to[k]) * points);
+            for (std::size_t k = pairs.begin[o]; k < pairs.begin[o + 1]; ++k) {
+                const auto [source, target] = pairs.from_to[k];
+                if (!loaded_[l][at(source)]) continue;
+                from.push_back(up_[l].data() + at(source) * points);
+                to.push_back(down_[l].data() + at(target) * points);
             }
             if (!from.empty())
                 kernels.translate(static_cast<int>(points), q * q, interpolation.made(l)[o].data(), from.size(), from.data(), to.data());

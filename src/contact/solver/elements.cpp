@@ -225,10 +225,10 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
     return outcome;
 }
 
-void ElementsSolver::press_out(std::vector<Pixel>& pixels, std::vector<double>& depth) {
-    pixels.clear();
-    depth.clear();
-    for (const auto& [k, d] : BoundedSolver::press_out()) pixels.push_back(set_[at(k)]), depth.push_back(d);
+std::vector<std::pair<Pixel, double>> ElementsSolver::press_out() {
+    std::vector<std::pair<Pixel, double>> lowered;
+    for (const auto& [k, depth] : BoundedSolver::press_out()) lowered.emplace_back(set_[at(k)], depth);
+    return lowered;
 }
 
 double ElementsSolver::stiffness(double tolerance, bool back) {

@@ -22,9 +22,8 @@ public:
                           std::vector<double>& p, std::optional<double> sum = std::nullopt);
     double rise() const { return Z0_; }
 
-    // Plastic residual of the last solution: the pixels at the highest pressure with w < 0, and -w, row by row. It is subtracted from g0,
-    // so that the same pressures cause no penetration.
-    void press_out(std::vector<Pixel>& pixels, std::vector<double>& depth);
+    // Plastic residual of the last solution: the pixels at the highest pressure with w < 0, and -w, row by row.
+    std::vector<std::pair<Pixel, double>> press_out();
 
     // -d(sum of p)/dZ0 of the last solution, to a relative residual of `tolerance` (BoundedSolver::stiffness).
     double stiffness(double tolerance, bool back);

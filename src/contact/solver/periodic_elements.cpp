@@ -1,6 +1,5 @@
 #include "contact/solver/periodic_elements.hpp"
 
-#include "contact/solver/periodic_grid.hpp"
 #include "error.hpp"
 #include "format.hpp"
 
@@ -27,127 +26,88 @@ ElementsOutcome solve_from_coarse(PeriodicGrid& grid, Given given, double tolera
 
 }  // namespace
 
-struct PeriodicElements::Impl {
-    Relief relief;
-    Substrate substrate;
-    double highest;
-    // Units in which values are of order 1: heights are relative to `zero` in units of `rms` (both of the initial heights), pressures in
-    // units of E* rms/dx.
-    double zero = 0, rms = 0;
-    double mean = 0;  // mean of the current heights
-    std::unique_ptr<PeriodicGrid> grid;
-    std::vector<Pixel> pixels;
-    std::vector<double> pressures;
-
-    double pressure_unit() const { return substrate.modulus() * (rms / relief.dx); }
-    template <class F>
-    double mean_of(F&& f) const;
-    double mean_height() const {
-        return mean_of([](double z) { return z; });
-    }
-    void prepare();
-    ElementsOutcome solve(Given given, double tolerance, int most_iterations);
-};
-
 // Mean of a function of the heights.
 template <class F>
-double PeriodicElements::Impl::mean_of(F&& f) const {
+double PeriodicElements::mean_of(F&& f) const {
     double all = 0;
-    for (int j = 0; j < relief.ny; ++j) {
+    for (int j = 0; j < relief_.ny; ++j) {
         double row = 0;
-        for (int i = 0; i < relief.nx; ++i) row += f(relief.z[j * relief.stride + i]);
-        all += row / relief.nx;
+        for (int i = 0; i < relief_.nx; ++i) row += f(relief_.z[j * relief_.stride + i]);
+        all += row / relief_.nx;
     }
-    return all / relief.ny;
+    return all / relief_.ny;
 }
 
-void PeriodicElements::Impl::prepare() {
-    mean = zero = mean_height();
-    double largest = 0;
-    mean_of([&](double z) { return largest = std::max(largest, std::abs(z - mean)); });
-    if (!(largest > 0)) throw Error(Failure::bad_input, "the surface is flat: two smooth flats touch everywhere");
-    rms = largest * std::sqrt(mean_of([&](double z) { return (z - mean) / largest * ((z - mean) / largest); }));
-    PeriodicGrid::Share share;
-    if (substrate.smooth()) share = [this](double k) { return substrate.smooth()->share(k / relief.dx); };
-    grid = std::make_unique<PeriodicGrid>(relief.nx, relief.ny, relief.dy / relief.dx, 1.0, highest / pressure_unit(),
-                                          StoredHeights{relief.z, relief.stride, zero, 1 / rms}, std::move(share));
-}
-
-ElementsOutcome PeriodicElements::Impl::solve(Given given, double tolerance, int most_iterations) {
-    const ElementsOutcome outcome = solve_from_coarse(*grid, given, tolerance, most_iterations, true);
-    pixels = grid->pixels();
-    pressures = grid->pressures();
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-        if (!(pressures[k] > 0)) continue;
-        pixels[kept] = pixels[k];
-        pressures[kept++] = pressures[k] >= highest / pressure_unit() ? highest : pressures[k] * pressure_unit();
-    }
-    pixels.resize(kept), pressures.resize(kept);
-    return outcome;
+double PeriodicElements::mean_height() const {
+    return mean_of([](double z) { return z; });
 }
 
 PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substrate, double highest)
-    : impl_(std::make_unique<Impl>(Impl{relief, substrate, highest, 0, 0, 0, nullptr, {}, {}})) {
-    impl_->prepare();
+    : relief_(relief), substrate_(substrate), highest_(highest) {
+    mean_ = zero_ = mean_height();
+    double largest = 0;
+    mean_of([&](double z) { return largest = std::max(largest, std::abs(z - mean_)); });
+    if (!(largest > 0)) throw Error(Failure::bad_input, "the surface is flat: two smooth flats touch everywhere");
+    rms_ = largest * std::sqrt(mean_of([&](double z) { return (z - mean_) / largest * ((z - mean_) / largest); }));
+    PeriodicGrid::Share share;
+    if (substrate.smooth()) share = [body = substrate, dx = relief.dx](double k) { return body.smooth()->share(k / dx); };
+    grid_ = std::make_unique<PeriodicGrid>(relief.nx, relief.ny, relief.dy / relief.dx, 1.0, highest / pressure_unit(),
+                                           StoredHeights{relief.z, relief.stride, zero_, 1 / rms_}, std::move(share));
 }
-PeriodicElements::~PeriodicElements() = default;
+
+ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_iterations) {
+    const ElementsOutcome outcome = solve_from_coarse(*grid_, given, tolerance, most_iterations, true);
+    const double limit = highest_ / pressure_unit();
+    const std::vector<Pixel> set = grid_->pixels();
+    pixels_.clear(), pressures_.clear();
+    for (std::size_t k = 0; k < set.size(); ++k) {
+        const double p = grid_->pressures()[k];
+        if (p > 0) pixels_.push_back(set[k]), pressures_.push_back(p >= limit ? highest_ : p * pressure_unit());
+    }
+    return outcome;
+}
 
 std::vector<std::pair<Pixel, double>> PeriodicElements::press_out() {
-    const std::vector<Pixel> set = impl_->grid->pixels();
+    const std::vector<Pixel> set = grid_->pixels();
     std::vector<std::pair<Pixel, double>> lowered;
-    for (const auto& [k, depth] : impl_->grid->press_out()) lowered.emplace_back(set[static_cast<std::size_t>(k)], depth * impl_->rms);
+    for (const auto& [k, depth] : grid_->press_out()) lowered.emplace_back(set[static_cast<std::size_t>(k)], depth * rms_);
     return lowered;
 }
 
-void PeriodicElements::heights_changed() { impl_->mean = impl_->mean_height(); }
-
 ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, int most_iterations) {
-    Impl& my = *impl_;
-    const ElementsOutcome outcome = my.solve({true, mean_pressure / my.pressure_unit()}, tolerance, most_iterations);
-    if (my.grid->full())
+    const ElementsOutcome outcome = solve({true, mean_pressure / pressure_unit()}, tolerance, most_iterations);
+    if (grid_->full())
         throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that of full contact on this surface, %.9g",
                                                mean_pressure, closing_pressure()));
     return outcome;
 }
 
 ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {
-    Impl& my = *impl_;
     if (!(Z0 > closed()))
         throw Error(Failure::bad_input, format("a separation of %.9g is below that of full contact, %.9g", Z0,
-                                               std::abs(my.mean) > kRounding * my.rms ? my.mean : 0.0));
-    return my.solve({false, (Z0 - my.zero) / my.rms}, tolerance, most_iterations);
+                                               std::abs(mean_) > kRounding * rms_ ? mean_ : 0.0));
+    return solve({false, (Z0 - zero_) / rms_}, tolerance, most_iterations);
 }
 
 double PeriodicElements::closed() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    return impl_->highest < infinity ? -infinity : impl_->mean + kRounding * impl_->rms;
+    return highest_ < infinity ? -infinity : mean_ + kRounding * rms_;
 }
 
 std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p) {
-    const auto nx = static_cast<std::size_t>(impl_->relief.nx);
-    std::vector<double> plane(nx * static_cast<std::size_t>(impl_->relief.ny), 0.0);
+    const auto nx = static_cast<std::size_t>(relief_.nx);
+    std::vector<double> plane(nx * static_cast<std::size_t>(relief_.ny), 0.0);
     for (std::size_t k = 0; k < p.size(); ++k)
-        plane[static_cast<std::size_t>(pixels[k].y) * nx + static_cast<std::size_t>(pixels[k].x)] = p[k] / impl_->pressure_unit();
-    impl_->grid->deflect(plane);
-    for (double& u : plane) u *= impl_->rms;
+        plane[static_cast<std::size_t>(pixels[k].y) * nx + static_cast<std::size_t>(pixels[k].x)] = p[k] / pressure_unit();
+    grid_->deflect(plane);
+    for (double& u : plane) u *= rms_;
     return plane;
 }
 
-double PeriodicElements::closing_pressure() { return 0 - impl_->grid->least_inverse() * impl_->pressure_unit(); }
+double PeriodicElements::closing_pressure() { return 0 - grid_->least_inverse() * pressure_unit(); }
 
-double PeriodicElements::separation() const { return impl_->zero + impl_->grid->Z0() * impl_->rms; }
-const std::vector<Pixel>& PeriodicElements::pixels() const { return impl_->pixels; }
-const std::vector<double>& PeriodicElements::pressures() const { return impl_->pressures; }
+double PeriodicElements::stiffness(bool back) { return grid_->stiffness(back) / points() * (pressure_unit() / rms_); }
 
-double PeriodicElements::stiffness(bool back) {
-    const double points = static_cast<double>(impl_->relief.nx) * static_cast<double>(impl_->relief.ny);
-    return impl_->grid->stiffness(back) / points * (impl_->pressure_unit() / impl_->rms);
-}
-
-double PeriodicElements::energy() const {
-    const double points = static_cast<double>(impl_->relief.nx) * static_cast<double>(impl_->relief.ny);
-    return impl_->grid->energy() / points * (impl_->pressure_unit() * impl_->rms);
-}
+double PeriodicElements::energy() const { return grid_->energy() / points() * (pressure_unit() * rms_); }
 
 }  // namespace rsc

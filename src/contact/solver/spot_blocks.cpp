@@ -8,43 +8,23 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// The Cholesky factor of A (n x n by rows), A = L L^T with L^T in the upper triangle, then A^-1 = L^-T L^-1. In place; the inner loops run
-// along rows without sums, so that they vectorise.
-RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A, double* inverse) {
+// Replaces a symmetric positive definite matrix A (n x n) by its inverse, by Gauss-Jordan elimination without pivoting.
+RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A) {
     for (std::size_t k = 0; k < n; ++k) {
-        double* row = A + k * n;
-        row[k] = 1 / __builtin_sqrt(row[k]);  // 1/L_kk
-        for (std::size_t j = k + 1; j < n; ++j) row[j] *= row[k];
-        for (std::size_t i = k + 1; i < n; ++i) {
-            double* to = A + i * n;
-            const double factor = row[i];
-            for (std::size_t j = i; j < n; ++j) to[j] -= factor * row[j];
-        }
-    }
-    // L^-1 by rows in `inverse` (lower triangle).
-    for (std::size_t i = 0; i < n; ++i) {
-        double* to = inverse + i * n;
-        for (std::size_t j = 0; j < i; ++j) to[j] = 0;
-        for (std::size_t k = 0; k < i; ++k) {
-            const double factor = A[k * n + i];
-            const double* from = inverse + k * n;
-            for (std::size_t j = 0; j <= k; ++j) to[j] -= factor * from[j];
-        }
-        for (std::size_t j = 0; j < i; ++j) to[j] *= A[i * n + i];
-        to[i] = A[i * n + i];
-    }
-    // L^-T L^-1: sums of outer products of the rows of L^-1, into A.
-    for (std::size_t k = 0; k < n * n; ++k) A[k] = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        const double* row = inverse + k * n;
-        for (std::size_t i = 0; i <= k; ++i) {
-            double* to = A + i * n;
-            const double factor = row[i];
-            for (std::size_t j = 0; j <= k; ++j) to[j] += factor * row[j];
+        double* const pivot = A + k * n;
+        const double inverse = 1 / pivot[k];
+        pivot[k] = 1;
+        for (std::size_t j = 0; j < n; ++j) pivot[j] *= inverse;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i == k) continue;
+            double* const row = A + i * n;
+            const double factor = row[k];
+            row[k] = 0;
+            for (std::size_t j = 0; j < n; ++j) row[j] -= factor * pivot[j];
         }
     }
 }
-RSC_DISPATCH(invert, invert_body, (std::size_t n, double* A, double* inverse), (n, A, inverse))
+RSC_DISPATCH(invert, invert_body, (std::size_t n, double* A), (n, A))
 
 RSC_ALWAYS_INLINE void multiply_body(std::size_t n, const float* A, const float* x, float* y) {
     for (std::size_t i = 0; i < n; ++i) y[i] = 0;
@@ -146,12 +126,12 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
     parallel_for(fresh.size(), 1, fresh.size() > 100 ? 0 : 1, [&](std::size_t f) {
         const Shape& shape = *fresh[f].first;
         const std::size_t n = shape.size();
-        std::vector<double> A(n * n), inverse(n * n);
+        std::vector<double> A(n * n);
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < n; ++j) A[i * n + j] = products.coefficient(shape[i].x - shape[j].x, shape[i].y - shape[j].y);
         const double unit = A[0];
         for (double& v : A) v /= unit;
-        invert(n, A.data(), inverse.data());
+        invert(n, A.data());
         fresh[f].second->values.assign(A.begin(), A.end());
     });
     blocks_.push_back({key.size(), nullptr});

@@ -1,0 +1,120 @@
+#include "contact/pixel_contact.hpp"
+
+#include "contact/pixel_spots.hpp"
+#include "contact/validity.hpp"
+#include "error.hpp"
+
+namespace rsc {
+
+PixelContact::PixelContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+    : CutMap(require_elements(heights, indenter, options)), heights_(heights), indenter_(indenter), options_(options) {
+    if (!options.relaxation.none()) loads_.emplace(Creep(options.relaxation));
+}
+
+std::vector<std::pair<std::int32_t, double>> PixelContact::residual() const {
+    std::vector<std::pair<std::int32_t, double>> points(residual_.begin(), residual_.end());
+    std::sort(points.begin(), points.end());
+    return points;
+}
+
+void PixelContact::set_residual(Depths depths) {
+    residual_ = std::move(depths);
+    lowered_.assign(residual_.empty() ? 0 : static_cast<std::size_t>(heights_.nx) * static_cast<std::size_t>(heights_.ny), false);
+    for (const auto& [k, depth] : residual_) lowered_[static_cast<std::size_t>(k)] = true;
+    residual_changed();
+}
+
+std::vector<double> PixelContact::memory() const {
+    std::vector<double> numbers;
+    if (relaxes()) {
+        numbers.push_back(accepted_time());
+        loads_->write(numbers);
+        return numbers;
+    }
+    for (const auto& [k, depth] : residual()) numbers.insert(numbers.end(), {double(k % heights_.nx), double(k / heights_.nx), depth});
+    return numbers;
+}
+
+void PixelContact::recall(const std::vector<double>& memory, const Level* level) {
+    if (relaxes()) {
+        recall_loads(*loads_, memory, heights_);
+        recall_time(memory[0]);
+        step(0);
+    } else {
+        Depths depths;
+        for (std::size_t k = 0; k + 2 < memory.size(); k += 3) {
+            const double column = memory[k], row = memory[k + 1], depth = memory[k + 2];
+            if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny && depth > 0 && depth < 1e50))
+                throw Error(Failure::bad_input, "the state does not belong to a contact of this surface");
+            depths[static_cast<std::int32_t>(row) * heights_.nx + static_cast<std::int32_t>(column)] += depth;
+        }
+        set_residual(std::move(depths));
+    }
+    forget_levels();
+    if (!level) return;
+    start_from(*level);
+    (void)solve(level->separation);
+    accepted_ = true;
+}
+
+ResidualProfile PixelContact::residual_profile() const {
+    ResidualProfile profile{{}, {}, {}, heights_.dx, heights_.dy};
+    for (const auto& [k, depth] : residual()) {
+        const Pixel pixel = pixel_at(k);
+        profile.x.push_back(x(pixel.x)), profile.y.push_back(y(pixel.y)), profile.depth.push_back(depth);
+    }
+    return profile;
+}
+
+std::vector<Pixel> PixelContact::loaded_pixels() const {
+    std::vector<Pixel> pixels;
+    for (const std::int32_t i : loads_->places()) pixels.push_back(pixel_at(i));
+    return pixels;
+}
+
+void PixelContact::accept(Level& level) {
+    accepted_ = true;
+    if (relaxes()) {
+        std::vector<std::pair<std::int32_t, double>> loaded;
+        const LevelPixels& pixels = level.pixels;
+        for (std::size_t k = 0; k < pixels.index.size(); ++k)
+            loaded.emplace_back(place({pixels.index[k] % pixels.columns, pixels.index[k] / pixels.columns}), pixels.pressure[k]);
+        std::sort(loaded.begin(), loaded.end());
+        std::vector<std::int32_t> where;
+        std::vector<double> p;
+        for (const auto& [point, pressure] : loaded) where.push_back(point), p.push_back(pressure);
+        loads_->accept(where, p, [&](const std::vector<double>& q) { return deflections(loaded_pixels(), q); });
+        level.energy_lost = pixel_area() * loads_->lost();
+    } else if (path_dependent()) {
+        if (!level.pixels.index.empty()) {
+            Depths depths = residual_;
+            for (const auto& [pixel, depth] : press_out()) depths[place(pixel)] += depth;
+            set_residual(std::move(depths));
+        }
+        double sum = 0;
+        for (const auto& [k, depth] : residual()) sum += depth;
+        level.plastic_work = options_.hardness.H0 * pixel_area() * sum;
+    }
+}
+
+Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates, const std::vector<Pixel>& touching,
+                           std::vector<double> pressure) const {
+    Level level;
+    level.separation = Z0;
+    level.candidates = static_cast<std::int32_t>(candidates);
+    level.iterations = outcome.iterations;
+    level.products = outcome.products;
+    level.residual = outcome.residual;
+    level.method = Method::automatic;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    for (double& p : pressure) p /= scale();
+    add_pixels(level, frame, indenter_, options_.hardness.H0, touching, std::move(pressure));
+    number_by_map(level);
+    if (indenter_.period.finite())
+        level.nominal_area = heights_.Lx() * heights_.Ly();
+    else
+        judge_edges(level, indenter_, options_);
+    return level;
+}
+
+}  // namespace rsc
