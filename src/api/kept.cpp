@@ -111,7 +111,6 @@ void require_path(const char* path, int argument) {
 }
 
 // --- definition of a contact
-// ---------------------------------------------------------------------------------------------------------------
 
 void put_making(Entries& to, const rsc_contact& contact) {
     const Indenter& indenter = contact.contact.indenter();

@@ -76,7 +76,7 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
         map.dx = dx, map.dy = dy, map.x0 = x0, map.y0 = y0;
         map.periodic = periodic == 1;
         std::copy(heights, heights + nx * ny, map.row(0));
-        made->surface.origin.sigma = rsc::detrend(map, rsc::Detrend::none).rms;
+        made->surface.sigma = rsc::detrend(map, rsc::Detrend::none).rms;
         return made.release();
     });
 }
@@ -84,7 +84,9 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
 int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
     return constructed(0, surface, "surface", [&] {
         require(original, 2, "original");
-        return new rsc_surface{{}, {original->surface.map.copy(), original->surface.origin}};
+        const rsc::Surface& from = original->surface;
+        return new rsc_surface{{},
+                               {from.map.copy(), from.sigma, from.points_per_wave, from.theory, from.sampled, from.name, from.measured}};
     });
 }
 
@@ -103,7 +105,7 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
                 refuse(2, "how", error.what());
             }
         }();
-        if (!surface->surface.origin.theory) surface->surface.origin.sigma = left;
+        if (!surface->surface.theory) surface->surface.sigma = left;
         put(rms_left, left);
     });
 }
@@ -112,7 +114,7 @@ int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
     return on(surface, "surface", 0, [&] {
         if (!rsc::usable_positive(cutoff)) refuse(2, "cutoff", rsc::kPositiveBounds);
         rsc::gaussian_filter(surface->surface.map, cutoff);
-        if (!surface->surface.origin.theory) surface->surface.origin.sigma = rsc::roughness(surface->surface.map).height;
+        if (!surface->surface.theory) surface->surface.sigma = rsc::roughness(surface->surface.map).height;
     });
 }
 

@@ -7,80 +7,66 @@ namespace {
 
 using Place = const std::int64_t*;
 
-#define RSC_ENUMERATOR(name, value, meaning) name = value,
-enum Kind : std::int32_t { RSC_KIND_LIST(RSC_ENUMERATOR) };
-#undef RSC_ENUMERATOR
+struct Kind {
+    void (*destroy)(void*);
+    void* (*copy)(const void*);  // throws if the copy fails
+};
+#define RSC_KIND(type)                                                                                \
+    Kind {                                                                                            \
+        [](void* handle) {                                                                            \
+            auto* typed = static_cast<type*>(handle);                                                 \
+            type##_destroy(&typed);                                                                   \
+        },                                                                                            \
+            [](const void* handle) -> void* {                                                         \
+                type* made = nullptr;                                                                 \
+                if (const std::int32_t status = type##_copy(&made, static_cast<const type*>(handle))) \
+                    throw Outcome{status, "an object could not be copied"};                           \
+                return made;                                                                          \
+            }                                                                                         \
+    }
+// In the order of RSC_KIND_LIST, which begins at 1.
+const Kind kKinds[] = {RSC_KIND(rsc_case), RSC_KIND(rsc_surface), RSC_KIND(rsc_asperities), RSC_KIND(rsc_contact), RSC_KIND(rsc_friction)};
+#undef RSC_KIND
 
 struct Entry {
-    void* handle;
-    Kind kind;
-    Place place;
-    bool settled;  // the ticket belongs to the place, because the place has used it
+    void* handle = nullptr;
+    const Kind* kind = nullptr;
+    Place place = nullptr;  // null: the ticket will belong to the first place that uses it
 };
-
-void destroy(const Entry& entry) noexcept {
-    const auto with = [&](auto* typed, auto* function) { function(&typed); };
-    switch (entry.kind) {
-        case RSC_KIND_CASE: return with(static_cast<rsc_case*>(entry.handle), rsc_case_destroy);
-        case RSC_KIND_SURFACE: return with(static_cast<rsc_surface*>(entry.handle), rsc_surface_destroy);
-        case RSC_KIND_ASPERITIES: return with(static_cast<rsc_asperities*>(entry.handle), rsc_asperities_destroy);
-        case RSC_KIND_CONTACT: return with(static_cast<rsc_contact*>(entry.handle), rsc_contact_destroy);
-        case RSC_KIND_FRICTION: return with(static_cast<rsc_friction*>(entry.handle), rsc_friction_destroy);
-    }
-}
-
-// A copy of the object of a handle. Throws if the copy fails.
-void* copy(const Entry& entry) {
-    const auto with = [&](auto* typed, auto* function) -> void* {
-        decltype(typed) made = nullptr;
-        if (const std::int32_t status = function(&made, typed); status != RSC_SUCCESS)
-            throw Outcome{status, "an object could not be copied"};
-        return made;
-    };
-    switch (entry.kind) {
-        case RSC_KIND_CASE: return with(static_cast<rsc_case*>(entry.handle), rsc_case_copy);
-        case RSC_KIND_SURFACE: return with(static_cast<rsc_surface*>(entry.handle), rsc_surface_copy);
-        case RSC_KIND_ASPERITIES: return with(static_cast<rsc_asperities*>(entry.handle), rsc_asperities_copy);
-        case RSC_KIND_CONTACT: return with(static_cast<rsc_contact*>(entry.handle), rsc_contact_copy);
-        case RSC_KIND_FRICTION: return with(static_cast<rsc_friction*>(entry.handle), rsc_friction_copy);
-    }
-    return nullptr;
-}
 
 class Tickets {
 public:
     void issue(std::int64_t* ticket, const Entry& entry) {
-        Entry before{};
+        const std::lock_guard lock(mutex_);
         try {
-            const std::lock_guard lock(mutex_);
-            const std::int64_t number = ++last_;
-            if (entry.settled) before = settle(number, entry.place);
-            entries_[number] = entry;
-            *ticket = number;
+            std::int64_t* const owned = entry.place ? &at_place_[entry.place] : nullptr;
+            entries_.emplace(last_ + 1, entry);
+            *ticket = ++last_;
+            if (owned) drop(std::exchange(*owned, last_));
         } catch (...) {
-            destroy(entry);
+            entry.kind->destroy(entry.handle);
             throw;
         }
-        if (before.handle) destroy(before);
     }
 
-    // The entry of the ticket at a place, or one with a null handle. A copied ticket belongs to the first place
-    // that uses it, and thus to this one.
+    // The entry of the ticket at a place, or one with a null handle. A copied ticket belongs to the first place that uses it, and thus to
+    // this one; a ticket that belonged to this place before was overwritten by an assignment of the compiler.
     Entry find(Place place) {
-        Entry before{}, found{};
-        {
-            const std::lock_guard lock(mutex_);
-            const auto at = entries_.find(*place);
-            if (at == entries_.end()) return {};
-            if (!at->second.settled) {
-                before = settle(*place, place);
-                at->second.place = place;
-                at->second.settled = true;
-            }
-            found = at->second;
+        const std::lock_guard lock(mutex_);
+        const auto at = entries_.find(*place);
+        if (at == entries_.end()) return {};
+        if (!at->second.place) {
+            drop(std::exchange(at_place_[place], *place));
+            at->second.place = place;
         }
-        if (before.handle) destroy(before);
-        return found;
+        return at->second;
+    }
+
+    // As find(), but without a change of ownership, because the place may be a temporary of the compiler.
+    Entry look(Place place) {
+        const std::lock_guard lock(mutex_);
+        const auto at = entries_.find(*place);
+        return at == entries_.end() ? Entry{} : at->second;
     }
 
     // A new number for a ticket that belongs to the place and will be changed, so that bitwise copies of it do not refer to the change.
@@ -92,46 +78,25 @@ public:
         entries_.insert(std::move(entry));
     }
 
-    // As find(), but without a change of ownership, because the place may be a temporary of the compiler.
-    Entry look(Place place) {
-        const std::lock_guard lock(mutex_);
-        const auto at = entries_.find(*place);
-        return at == entries_.end() ? Entry{} : at->second;
-    }
-
     // Destroys the object of the ticket if it belongs to this place, but not if it belongs to another place or to none yet.
     void release(std::int64_t* ticket) {
-        Entry found{};
-        {
-            const std::lock_guard lock(mutex_);
-            const auto at = entries_.find(*ticket);
-            if (at != entries_.end() && at->second.settled && at->second.place == ticket) {
-                found = at->second;
-                entries_.erase(at);
-                at_place_.erase(ticket);
-            }
-            *ticket = 0;
+        const std::lock_guard lock(mutex_);
+        if (const auto at = entries_.find(*ticket); at != entries_.end() && at->second.place == ticket) {
+            drop(*ticket);
+            at_place_.erase(ticket);
         }
-        if (found.handle) destroy(found);
+        *ticket = 0;
     }
 
 private:
-    // Assigns the ticket to the place. A ticket that belonged to it before was overwritten by an assignment of the compiler;
-    // its entry is returned for destruction.
-    Entry settle(std::int64_t number, Place place) {
-        Entry before{};
-        std::int64_t& owned = at_place_[place];
-        if (const auto old = entries_.find(owned); owned != 0 && old != entries_.end()) {
-            before = old->second;
-            entries_.erase(old);
-        }
-        owned = number;
-        return before;
+    void drop(std::int64_t number) {
+        const auto entry = entries_.extract(number);
+        if (!entry.empty()) entry.mapped().kind->destroy(entry.mapped().handle);
     }
 
     std::mutex mutex_;
     std::unordered_map<std::int64_t, Entry> entries_;
-    std::unordered_map<Place, std::int64_t> at_place_;  // tickets of settled entries
+    std::unordered_map<Place, std::int64_t> at_place_;  // tickets of the entries that have a place
     std::int64_t last_ = 0x5253435f00000000;            // unlike typical values of uninitialised memory
 };
 
@@ -147,7 +112,7 @@ Tickets& tickets() {
 using namespace rsc::api;
 
 int32_t rsc_ticket_issue(int64_t* ticket, int32_t kind, void* handle) {
-    return guarded(0, [&] { tickets().issue(ticket, {handle, static_cast<Kind>(kind), ticket, true}); });
+    return guarded(0, [&] { tickets().issue(ticket, {handle, &kKinds[kind - 1], ticket}); });
 }
 
 int32_t rsc_ticket_read(const int64_t* ticket, void** handle) {
@@ -159,8 +124,8 @@ int32_t rsc_ticket_change(int64_t* ticket, void** handle) {
         *handle = nullptr;
         Entry found = tickets().find(ticket);
         if (found.handle && found.place != ticket) {
-            found.handle = copy(found);
-            tickets().issue(ticket, {found.handle, found.kind, ticket, true});
+            found.handle = found.kind->copy(found.handle);
+            tickets().issue(ticket, {found.handle, found.kind, ticket});
         } else if (found.handle) {
             tickets().renew(ticket);
         }
@@ -171,14 +136,11 @@ int32_t rsc_ticket_change(int64_t* ticket, void** handle) {
 int32_t rsc_ticket_copy(int64_t* ticket, const int64_t* original) {
     return guarded(0, [&] {
         if (original == ticket) return;
-        const Entry found = tickets().look(original);
-        Entry made = found;
-        if (found.handle) made.handle = copy(found);
+        Entry made = tickets().look(original);
+        if (made.handle) made.handle = made.kind->copy(made.handle);
+        made.place = nullptr;
         tickets().release(ticket);
-        if (!made.handle) return;
-        made.place = ticket;
-        made.settled = false;
-        tickets().issue(ticket, made);
+        if (made.handle) tickets().issue(ticket, made);
     });
 }
 

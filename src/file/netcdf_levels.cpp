@@ -29,26 +29,27 @@ NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t firs
 
 void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("Conventions", "CF-1.10");
-    file_.attribute("title", r_.title.empty() ? "Elastic contact of a rough sphere" : r_.title);
+    file_.attribute("title", r_.settings.run.title.empty() ? "Elastic contact of a rough sphere" : r_.settings.run.title);
     file_.attribute("source", "rsc " RSC_VERSION ", deterministic multi-asperity model of rough spheres in elastic contact");
     file_.attribute("history", history);
     file_.attribute("references", kPaper);
-    file_.attribute("indenter", r_.indenter.shape->text(r_.length_unit));
+    file_.attribute("indenter", r_.indenter.shape->text(r_.settings.run.length_unit));
     file_.attribute("comment",
                     "Indices in this file (start_index = 1) count from 1. The effective namelist in the attribute `case` "
                     "reproduces this file, "
                     "except for the attribute `history`.");
-    if (r_.path_dependent)
+    if (r_.path_dependent())
         file_.attribute(
             "path",
-            r_.relaxes
+            relaxes(r_.settings)
                 ? "each level depends on the previous ones: the response of a relaxing body depends on the history of loads"
                 : "each level depends on the previous ones: points that yielded (solids hardness) remain lowered, attached spots (solids adhesion) remain attached until pull-off");
     file_.attribute("case", r_.case_text);
-    if (r_.seed >= std::numeric_limits<std::int32_t>::min() && r_.seed <= std::numeric_limits<std::int32_t>::max())
-        file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.seed)});
+    if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
+        r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())
+        file_.attribute("seed", std::vector<std::int32_t>{static_cast<std::int32_t>(r_.settings.run.seed)});
     else  // the classic data model has no integers longer than 32 bits
-        file_.attribute("seed", std::to_string(r_.seed));
+        file_.attribute("seed", std::to_string(r_.settings.run.seed));
 }
 
 void ResultTable::axes() {
@@ -61,9 +62,9 @@ void ResultTable::axes() {
         comment("realization k of a seed is the same surface in every case"));
     add("step", {"step"}, "1", "number of the level", step);
 
-    const Names dims = r_.force_control ? Names{"realization", "step"} : Names{"step"};
+    const Names dims = r_.force_control() ? Names{"realization", "step"} : Names{"step"};
     std::vector<double> separation = of_rows<double>([](const LevelValues& row) { return row.separation; });
-    if (!r_.force_control) separation.resize(o_.steps);  // the same in every realization
+    if (!r_.force_control()) separation.resize(o_.steps);  // the same in every realization
     std::vector<double> scaled = separation;
     for (double& z : scaled) z /= r_.sigma;
     add("separation", dims, unit(1), "separation of the indenter's tip from the mean plane, Z0", separation);
@@ -101,7 +102,7 @@ void ResultTable::levels() {
     for (std::size_t k = 0; k < pull_off.size(); ++k)
         for (std::size_t s = 0; s < o_.steps; ++s) pull_off[k] = std::fmin(pull_off[k], o_.row(k, s).least_force);
     if (computed(pull_off))
-        add_absent("pull_off_force", {"realization"}, r_.force_unit, "smallest force since the first level", pull_off,
+        add_absent("pull_off_force", {"realization"}, r_.settings.run.force_unit, "smallest force since the first level", pull_off,
                    "adhesion: including forces between levels; negative if separating the bodies takes a tensile force");
 }
 
@@ -126,7 +127,7 @@ void ResultTable::means() {
     add("converged", {"step"}, "1", "number of realizations in the means", o_.force.count,
         comment(
             "all means (of levels, maps and distributions) exclude levels that did not converge (status 4); the mean of a quantity also excludes levels where it is missing"));
-    if (r_.force_control) {
+    if (r_.force_control()) {
         add_absent("separation_mean", {"step"}, unit(1), "mean separation over realizations", o_.separation.mean);
         add_absent("separation_std", {"step"}, unit(1), "standard deviation of the separation over realizations", o_.separation.deviation,
                    "divisor M - 1 for M realizations");

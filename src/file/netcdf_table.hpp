@@ -20,7 +20,7 @@ inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>
 class ResultTable {
 public:
     explicit ResultTable(const Result& result)
-        : r_(result), o_(result.observations), length_(result.length_unit), force_(result.force_unit) {}
+        : r_(result), o_(result.observations), length_(result.settings.run.length_unit), force_(result.settings.run.force_unit) {}
 
     // In the order in which ncdump prints them.
     NetcdfFile make(const std::string& history) {
@@ -57,7 +57,7 @@ private:
     bool components_ = false;  // the dimension of vectors is declared
     std::string units(const LevelQuantity& q) const {
         if (!q.unit) return unit(q.length_power, q.force_power);
-        return std::string(q.unit) == "time" ? r_.time_unit : q.unit;
+        return std::string(q.unit) == "time" ? r_.settings.run.time_unit : q.unit;
     }
     void means();
     void surfaces();

@@ -43,15 +43,8 @@ double typical_sqrt_m4(const Asperities& asperities) {
 Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma, std::optional<Moments> theory,
                    Observations observations) {
     Result result;
-    result.title = c.run.title;
+    result.settings = c;
     result.case_text = std::move(case_text);
-    result.length_unit = c.run.length_unit;
-    result.force_unit = c.run.force_unit;
-    result.time_unit = c.run.time_unit;
-    result.seed = c.run.seed;
-    result.force_control = c.indentation.control != Control::separation;
-    result.relaxes = relaxes(c);
-    result.path_dependent = result.relaxes || std::isfinite(c.solids.hardness) || c.solids.adhesion > 0;
     result.indenter = indenter;
     result.sigma = sigma > 0 ? sigma : kAbsent;
     result.theory = theory;
@@ -61,10 +54,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
 
 void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep) {
     PackedContacts packed;
-    if (keep == Contacts::none || keep == Contacts::automatic) {
-        result.contacts = packed;
-        return;
-    }
+    if (keep == Contacts::none || keep == Contacts::automatic) return;
     for (std::size_t s = 0; s < levels.size(); ++s) {
         const Level& level = levels[s];
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
@@ -82,7 +72,7 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         }
         packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
         packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
-        if (result.path_dependent) packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
+        if (result.path_dependent()) packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
     }
     result.contacts = std::move(packed);
 }

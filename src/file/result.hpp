@@ -1,19 +1,4 @@
 // The contents of a result file in memory: R realizations x S levels of one case.
-//
-// Steps from a case to a file:
-//
-//     check_output(c.output.file);                              // early: the file can be written, or Error(bad_input)
-//     const Contacts keep = contacts_kept(c);                   // likewise early: contacts to store
-//     ObserveOptions options = observe_options(c, domain, indenter, sigma, sqrt_m4);
-//     Accumulators sums(options, steps);
-//     for each realization k in order:                          // computed by any thread, added in order
-//         sums.add(observe(options, k, surface_statistics, asperities, levels, stiffness));
-//     Result result = make_result(c, case_text, indenter, sigma, theory, sums.finish());
-//     if there is one realization:
-//         keep_contacts(result, levels, keep);                  // before the asperities are moved in
-//         result.asperities = std::move(asperities);
-//         if (c.output.heights) result.heights = std::move(map);
-//     write_result(result, c.output.file, {c.output.format, c.output.compression, command});     // netcdf_writer.hpp
 #pragma once
 
 #include "case/case.hpp"
@@ -64,11 +49,8 @@ struct ComparedLevels {
 };
 
 struct Result {
-    std::string title, case_text, length_unit, force_unit, time_unit;
-    std::int64_t seed = 1;
-    bool path_dependent = false;  // levels depend on the levels before
-    bool relaxes = false;         // because body 1 relaxes
-    bool force_control = false;   // the separation of a level then differs between realizations
+    Case settings;
+    std::string case_text;
     Indenter indenter;
     double sigma = kAbsent;         // unit of length of separations
     std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
@@ -83,6 +65,11 @@ struct Result {
     Fields fields;                             // empty: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
     ComparedLevels compared;                   // empty: not written
+
+    // Levels depend on the levels before.
+    bool path_dependent() const { return relaxes(settings) || std::isfinite(settings.solids.hardness) || settings.solids.adhesion > 0; }
+    // The separation of a level differs between realizations.
+    bool force_control() const { return settings.indentation.control != Control::separation; }
 };
 
 // output%contacts, with `automatic` resolved: all for one realization, none for more.

@@ -191,11 +191,6 @@ std::optional<ResultHead> head_of_result(const std::string& path) {
     return head;
 }
 
-std::optional<std::string> case_in_result(const std::string& path) {
-    std::optional<ResultHead> head = head_of_result(path);
-    return head ? std::optional(std::move(head->case_text)) : std::nullopt;
-}
-
 const FileKind kResultFile{"result", [](const std::string& path) { return head_of_result(path).has_value(); }};
 
 bool check_output(const std::string& path, const std::vector<std::string>& inputs) {

@@ -70,8 +70,6 @@ struct ResultHead {
 };
 // None for any other file, or if there is no file.
 std::optional<ResultHead> head_of_result(const std::string& path);
-// The case alone.
-std::optional<std::string> case_in_result(const std::string& path);
 
 // Results and manifests, the files that head_of_result() recognises.
 extern const FileKind kResultFile;

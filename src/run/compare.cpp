@@ -149,7 +149,7 @@ bool compares(const Job& job, bool automatically) {
     if (c.compare.what == CompareWhat::none || !automatically || by_elements(c) || c.run.realizations > 1) return false;
     const bool possible = c.surface.source != Source::asperities && c.solver.interaction == Interaction::point &&
                           !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) && !relaxes(c) && !(c.solids.adhesion > 0);
-    if (!possible || (job.spectrum && !element_memory_suffices(c, *job.spectrum))) return false;
+    if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty())) return false;
     return !job.levels.empty() && comparison_seconds(job) < kAutoSeconds;
 }
 

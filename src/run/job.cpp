@@ -47,24 +47,12 @@ void require_maps(const Case& settings) {
 }
 
 // The sphere touches every map at the same position, so that all maps must have the same size; their origins do not matter.
-void move_to(const Domain& place, SurfaceModel& model, std::int64_t number) {
+void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
     constexpr double kSame = 1e-6;
-    const Domain& d = model.domain;
-    if (!(std::abs(d.Lx - place.Lx) <= kSame * place.Lx && std::abs(d.Ly - place.Ly) <= kSame * place.Ly))
-        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(d.Lx) + " x " + text_of(d.Ly) + ", the first is " +
-                  text_of(place.Lx) + " x " + text_of(place.Ly) + "; maps of one size are expected");
-    for (double& x : model.asperities.x) x += place.x0 - d.x0;
-    for (double& y : model.asperities.y) y += place.y0 - d.y0;
-    if (const double dx = place.x0 - d.x0, dy = place.y0 - d.y0; model.search && (dx != 0 || dy != 0))
-        model.search = [dx, dy, search = std::move(model.search)](Indenter indenter) {
-            indenter.x0 -= dx, indenter.y0 -= dy;
-            FoundSummits found = search(indenter);
-            for (double& x : found.summits.x) x += dx;
-            for (double& y : found.summits.y) y += dy;
-            found.shift_x += dx, found.shift_y += dy;
-            return found;
-        };
-    static_cast<Domain&>(model.domain) = place;
+    if (!(std::abs(map.Lx() - place.Lx) <= kSame * place.Lx && std::abs(map.Ly() - place.Ly) <= kSame * place.Ly))
+        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) + " x " + text_of(map.Ly()) +
+                  ", the first is " + text_of(place.Lx) + " x " + text_of(place.Ly) + "; maps of one size are expected");
+    map.x0 = place.x0, map.y0 = place.y0;
 }
 
 // The m2 for relative pressures, common to all realizations: that of the map or of the single synthetic surface, or the expectation
@@ -117,37 +105,23 @@ FieldsAsked fields_asked(const Case& settings) {
     return asked;
 }
 
-// The friction loops of the levels, by copies of the contact, whose path is not changed.
-class FrictionRows {
-public:
-    FrictionRows(const Friction& friction, std::unique_ptr<Contact> one, std::unique_ptr<Contact> other)
-        : friction_(friction), one_(std::move(one)), other_(std::move(other)), curve_(*one_, *other_) {}
-
-    // Adds the row of a level. False if a level did not converge meanwhile; the row must then not be used.
-    bool add(const Level& level, FrictionLoops& loops) {
-        constexpr int steps = 40;  // of first loading
-        const double delta = -level.separation;
-        const long failed = curve_.failed();
-        loops.points = slide_cycle_points(steps);
-        loops.first = steps + 1;
-        const bool touches = delta > curve_.first_touch();
-        SlideCycle cycle;
-        if (touches)
-            cycle = slide_cycle(curve_, friction_, delta, steps);
-        else
-            cycle.displacement = cycle.force = std::vector<double>(loops.points, kNotComputed);
-        loops.stiffness.push_back(touches ? -friction_.ratio * level.stiffness : kNotComputed);
-        loops.cycle_work.push_back(touches ? cycle.work : kNotComputed);
-        loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(), cycle.displacement.end());
-        loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
-        return curve_.failed() == failed;
-    }
-
-private:
-    Friction friction_;
-    std::unique_ptr<Contact> one_, other_;
-    ContactCurve curve_;
-};
+// Adds the friction loop of a level. `curve`: of copies of the contact, whose path is not changed.
+void add_friction(ContactCurve& curve, const Friction& friction, const Level& level, FrictionLoops& loops) {
+    constexpr int steps = 40;  // of first loading
+    const double delta = -level.separation;
+    loops.points = slide_cycle_points(steps);
+    loops.first = steps + 1;
+    const bool touches = delta > curve.first_touch();
+    SlideCycle cycle;
+    if (touches)
+        cycle = slide_cycle(curve, friction, delta, steps);
+    else
+        cycle.displacement = cycle.force = std::vector<double>(loops.points, kNotComputed);
+    loops.stiffness.push_back(touches ? -friction.ratio * level.stiffness : kNotComputed);
+    loops.cycle_work.push_back(touches ? cycle.work : kNotComputed);
+    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(), cycle.displacement.end());
+    loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
+}
 
 }  // namespace
 
@@ -158,7 +132,8 @@ Job prepare(const Case& settings) {
     double sqrt_m4;
     if (has_spectrum(settings)) {
         job.spectrum = spectrum_of(settings);
-        if (elements || settings.compare.listed()) require_element_memory(settings, *job.spectrum);
+        if (elements || settings.compare.listed())
+            if (const std::string why = too_large_for_elements(settings, *job.spectrum); !why.empty()) bad_input(why);
         job.domain = synthetic_domain(*job.spectrum);
         job.domain.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
         job.theory = theoretical_moments(*job.spectrum);
@@ -240,12 +215,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             r.statistics = job.given->statistics;
         } else {
             Surface surface = make_element_surface(settings, number, threads);
-            SurfaceModel model = make_bare_model(surface);
-            if (!job.spectrum) {  // one of several maps
-                move_to(job.domain, model, number);
-                surface.map.x0 = job.domain.x0, surface.map.y0 = job.domain.y0;
-            }
-            r.statistics = model.statistics;
+            if (!job.spectrum) move_to(job.domain, surface.map, number);  // one of several maps
+            r.statistics = make_bare_model(surface).statistics;
             r.heights = std::move(surface.map);
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
@@ -254,20 +225,27 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     } else {
         if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
             r.heights = make_surface(settings, *job.spectrum, number, threads).map;
-        SurfaceModel model = job.spectrum ? make_surface_model(settings, *job.spectrum, number, threads)
-                             : job.given  ? *job.given
-                                          : make_surface_model(settings, number, threads);
-        if (settings.surface.source == Source::heights) move_to(job.domain, model, number);
+        SurfaceModel model;
+        if (job.spectrum) {
+            model = make_surface_model(settings, *job.spectrum, number, threads);
+        } else if (job.given) {
+            model = *job.given;
+        } else {  // one of several maps
+            Surface surface = make_surface(settings, number, threads);
+            move_to(job.domain, surface.map, number);
+            model = make_surface_model(surface, settings, threads);
+        }
         r.asperities = std::move(model.asperities);
         r.statistics = model.statistics;
         search = model.search;
         solver.rms_slope = model.domain.rms_slope;
         contact = make_asperity_contact(r.asperities, job.indenter, solver, search);
     }
-    std::optional<FrictionRows> friction;
+    std::unique_ptr<Contact> slid[2];  // with friction
+    std::optional<ContactCurve> curve;
     if (settings.solids.friction > 0) {
-        const auto another = [&] { return std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search); };
-        friction.emplace(Friction{settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, another(), another());
+        for (auto& copy : slid) copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
+        curve.emplace(*slid[0], *slid[1]);
     }
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
@@ -286,7 +264,11 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (job.measured && job.given) judge_filled(level, *job.measured, job.domain);
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);
-        if (friction && !friction->add(level, r.friction)) level.status = LevelStatus::not_converged;
+        if (curve) {
+            const long failed = curve->failed();
+            add_friction(*curve, {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, level, r.friction);
+            if (curve->failed() > failed) level.status = LevelStatus::not_converged;
+        }
         if (std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end())
             fields.push_back({static_cast<std::int32_t>(k), &level, contact->residual_profile()});
         if (on_level && !on_level(k, r.levels.back())) break;
@@ -298,7 +280,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
                              fields_asked(settings));
     if (const Asperities* touched = contact->asperities(); touched && touched != &r.asperities) {
         Asperities used = *touched;
-        contact.reset(), friction.reset();
+        curve.reset(), contact.reset();
+        for (auto& copy : slid) copy.reset();
         r.asperities = std::move(used);
     }
     contact.reset();

@@ -37,8 +37,12 @@ void count_summits(const SummitCount& count, SurfaceStatistics& s) {
     s.saddles = count.saddles + count.repeated;
 }
 
-// Skewness and kurtosis are stored only for heights that are not Gaussian.
-void made_heights(const Moments& sampled, SurfaceStatistics& s) {
+// Of a synthetic surface, from its modes. Skewness and kurtosis are stored only for heights that are not Gaussian.
+void set_sampled(const Moments& sampled, SurfaceStatistics& s) {
+    s.sigma = std::sqrt(sampled.m0);
+    s.m2 = sampled.m2;
+    s.m4 = sampled.m4;
+    s.tensor = sampled.tensor;
     if (sampled.heights.skewness == 0 && sampled.heights.kurtosis == 3) return;
     s.skewness = sampled.heights.skewness, s.kurtosis = sampled.heights.kurtosis;
 }
@@ -88,14 +92,14 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
     surface.map = read_heights(path, L, settings.run.length_unit, channel, part ? Missing::fill : keys.missing,
                                for_other ? TextMap{} : TextMap{keys.height_unit, keys.pixel});
     if (part) surface.map = part_of(surface.map, keys.window, path);
-    surface.origin.name = path;
+    surface.name = path;
     try {
-        surface.origin.measured =
+        surface.measured =
             std::make_shared<const Measured>(measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
     } catch (const Error& error) {
         throw Error(error.kind(), path + ": " + error.what());
     }
-    surface.origin.sigma = surface.origin.measured->parameters.sq;
+    surface.sigma = surface.measured->parameters.sq;
     return surface;
 }
 
@@ -142,11 +146,11 @@ bool has_spectrum(const Case& settings) {
 Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
     const auto& keys = settings.surface;
     Surface surface;
-    surface.origin.sigma = spectrum.sigma;
-    surface.origin.points_per_wave = keys.n / shortest_wave(spectrum);
-    surface.origin.theory = theoretical_moments(spectrum);
-    surface.origin.sampled.emplace();
-    surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, &*surface.origin.sampled, threads);
+    surface.sigma = spectrum.sigma;
+    surface.points_per_wave = keys.n / shortest_wave(spectrum);
+    surface.theory = theoretical_moments(spectrum);
+    surface.sampled.emplace();
+    surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, &*surface.sampled, threads);
     return surface;
 }
 
@@ -164,43 +168,29 @@ int element_points(const Case& settings, const Spectrum& spectrum) {
     return fast_size(settings.elements.points_per_wave * shortest_wave(spectrum));
 }
 
-void require_element_memory(const Case& settings, const Spectrum& spectrum) {
-    const double wanted = settings.elements.points_per_wave * shortest_wave(spectrum);
+std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum) {
+    const double points_per_wave = settings.elements.points_per_wave, wanted = points_per_wave * shortest_wave(spectrum);
     constexpr double most = 32768;
-    char text[300];
-    if (wanted > most) {
-        std::snprintf(text, sizeof text, "&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is %.0f",
-                      settings.elements.points_per_wave, wanted, most);
-        bad_input(text);
-    }
+    if (wanted > most)
+        return format("&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is %.0f", points_per_wave, wanted,
+                      most);
     const int n = element_points(settings, spectrum);
     // Memory for two flats: heights, the pressures on some pixels, transforms in single and double precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
     const double bytes = (periodic ? 28.0 : 8.0) * n * n,
                  memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
-    if (!(memory > 0) || beside * bytes <= memory) return;
-    std::snprintf(text, sizeof text,
-                  "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has %.3g GB of memory; use "
-                  "fewer points per wave or a smaller surface%%L_lambda_s",
-                  settings.elements.points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes,
-                  1e-9 * memory);
-    bad_input(text);
-}
-
-bool element_memory_suffices(const Case& settings, const Spectrum& spectrum) {
-    try {
-        require_element_memory(settings, spectrum);
-    } catch (const Error&) {
-        return false;
-    }
-    return true;
+    if (!(memory > 0) || beside * bytes <= memory) return {};
+    return format(
+        "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has %.3g GB of memory; use fewer points per wave "
+        "or a smaller surface%%L_lambda_s",
+        points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes, 1e-9 * memory);
 }
 
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads) {
     if (!has_spectrum(settings)) return make_surface(settings, number, threads);
     const Spectrum spectrum = spectrum_of(settings);
-    require_element_memory(settings, spectrum);
+    if (const std::string why = too_large_for_elements(settings, spectrum); !why.empty()) bad_input(why);
     Case finer = settings;
     finer.surface.n = element_points(settings, spectrum);
     return make_surface(finer, spectrum, number, threads);
@@ -247,30 +237,29 @@ std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& bre
 
 SurfaceModel make_surface_model(const Surface& surface, const Case& settings, int threads) {
     const HeightMap& map = surface.map;
-    SurfaceModel model;
+    SurfaceModel model = make_bare_model(surface);
     if (by_elements(settings)) {
-        model = make_bare_model(surface);
         model.points = std::make_shared<HeightMap>(map.copy());
         return model;
     }
     SummitCount count;
-    const auto& measured = surface.origin.measured;
+    const auto& measured = surface.measured;
     // Rounded heights have plateaus, so that summits are found on a smoothed surface.
-    const double step = surface.origin.theory ? 0 : measured ? measured->height_step : height_step(map);
+    const double step = surface.theory ? 0 : measured ? measured->height_step : height_step(map);
     auto breaks = std::make_shared<Breaks>();
-    if (!surface.origin.theory) *breaks = measured ? measured->breaks : find_breaks(map, step);
+    if (!surface.theory) *breaks = measured ? measured->breaks : find_breaks(map, step);
     auto seen = std::make_shared<HeightMap>();
     if (step > 0 || !breaks->pits.empty() || detail_of(settings) == Detail::subgrid) *seen = map.copy();
     if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
     if (step > 0) smooth_rounded(*seen, step);
     model.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
-                                       surface.origin.points_per_wave, nullptr, breaks.get());
+                                       surface.points_per_wave, nullptr, breaks.get());
     if (measured) {
         drop_near_filled(model.asperities, count, map, measured->filled, measured->shortest_wave);
     }
     if (detail_of(settings) == Detail::subgrid)
         model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
-                        waves = surface.origin.points_per_wave, measured, breaks](const Indenter& indenter) {
+                        waves = surface.points_per_wave, measured, breaks](const Indenter& indenter) {
             const Face face(indenter);
             SummitCount unused;
             FoundSummits found{{}, kept, waves, 0, 0, threads};
@@ -278,12 +267,8 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
             if (measured) drop_near_filled(found.summits, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
         };
-    require_summits(model, surface.origin.name, map.periodic ? "" : " inside the map");
-    const SurfaceModel bare = make_bare_model(surface);
-    model.domain = bare.domain;
-    model.statistics = bare.statistics;
-    model.measured = bare.measured;
-    if (!surface.origin.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
+    require_summits(model, surface.name, map.periodic ? "" : " inside the map");
+    if (!surface.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
     if (!map.periodic) model.domain.marks = marks_of(map, *breaks);
     count_summits(count, model.statistics);
     return model;
@@ -292,27 +277,21 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
 SurfaceModel make_bare_model(const Surface& surface) {
     const HeightMap& map = surface.map;
     SurfaceModel model;
-    model.measured = surface.origin.measured;
+    model.measured = surface.measured;
     model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
-    model.domain.measured = !surface.origin.theory;
-    if (!surface.origin.theory) model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
+    model.domain.measured = !surface.theory;
+    if (!surface.theory) model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
     model.domain.repeats = map.periodic;
-    model.domain.sigma = surface.origin.sigma;
-    model.domain.points_per_wave = model.measured ? model.measured->points_per_wave() : surface.origin.points_per_wave;
-    if (surface.origin.theory) model.domain.mean_spacing = surface.origin.theory->mean_spacing();
+    model.domain.sigma = surface.sigma;
+    model.domain.points_per_wave = model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
+    if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
     const Moments grid = grid_moments(map);
-    s.sigma = surface.origin.sigma;
+    s.sigma = surface.sigma;
     s.m2 = s.m2_grid = grid.m2;
     s.m4 = s.m4_grid = grid.m4;
     s.tensor = grid.tensor;
-    if (surface.origin.sampled) {
-        s.sigma = std::sqrt(surface.origin.sampled->m0);
-        s.m2 = surface.origin.sampled->m2;
-        s.m4 = surface.origin.sampled->m4;
-        s.tensor = surface.origin.sampled->tensor;
-        made_heights(*surface.origin.sampled, s);
-    }
+    if (surface.sampled) set_sampled(*surface.sampled, s);
     model.domain.rms_slope = std::sqrt(2 * s.m2);
     return model;
 }
@@ -328,11 +307,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
                                        &sampled, threads, detail_of(settings), &differences);
     require_summits(model, "the surface", "");
     auto& s = model.statistics;
-    s.sigma = std::sqrt(sampled.m0);
-    s.m2 = sampled.m2;
-    s.m4 = sampled.m4;
-    s.tensor = sampled.tensor;
-    made_heights(sampled, s);
+    set_sampled(sampled, s);
     s.m2_grid = differences.m2;
     s.m4_grid = differences.m4;
     count_summits(count, s);
@@ -384,7 +359,7 @@ Shape shape_of(const Case& settings) {
     made.rim_radius = keys.rim_radius;
     if (!keys.file.empty()) {
         Surface second = read_map(settings, keys.file, std::nullopt, keys.channel);
-        made.told = report(*second.origin.measured, settings.run.length_unit);
+        made.told = report(*second.measured, settings.run.length_unit);
         auto map = std::make_shared<HeightMap>(std::move(second.map));
         map->periodic = settings.indentation.boundary == Boundary::periodic;
         made.map = std::move(map);

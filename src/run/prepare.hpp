@@ -18,19 +18,14 @@ bool has_spectrum(const Case& settings);
 // True if every realization has its own surface: synthesized, or read from several files.
 bool differs_by_realization(const Case& settings);
 
-// Properties of a surface other than its heights.
-struct Origin {
+struct Surface {
+    HeightMap map;
     double sigma = 0;                          // rms height: that of the case, or after detrending [length]
     double points_per_wave = 0;                // grid steps in the shortest wavelength of a synthetic surface; 0: not known
     std::optional<Moments> theory;             // of a synthetic surface: moments of its spectrum
     std::optional<Moments> sampled;            // of a synthetic surface: moments of its modes
     std::string name = "the surface";          // for messages
     std::shared_ptr<const Measured> measured;  // preparation of a measured map; null for others
-};
-
-struct Surface {
-    HeightMap map;
-    Origin origin;
 };
 
 // Realization `number` of the surface. A measured surface is the same for every number, unless surface%file is a pattern: then it is the
@@ -41,9 +36,8 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
 // Points along a side of the element grid of a synthetic surface: elements%points_per_wave in the shortest wavelength, or slightly more.
 int element_points(const Case& settings, const Spectrum& spectrum);
 
-// Throws Error(bad_input) if that grid is larger than allowed or does not fit into memory.
-void require_element_memory(const Case& settings, const Spectrum& spectrum);
-bool element_memory_suffices(const Case& settings, const Spectrum& spectrum);
+// Why that grid cannot be used: it is larger than allowed, or does not fit into memory. Empty if it can.
+std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum);
 
 // Realization `number` of the surface on the element grid; a measured map keeps its own grid.
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads);

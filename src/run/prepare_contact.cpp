@@ -4,6 +4,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "run/prepare.hpp"
 
 namespace rsc {
@@ -29,18 +30,13 @@ LayeredBody layers_in(const Case::Solids& solids) {
 void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x, double y) {
     const Domain& d = domain;
     const double beyond = domain.guessed ? shape->reach() : 0;
-    const auto text = [](double v) {
-        char buffer[40];
-        std::snprintf(buffer, sizeof buffer, "%.9g", v);
-        return std::string(buffer);
-    };
     const auto within = [&](double v, double first, double length) {
         const double rounding = 1e-12 * (std::abs(first) + length);
         return usable(v) && v >= first - beyond - rounding && v <= first + length + beyond + rounding;
     };
     if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
-    bad_input("the tip at x = " + text(x) + ", y = " + text(y) + " is not above the surface, which reaches from x = " + text(d.x0) +
-              " to " + text(d.x0 + d.Lx) + " and from y = " + text(d.y0) + " to " + text(d.y0 + d.Ly) +
+    bad_input("the tip at x = " + text_of(x) + ", y = " + text_of(y) + " is not above the surface, which reaches from x = " +
+              text_of(d.x0) + " to " + text_of(d.x0 + d.Lx) + " and from y = " + text_of(d.y0) + " to " + text_of(d.y0 + d.Ly) +
               (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
 }
 

@@ -37,20 +37,15 @@ namespace {
 
 void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, std::span<const LevelValues> levels, double seconds,
                const std::string& file, bool replaces, const std::string& twins) {
-    const char* l = job.settings.run.length_unit.c_str();
-    char line[600];
     out << '\n';
     if (by_elements(job.settings))
-        std::snprintf(line, sizeof line, "elements, %zu levels in %s\n", levels.size(), duration(seconds).c_str());
+        out << "elements, ";
     else
-        std::snprintf(line, sizeof line, "%lld asperities (%lld saddles excluded), %zu levels in %s\n", static_cast<long long>(s.summits),
-                      static_cast<long long>(s.saddles), levels.size(), duration(seconds).c_str());
-    out << line;
-    if (s.m2 > 0) {
-        const double slope = std::sqrt(2 * s.m2);
-        std::snprintf(line, sizeof line, "surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, l, slope, slope_remark(slope));
-        out << line;
-    }
+        out << s.summits << " asperities (" << s.saddles << " saddles excluded), ";
+    out << levels.size() << " levels in " << duration(seconds) << '\n';
+    if (const double slope = std::sqrt(2 * s.m2); slope > 0)
+        out << format("surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, job.settings.run.length_unit.c_str(), slope,
+                      slope_remark(slope));
     print_remarks(out, levels, job);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);

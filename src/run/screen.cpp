@@ -45,6 +45,9 @@ std::string status_text(LevelStatus status) {
     return text;
 }
 
+namespace {
+
+// The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job) {
     const auto& run = job.settings.run;
     const char* l = run.length_unit.c_str();
@@ -99,6 +102,8 @@ void print_second(std::ostream& out, const Job& job) {
     if (dx > 0) out << format("; the spacing of body 1 is %g x %g %s", dx, dy, l);
     out << (dx > 1.000001 * map.dx || dy > 1.000001 * map.dy ? ", which is coarser, so that details of body 2 are missed\n" : "\n");
 }
+
+}  // namespace
 
 // The columns after the first three are quantities of observe/quantities.hpp.
 void print_heading(std::ostream& out, const Job& job) {

@@ -12,13 +12,7 @@ std::string status_text(LevelStatus status);
 std::string name_of(Method method);
 const char* fallback_text(Fallback fallback);  // why another method solved the level than the one asked for; empty: none
 
-// The title, the bodies, and the theoretical properties of the surface.
-void print_case(std::ostream& out, const Job& job);
-
-// The treatment of a measured map, if there is one.
-void print_measured(std::ostream& out, const Job& job);
-
-// print_case, print_measured and the column heads; then one line for each level.
+// The title, the bodies, the theoretical properties or the treatment of the surface, and the column heads; then one line for each level.
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 

@@ -7,6 +7,7 @@
 #include "file/netcdf_writer.hpp"
 #include "file/result.hpp"
 #include "file/whole_file.hpp"
+#include "format.hpp"
 #include "run/campaign.hpp"
 #include "run/checkpoint.hpp"
 #include "run/forecast.hpp"
@@ -111,9 +112,6 @@ void check_manifest(const std::string& output_file, const std::vector<std::strin
 
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command) {
     const std::string path = manifest_file(read.settings.output.file);
-    std::error_code ignored;
-    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
-
     const Case base = without_idle_keys(read.settings);
     NetcdfFile file;
     file.attribute("Conventions", "CF-1.10");
@@ -138,7 +136,8 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
     file.write(path, read.settings.output.format, read.settings.output.compression);
 }
 
-std::string member_name(const Member& member) {
+// "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
+static std::string member_name(const Member& member) {
     if (member.values.empty()) return {};
     std::string text = "member " + std::to_string(member.index) + " (";
     for (std::size_t k = 0; k < member.values.size(); ++k)
@@ -268,11 +267,10 @@ private:
 
     void tell(const Member& member, const RunSummary& summary) {
         if (table_) {
-            char line[200];
-            const auto& run = member.settings.run;
-            std::snprintf(line, sizeof line, ": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, run.force_unit.c_str(),
-                          summary.area, run.length_unit.c_str(), summary.separation, run.length_unit.c_str());
-            *table_ << member_name(member) << line << member.settings.output.file << std::endl;
+            const char *l = member.settings.run.length_unit.c_str(), *f = member.settings.run.force_unit.c_str();
+            *table_ << member_name(member)
+                    << format(": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, f, summary.area, l, summary.separation, l)
+                    << member.settings.output.file << std::endl;
         }
         if (summary.failed > 0 && options_.messages) *options_.messages << "rsc: " << member_name(member) << ":\n";
         tell_failed(options_, summary);

@@ -16,9 +16,6 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
 // "1  output/rsc_001.nc  surface%sigma=0.001 surface%L_lambda_s=256", one line for each member.
 std::string list_members(const std::vector<Member>& members);
 
-// "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
-std::string member_name(const Member& member);
-
 // The members of the study, or the case as its only one. Throws Error(bad_input) with the names of invalid members.
 std::vector<Member> members_of(const ReadCase& read);
 

@@ -33,7 +33,7 @@ Surface measured(const HeightMap& map) {
     surface.map.allocate(map.nx, map.ny, map.nx);
     surface.map.dx = map.dx, surface.map.dy = map.dy;
     for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, surface.map.row(j));
-    surface.origin.sigma = 1e-3;
+    surface.sigma = 1e-3;
     return surface;
 }
 

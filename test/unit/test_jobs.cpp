@@ -197,7 +197,7 @@ void pressures() {
         c.indentation.boundary = Boundary::periodic, c.indentation.control = Control::pressure;
         c.indentation.unit = LevelUnit::relative, c.indentation.levels = {0.01};
         const Job job = prepare(c);
-        const double m2 = make_surface(c, 1, 1).origin.sampled->m2;
+        const double m2 = make_surface(c, 1, 1).sampled->m2;
         CHECK_RELATIVE(job.levels[0], 0.01 * job.indenter.E_star * std::sqrt(2 * m2) * 3 * 3, kRounding);
     }
 }
