@@ -19,7 +19,7 @@ double AdhesivePath::clearance_at(int i, double share) {
 void AdhesivePath::set_gaps(double Z) {
     if (!motion) {
         for (std::size_t k = 0; k < clearance.size(); ++k) set.g0[k] = clearance[k] - Z;
-        return;
+        return hold_gaps();
     }
     constexpr double apart = 1e-4;  // share of the way for differences
     const double share = Z / motion->length;
@@ -28,6 +28,11 @@ void AdhesivePath::set_gaps(double Z) {
         rate[k] = (clearance_at(i, share + apart) - clearance_at(i, share - apart)) / (2 * apart * motion->length);
         set.g0[k] = clearance_at(i, share) - motion->Z0;
     }
+    hold_gaps();
+}
+
+void AdhesivePath::hold_gaps() {
+    for (const Held& held : held_before) set.g0[at(place[at(held.asperity)])] -= held.residual;
 }
 
 void AdhesivePath::set_power(Point& point) const {

@@ -12,7 +12,7 @@ constexpr double kTouching = 1e-8, kFold = 1e-4, kShortest = 1e-9;
 // Distance from touching, relative to the difference of the penetrations at attachment and detachment, from which a free asperity attaches
 // within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
-constexpr double kOnTheWay = 1e-7;                      // residual of states between levels
+constexpr double kOnTheWay = 1e-5, kInJump = 1e-8;      // residual of states between levels, and after a jump
 constexpr double kRates = 1e-6, kRatesOnTheWay = 1e-4;  // accuracy of derivatives
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
 // (far and near).
@@ -68,7 +68,9 @@ void AdhesivePath::cover(double lowest) {
     }
     sticking.prepare(fresh);
     for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
-    for (int i : attached)
+    std::vector<int> kept = attached;
+    for (const Held& held : held_before) kept.push_back(held.asperity);
+    for (int i : kept)
         if (place[at(i)] < 0) add(i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
     set.g0.resize(clearance.size()), rate.assign(clearance.size(), -1.0);
     choose_products();
@@ -95,19 +97,23 @@ void AdhesivePath::attach(const std::vector<int>& attached, const Vector& s) {
 }
 
 // Finds the equilibrium of the attached asperities at Z near s.
-bool AdhesivePath::find(double Z, Vector s, Point& point, double accuracy) {
+bool AdhesivePath::find(double Z, Vector s, Point& point, double accuracy, int least) {
     ++steps;
     set_gaps(Z);
-    if (!solver.solve(set, std::max(goal, accuracy), accuracy == 0, s)) return false;
+    if (!solver.solve(set, std::max(goal, accuracy), accuracy == 0, s, least)) return false;
     point.exact = accuracy == 0;
     point.Z = Z;
     point.s = std::move(s);
+    read_solution(point);
+    return true;
+}
+
+void AdhesivePath::read_solution(Point& point) {
     point.states = solver.states();
     set_power(point);
     point.force = solver.force(), point.energy = solver.energy(), point.residual = solver.residual();
     point.u.clear();
     for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)] - sticking.touches());
-    return true;
 }
 
 // Required margin: twice the largest height by which the forces of the last state raise any asperity, or 0 if the present margin is
@@ -137,7 +143,7 @@ bool AdhesivePath::settle(double Z, Vector s) {
     const std::size_t most = 100 + 4 * clearance.size();
     bool stalled = false;
     for (std::size_t k = 0; k < most; ++k) {
-        if (!find(Z, s, here)) {
+        if (!find(Z, s, here, kInJump, 1)) {
             std::size_t weakest = solver.weakest();
             Vector calm = s;
             const auto relaxed = stalled ? std::nullopt : solver.relax(set, goal, calm);
@@ -147,14 +153,13 @@ bool AdhesivePath::settle(double Z, Vector s) {
                 if (!relaxed->gone) continue;
                 weakest = *relaxed->gone;
             }
-            active.erase(active.begin() + static_cast<std::ptrdiff_t>(weakest));
-            s.erase(s.begin() + static_cast<std::ptrdiff_t>(weakest));
-            products->set_active(active);
+            detach(weakest, s);
             continue;
         }
         if (const double more = raised(); more > margin) {
+            const double lowest = std::min(Z, covered + margin);
             margin = more;
-            cover(Z);
+            cover(lowest);
             s = here.s;
             continue;
         }
@@ -169,37 +174,96 @@ bool AdhesivePath::settle(double Z, Vector s) {
             complete(here);
             return true;
         }
-        const auto before = std::lower_bound(active.begin(), active.end(), touching) - active.begin();
-        active.insert(active.begin() + before, touching);
-        s.insert(s.begin() + before, sticking.state_at(set.asperity[at(touching)], sticking.touches() + deepest * scale(touching)));
-        products->set_active(active);
+        attach_at(touching, sticking.touches() + deepest * scale(touching), s);
     }
     return false;
 }
 
-// Improves the state before a jump, known to be stable: the dissipated energy is a small difference of large energies.
-void AdhesivePath::sharpen() {
-    if (here.exact) return;
+// Remembers the state before a jump. Until the end of the jump the gaps are changed by its residuals, so that it is an exact equilibrium.
+void AdhesivePath::hold() {
     set_gaps(here.Z);
-    solver.sharpen(set, goal, here.s);
-    set_power(here);
-    here.force = solver.force(), here.energy = solver.energy(), here.exact = true;
+    solver.rest_on(set, 0.1 * kInJump, here.s);
+    read_solution(here);
+    held_before.clear(), free_before.resize(asperities.size());
+    for (std::size_t k = 0; k < active.size(); ++k)
+        held_before.push_back({set.asperity[at(active[k])], here.states[k], solver.residuals()[k]});
+    for (std::size_t p = 0; p < here.u.size(); ++p)
+        free_before[at(set.asperity[at(products->passive()[p])])] = here.u[p] + sticking.touches();
 }
 
-// From the energy before the jump, which takes place at Z + ahead and is computed at Z.
-void AdhesivePath::jump(double Z, double energy_before, Vector s, double ahead) {
-    if (!settle(Z, std::move(s))) lost_way = true;
-    ++jumps;
-    now.lost += energy_before - (here.energy - ahead * here.power);
-    now.least_force = std::min(now.least_force, here.force);
+// Energy after a jump minus energy before it at the same separation. Because B is symmetric and the penetrations change by -B times the change
+// of the forces, this is the sum over all asperities of the change of their own energy minus (f + f')/2 times the change of u. It is of
+// third order for those that stay attached, so that no small difference of large energies is formed. The terms with residuals make
+// errors of the state after the jump of second order.
+double AdhesivePath::energy_gained() const {
+    constexpr double small = 1e-3, far_from_detachment = 0.1;
+    std::vector<const Held*> was(clearance.size(), nullptr);
+    for (const Held& held : held_before) was[at(place[at(held.asperity)])] = &held;
+    double sum = 0;
+    for (std::size_t k = 0; k < active.size(); ++k) {
+        const Sticking::State& now = here.states[k];
+        const Held* held = std::exchange(was[at(active[k])], nullptr);
+        const double residual = solver.residuals()[k];
+        if (!held) {
+            const double change = now.u - free_before[at(set.asperity[at(active[k])])];
+            sum += now.energy + 0.5 * now.f * (residual - change);
+            continue;
+        }
+        const Sticking::State& old = held->state;
+        const double change = now.u - old.u;
+        if (std::min(now.du, old.du) > far_from_detachment && std::abs(now.f - old.f) < small * std::abs(now.f))  // Euler and Maclaurin
+            sum -= (now.df / now.du - old.df / old.du) * change * change / 12;
+        else
+            sum += now.energy - old.energy - 0.5 * (now.f + old.f) * change;
+        sum += 0.5 * (now.f - old.f) * residual;
+    }
+    for (std::size_t p = 0; p < here.u.size(); ++p)
+        if (const Held* held = was[at(products->passive()[p])]) {
+            const double change = here.u[p] + sticking.touches() - held->state.u;
+            sum -= held->state.energy + 0.5 * held->state.f * change;
+        }
+    return sum;
 }
 
-void AdhesivePath::let_go(std::size_t weakest, double Z, double energy_before) {
+void AdhesivePath::attach_one(int position, double ahead) {
+    hold();
     Vector s = here.s;
-    active.erase(active.begin() + static_cast<std::ptrdiff_t>(weakest));
-    s.erase(s.begin() + static_cast<std::ptrdiff_t>(weakest));
+    attach_at(position, sticking.touches(), s);
+    jump(std::move(s), ahead, 1);
+}
+
+// `ahead`: distance to the point of detachment, before which the power changes like the root of the distance.
+void AdhesivePath::let_go(std::size_t weakest, double ahead) {
+    hold();
+    Vector s = here.s;
+    detach(weakest, s);
+    jump(std::move(s), ahead, 4.0 / 3);
+}
+
+void AdhesivePath::attach_at(int position, double u, Vector& s) {
+    const auto k = std::lower_bound(active.begin(), active.end(), position) - active.begin();
+    active.insert(active.begin() + k, position);
+    s.insert(s.begin() + k, sticking.state_at(set.asperity[at(position)], u));
     products->set_active(active);
-    jump(Z, energy_before, std::move(s));
+}
+
+void AdhesivePath::detach(std::size_t k, Vector& s) {
+    solver.release(k);
+    active.erase(active.begin() + static_cast<std::ptrdiff_t>(k));
+    s.erase(s.begin() + static_cast<std::ptrdiff_t>(k));
+    products->set_active(active);
+}
+
+// From hold() to the equilibrium of the attached asperities near s. The jump takes place at Z + ahead, where the energy before it is
+// W - power ahead - bend/2 change.power ahead^2, and is computed at Z.
+void AdhesivePath::jump(Vector s, double ahead, double bend) {
+    const double power = here.power, rate_of_power = bend * here.change.power;
+    now.least_force = std::min(now.least_force, here.force);
+    if (!settle(here.Z, std::move(s))) lost_way = true;
+    ++jumps;
+    now.lost += ahead * (here.power - power + 0.5 * ahead * (here.change.power - rate_of_power)) - energy_gained();
+    now.least_force = std::min(now.least_force, here.force);
+    held_before.clear();
 }
 
 // Restores the accepted state. Returns false if nothing is attached and nothing touches before the target.
@@ -265,13 +329,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             step = std::min(step, -2 * here.u[p] / (rate + std::sqrt(std::max(rate * rate - 2 * bend * here.u[p], 0.0))));
         }
         if (touching) {
-            sharpen();
-            Vector s = here.s;
-            const auto k = std::lower_bound(active.begin(), active.end(), *touching) - active.begin();
-            active.insert(active.begin() + k, *touching);
-            s.insert(s.begin() + k, sticking.state_at(set.asperity[at(*touching)], sticking.touches()));
-            products->set_active(active);
-            jump(here.Z, here.energy - ahead * here.power, std::move(s), ahead);
+            attach_one(*touching, ahead);
             known = false, shorter = 1;
             continue;
         }
@@ -309,11 +367,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             step = std::min(step, std::max(std::min(kOwnWay * own, share * left), most * end));
         }
         if (way <= step) {
-            sharpen();
-            const double Z = here.Z + direction * way;
-            const double energy_there = here.energy - direction * here.power * way - 2.0 / 3 * here.change.power * way * way;
-            now.least_force = std::min(now.least_force, here.force);
-            let_go(weakest, Z, energy_there);
+            let_go(weakest, direction * way);
             known = false, shorter = 1;
             continue;
         }
@@ -335,8 +389,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             // The same asperities attach again and detach again where stability cannot be decided, because contacts overlap.
             if (std::abs(here.Z - unstable_at) > kShortest * smallest) unstable_at = here.Z, left_there = 0;
             if (++left_there > 10 + static_cast<long>(active.size())) return lost_way = true;
-            sharpen();
-            let_go(fastest, here.Z, here.energy);
+            let_go(fastest, 0);
             known = false, shorter = 1;
             continue;
         }
@@ -419,6 +472,9 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         here = std::move(there);
         known = true;
     }
+    if (here.exact) return true;
+    if (!find(target, here.s, here)) return lost_way = true;
+    complete(here);
     return true;
 }
 

@@ -69,22 +69,37 @@ struct AdhesivePath : ContactBodies {
     };
     Point here;
 
+    // The state before a jump: the attached asperities, and the penetrations of the others by asperity.
+    struct Held {
+        int asperity;
+        Sticking::State state;
+        double residual;
+    };
+    std::vector<Held> held_before;
+    Vector free_before;
+
     // As AdhesiveContact.
     AdhesivePath(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_);
 
     void cover(double lowest);
     void choose_products();
     void attach(const std::vector<int>& attached, const Vector& s);
-    bool find(double Z, Vector s, Point& point, double accuracy = 0);
+    bool find(double Z, Vector s, Point& point, double accuracy = 0, int least = 0);
     void complete(Point& point);
     double raised() const;
-    void sharpen();
+    void read_solution(Point& point);
+    void hold();
+    double energy_gained() const;
     bool settle(double Z, Vector s);
-    void jump(double Z, double energy_before, Vector s, double ahead = 0);
-    void let_go(std::size_t weakest, double Z, double energy_before);
+    void attach_one(int position, double ahead);
+    void let_go(std::size_t weakest, double ahead);
+    void jump(Vector s, double ahead, double bend);
+    void attach_at(int position, double u, Vector& s);
+    void detach(std::size_t k, Vector& s);
     bool go(double target, std::optional<double> wanted);
     bool begin(double target);
     void set_gaps(double Z);
+    void hold_gaps();
     void set_power(Point& point) const;
     double clearance_at(int asperity, double share);  // with the tip at this share of its way
     bool move(double x0, double y0);

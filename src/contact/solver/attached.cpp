@@ -59,9 +59,9 @@ double AttachedSolver::miss(const WorkingSet& set, const Vector& res) const {
         const auto i = static_cast<std::size_t>(products_->active()[k]);
         const Sticking::State& now = state_[k];
         const double error = now.stiffness * res[k], gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
-        const double size = std::hypot(now.stiffness * law_.lets_go(set.asperity[i]), now.f);
-        error2 += error * error, size2 += size * size;
-        own = std::max(own, std::abs(error) / (size + kRounding * now.stiffness * gap));
+        const double weak = now.stiffness * law_.lets_go(set.asperity[i]), size = weak * weak + now.f * now.f;
+        error2 += error * error, size2 += size;
+        own = std::max(own, std::abs(error) / (std::sqrt(size) + kRounding * now.stiffness * gap));
     }
     return res.empty() ? 0.0 : std::max(std::sqrt(error2 / size2), kOwn * own);
 }
@@ -87,6 +87,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full)
         reference_ = active, f_reference_ = f_;
         phi_reference_.assign(static_cast<std::size_t>(set.size()), 0.0);
         if (n > 0) products_->full(f_.data(), phi_reference_.data());
+        noise_reference_ = 0;
     } else {
         for (std::size_t k = 0; k < n; ++k) df_[k] = f_[k] - f_reference_[k];
         products_->inner(df_.data(), out_.data());
@@ -111,7 +112,7 @@ void AttachedSolver::balance(const WorkingSet& set) {
         energy_ += now.energy + now.f * (0.5 * phi_[i] + res_[k]);  // an error of second order in the residual
         out_[k] = products_->inner_error() * (2 * std::abs(out_[k]) + share * std::abs(phi_[i]));
     }
-    residual_ = miss(set, res_), noise_ = miss(set, out_);
+    residual_ = miss(set, res_), noise_ = noise_reference_ + miss(set, out_);
     weigh(0);
 }
 
@@ -238,34 +239,44 @@ void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
     }
 }
 
-void AttachedSolver::sharpen(const WorkingSet& set, double tolerance, Vector& s) {
+void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s) {
     evaluate(set, s, false);
-    for (int k = 0; k < 2 && residual_ > tolerance; ++k) {
-        step(set, 1e-3, s);
-        evaluate(set, s, false);
-    }
-    if (state_.empty() || noise_ == 0) return;
-    products_->set_precise(true);
-    products_->inner(f_.data(), out_.data());
-    products_->set_precise(false);
-    for (std::size_t k = 0; k < state_.size(); ++k) phi_[static_cast<std::size_t>(products_->active()[k])] = std::exchange(out_[k], 0.0);
-    balance(set);
+    if (noise_ > noise) return evaluate(set, s, true);
+    add_passive();
+    const double shift = products_->kernel().shift() * force_;
+    reference_ = products_->active(), f_reference_ = f_, phi_reference_ = phi_, noise_reference_ = noise_;
+    for (double& phi : phi_reference_) phi += shift;
 }
 
-bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s) {
+void AttachedSolver::release(std::size_t k) {
+    if (products_->active() != reference_) return;
+    Vector alone(f_reference_.size(), 0.0), part(phi_reference_.size());
+    alone[k] = f_reference_[k];
+    products_->inner_everywhere(alone.data(), part.data());
+    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= part[i];
+    reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
+    f_reference_.erase(f_reference_.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
+// Adds the change of the forces to phi_ at the others.
+void AttachedSolver::add_passive() {
+    const std::vector<int>& passive = products_->passive();
+    if (df_.empty() || passive.empty()) return;
+    Vector more(passive.size());
+    products_->inner_passive(df_.data(), more.data());
+    for (std::size_t k = 0; k < more.size(); ++k) phi_[static_cast<std::size_t>(passive[k])] += more[k];
+}
+
+bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s, int least) {
     double best = 1e300;
     int worse = 0;
     for (int k = 0;; ++k) {
         evaluate(set, s, false);
         const bool near = residual_ <= tolerance + 2 * noise_, stuck = residual_ >= 0.9 * best;
         if ((near && noise_ > (exact ? 0.0 : 0.1 * tolerance)) || (stuck && noise_ > 0)) evaluate(set, s, true);
-        if (residual_ <= tolerance) {
+        if (residual_ <= tolerance && k >= least) {
             if (!stable(set)) return false;
-            if (const auto& passive = products_->passive(); !df_.empty() && !passive.empty()) {
-                Vector more(passive.size());
-                products_->inner_passive(df_.data(), more.data());
-                for (std::size_t k = 0; k < more.size(); ++k) phi_[static_cast<std::size_t>(passive[k])] += more[k];
-            }
+            add_passive();
             return true;
         }
         if (residual_ < 0.9 * best)

@@ -43,9 +43,13 @@ public:
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false if none was found near; s is then
     // undefined, and weakest() is the position among the attached of the one that becomes unstable.
     // `exact`: forces, phi() and energy() are those of a full product; otherwise its error is below a tenth of the tolerance.
-    bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s);
-    // Improves an equilibrium s, without a test of its stability, by at most two steps, and finds its energy with full products.
-    void sharpen(const WorkingSet& set, double tolerance, std::vector<double>& s);
+    // `least`: smallest number of Newton steps.
+    bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s, int least = 0);
+    // Takes the forces in the states s as those from whose change further products are found, if the error of their product is below
+    // `noise`; otherwise after a full product. The next states then differ from s without that error.
+    void rest_on(const WorkingSet& set, double noise, const std::vector<double>& s);
+    // Must be called before the k-th of the attached is removed from the active points: its force is taken away from rest_on().
+    void release(std::size_t k);
     std::size_t weakest() const { return weakest_; }
     // For states s far from equilibrium: contacts grow and shrink slowly, downhill in the energy, until s is a stable equilibrium or an
     // asperity has shrunk to nothing; `gone` is then its position among the attached. Returns nothing if it does not end, for example on an
@@ -61,6 +65,7 @@ public:
     double force() const { return force_; }
     double energy() const { return energy_; }  // elastic energy of asperities and interaction minus w A: dW/dZ0 = -N
     double residual() const { return residual_; }
+    const std::vector<double>& residuals() const { return res_; }  // g0 - B f - u of the attached
 
     // Derivatives at the last stable equilibrium, to a relative accuracy, for given rates of g0 over the set (-1: with respect to the
     // separation): of s of the attached, of u of the others (Products::passive), of N, and of the power -f'rate at constant rates.
@@ -74,6 +79,7 @@ private:
     // Products are those of the change of the forces since the last full product, with the error noise_ in the residual, unless `full`.
     void evaluate(const WorkingSet& set, const std::vector<double>& s, bool full);
     void balance(const WorkingSet& set);
+    void add_passive();
     double miss(const WorkingSet& set, const std::vector<double>& res) const;   // norm of residuals
     void step(const WorkingSet& set, double accuracy, std::vector<double>& s);  // Newton's method
     // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy, starting from ds, or from 0 if it is empty.
@@ -93,9 +99,11 @@ private:
     double mu_ = 0;                       // of weigh()
     std::vector<double> stiffest_;        // by position in the set: D up to which S is known to be positive definite
     std::vector<double> before_, proof_;  // by position in the set: the last ds/dZ0 and v, starting points
-    // Last full product: active positions, forces, B f over the set, without shift(); and the present change of the forces.
+    // Last full product or rest_on(): active positions, forces, B f over the set, without shift(), and its noise; and the present change of
+    // the forces.
     std::vector<int> reference_;
     std::vector<double> f_reference_, phi_reference_, df_;
+    double noise_reference_ = 0;
     std::vector<double> diagonal_, p_, to_s_;  // of the symmetric systems; ds = to_s y
     std::vector<double> in_, out_;
 };
