@@ -83,27 +83,22 @@ test_memory() {
     # Sanitizers reserve address space without end.
     bash -c 'ulimit -v 4000000; exec "$0" --version' "$rsc" > /dev/null 2>&1 || exit 77
     mkdir work
-    for threads in 1 2; do
-        # What the program needs to exist, in KiB: its libraries.
-        local least=20000
-        until bash -c 'ulimit -v "$1"; OPENBLAS_NUM_THREADS=1 exec "$0" --version' "$rsc" $least > /dev/null 2>&1; do
-            least=$((least + 4000))
-            [ $least -lt 2000000 ] || exit 77
-        done
-        local refused=0 done=0
-        for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 384000; do
-            rm -f work/out.nc
-            bash -c 'ulimit -v "$1"; OPENBLAS_NUM_THREADS=1 exec "$0" -s run%threads="$2" -s surface%n=1024 -o work/out.nc case.nml' \
-                "$rsc" $((least + more)) $threads > said 2>&1
-            got=$?
-            case $got in
-                0) left work out.nc; done=$((done + 1)) ;;
-                1) left work ""; refused=$((refused + 1)); says "memory\|[Tt]hread" ;;
-                *) cat said; fail "exit status $got with $((least + more)) KiB" ;;
-            esac
-        done
-        [ $refused -ge 3 ] && [ $done -ge 1 ] || fail "$threads threads: refused $refused times, done $done times"
+    local least=20000 refused=0 done=0   # what the program needs to exist, in KiB: its libraries
+    limited() { bash -c 'ulimit -v "$1"; shift; OPENBLAS_NUM_THREADS=1 exec "$0" "$@"' "$rsc" "$@" > said 2>&1; }
+    until limited $least --version; do
+        least=$((least + 4000))
+        [ $least -lt 2000000 ] || exit 77
     done
+    for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 384000; do
+        rm -f work/out.nc
+        limited $((least + more)) -s run%threads=2 -s surface%n=1024 -o work/out.nc case.nml
+        case $? in
+            0) left work out.nc; done=$((done + 1)) ;;
+            1) left work ""; refused=$((refused + 1)); says "memory\|[Tt]hread" ;;
+            *) cat said; fail "the exit status with $((least + more)) KiB" ;;
+        esac
+    done
+    [ $refused -ge 3 ] && [ $done -ge 1 ] || fail "refused $refused times, done $done times"
 }
 
 running() { kill -0 "$1" 2> /dev/null && [ "$(cut -d' ' -f3 "/proc/$1/stat" 2> /dev/null)" != Z ]; }

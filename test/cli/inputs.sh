@@ -51,4 +51,19 @@ test_parallel() {
     for k in 1 2 3 4 5 6; do same output/study_00$k.nc ../output/study_00$k.nc; done
 }
 
+# The scripts for Slurm, with its variables set as sbatch sets them: the array leaves what a study in one go leaves, and is complete when
+# submitted again; the ranks get their number and the case.
+test_slurm() {
+    sed 's/realizations = 20/realizations = 2/; s/steps = 50/steps = 4/' input/study.nml > small.nml
+    for again in '' complete; do
+        for k in 1 2 3 4 5 6; do expect 0 env SLURM_ARRAY_TASK_ID=$k SLURM_CPUS_PER_TASK=2 bash input/slurm_array.sh small.nml; says "$again"; done
+    done
+    mkdir one_go && cd one_go && ../rsc -q ../small.nml || fail "the study in one go"
+    for k in 1 2 3 4 5 6; do same output/study_00$k.nc ../output/study_00$k.nc; done
+    cd ..
+    printf '#!/bin/sh\necho ranks "$@"\n' > mpirun && chmod +x mpirun
+    expect 0 env PATH="$PWD:$PATH" SLURM_NTASKS=3 bash input/slurm_mpi.sh small.nml
+    says "^ranks -n 3 ./rsc_mpi --resume .*small.nml$"
+}
+
 "test_$test"

@@ -19,16 +19,26 @@ class Session {
 public:
     Session(const std::uint8_t* data, std::size_t size) : in_(data, size) {}
     ~Session() {
-        rsc_case_destroy(&case_);
-        rsc_surface_destroy(&surface_);
-        rsc_asperities_destroy(&asperities_);
-        for (rsc_contact*& contact : contacts_) rsc_contact_destroy(&contact);
+        hold(case_, nullptr), hold(surface_, nullptr), hold(asperities_, nullptr), hold(contacts_[0], nullptr), hold(contacts_[1], nullptr);
     }
     void run() {
         for (int calls = 0; calls < 40 && in_.remaining_bytes() > 0; ++calls) call();
     }
 
 private:
+    static std::int32_t destroy(rsc_case** h) { return rsc_case_destroy(h); }
+    static std::int32_t destroy(rsc_surface** h) { return rsc_surface_destroy(h); }
+    static std::int32_t destroy(rsc_asperities** h) { return rsc_asperities_destroy(h); }
+    static std::int32_t destroy(rsc_contact** h) { return rsc_contact_destroy(h); }
+    // What `make` makes takes the place of what was held.
+    template <class T>
+    void hold(T*& held, const std::function<std::int32_t(std::type_identity_t<T>**)>& make) {
+        T* made = nullptr;
+        if (make) PROMISE(told(make(&made)) == (made != nullptr), "a handle that does not match the status");
+        PROMISE(destroy(&held) == RSC_SUCCESS && !held, "a handle that is not destroyed");
+        held = made;
+    }
+
     // True for success; the status must be one that the header promises.
     bool told(std::int32_t status) {
         PROMISE(status >= -10 && status < RSC_INTERNAL, std::to_string(status) + ": " + message());
@@ -81,18 +91,11 @@ private:
     }
 
     void call() {
-        switch (in_.ConsumeIntegralInRange(0, 26)) {
-            case 0:
-                rsc_case_destroy(&case_);
-                told(rsc_case_create(&case_));
-                break;
+        double v[3] = {};
+        switch (in_.ConsumeIntegralInRange(0, 19)) {
+            case 0: hold(case_, rsc_case_create); break;
             case 1: told(rsc_case_read(case_, in_.ConsumeRandomLengthString(200).c_str())); break;
             case 2: {
-                const std::string name = in_.ConsumeRandomLengthString(24), value = in_.ConsumeRandomLengthString(24);
-                told(rsc_case_set(case_, name.c_str(), value.c_str()));
-                break;
-            }
-            case 3: {
                 char name[64];
                 if (!told(rsc_key_name(in_.ConsumeIntegralInRange<std::int64_t>(-1, 60), name, sizeof name, nullptr))) break;
                 const std::string value = in_.ConsumeBool() ? std::to_string(number()) : "'" + in_.ConsumeRandomLengthString(12) + "'";
@@ -100,145 +103,103 @@ private:
                 text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_get(case_, name, b, n, l); });
                 break;
             }
-            case 4: text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(case_, b, n, l); }); break;
-            case 5: {
-                rsc_case* copy = nullptr;
-                if (told(rsc_case_copy(&copy, case_))) {
-                    rsc_case_destroy(&case_);
-                    case_ = copy;
-                }
+            case 3: text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(case_, b, n, l); }); break;
+            case 4:
+                hold(case_, [&](rsc_case** c) { return rsc_case_copy(c, case_); });
+                hold(surface_, [&](rsc_surface** s) { return rsc_surface_copy(s, surface_); });
                 break;
-            }
-            case 6:
+            case 5:
                 if (!case_) break;  // the defaults are a large surface
                 keep_small(false);
-                rsc_surface_destroy(&surface_);
-                told(rsc_surface_synthesize(&surface_, case_, in_.ConsumeIntegral<std::int64_t>()));
+                hold(surface_, [&](rsc_surface** s) { return rsc_surface_synthesize(s, case_, in_.ConsumeIntegral<std::int64_t>()); });
                 break;
-            case 7: {
+            case 6: {
                 const auto nx = in_.ConsumeIntegralInRange<std::int64_t>(2, 9), ny = in_.ConsumeIntegralInRange<std::int64_t>(2, 9);
                 const auto z = numbers(static_cast<std::size_t>(nx * ny));
-                rsc_surface_destroy(&surface_);
-                const bool absurd = rare();
-                told(rsc_surface_take(&surface_, absurd ? std::int64_t{1} << 33 : nx, ny, positive(), positive(), number(), number(),
-                                      in_.ConsumeIntegralInRange(0, 1), rare() ? nullptr : z.data()));
+                hold(surface_, [&](rsc_surface** s) {
+                    return rsc_surface_take(s, rare() ? std::int64_t{1} << 33 : nx, ny, positive(), positive(), number(), number(),
+                                            in_.ConsumeIntegralInRange(0, 1), rare() ? nullptr : z.data());
+                });
                 break;
             }
-            case 8: {
+            case 7: {
                 static const char* const how[] = {"none", "mean", "plane", "quadratic", "sphere", "other"};
-                double rms = 0;
-                if (told(rsc_surface_detrend(surface_, in_.PickValueInArray(how), &rms))) finite(rms, "rms");
+                if (told(rsc_surface_detrend(surface_, in_.PickValueInArray(how), v))) finite(v[0], "rms");
                 told(rsc_surface_filter(surface_, positive()));
+                if (told(rsc_surface_moments(surface_, &v[0], &v[1], &v[2]))) finite(v[0] + v[1] + v[2], "moments");
                 break;
             }
-            case 9: {
-                double m0 = 0, m2 = 0, m4 = 0;
-                if (told(rsc_surface_moments(surface_, &m0, &m2, &m4))) finite(m0 + m2 + m4, "moments");
+            case 8:
+                hold(asperities_, [&](rsc_asperities** a) { return rsc_asperities_find(a, surface_, rare() ? nullptr : case_); });
                 break;
-            }
-            case 10: {
-                rsc_surface* copy = nullptr;
-                if (told(rsc_surface_copy(&copy, surface_))) {
-                    rsc_surface_destroy(&surface_);
-                    surface_ = copy;
-                }
-                break;
-            }
-            case 11:
-                rsc_asperities_destroy(&asperities_);
-                told(rsc_asperities_find(&asperities_, surface_, rare() ? nullptr : case_));
-                break;
-            case 12:
+            case 9:
                 if (!case_) break;
                 keep_small(false);
-                rsc_asperities_destroy(&asperities_);
-                told(rsc_asperities_make(&asperities_, case_, in_.ConsumeIntegral<std::int64_t>()));
+                hold(asperities_, [&](rsc_asperities** a) { return rsc_asperities_make(a, case_, in_.ConsumeIntegral<std::int64_t>()); });
                 break;
-            case 13:
-            case 14: take_asperities(); break;
-            case 15:
-                rsc_contact_destroy(&contacts_[0]);
-                told(rsc_contact_create(&contacts_[0], asperities_, positive(), positive(), number(), number(), case_));
+            case 10:
+            case 11: take_asperities(); break;
+            case 12:
+                hold(contacts_[0], [&](rsc_contact** c) {
+                    return rsc_contact_create(c, asperities_, positive(), positive(), number(), number(), case_);
+                });
                 break;
-            case 16:
-                rsc_contact_destroy(&contacts_[0]);
-                told(rsc_contact_create_from_case(&contacts_[0], asperities_, case_));
+            case 13: hold(contacts_[0], [&](rsc_contact** c) { return rsc_contact_create_from_case(c, asperities_, case_); }); break;
+            case 14: hold(contacts_[1], [&](rsc_contact** c) { return rsc_contact_copy(c, contacts_[0]); }); break;
+            case 15: {
+                rsc_contact* const c = contact();
+                told(rsc_contact_move_tip(c, number(), number()));
+                if (told(rsc_contact_stiffness(c, v))) finite(v[0], "stiffness");
+                const auto x = numbers(3), y = numbers(3);
+                if (told(rsc_contact_deflection(c, 3, x.data(), y.data(), v))) finite(v[0] + v[1] + v[2], "deflection");
                 break;
+            }
+            case 16: {
+                rsc_contact* const c = contact();
+                if (told(rsc_contact_first_touch(c, v))) indent(c, v[0] - positive());
+                finite(v[0], "first touch");
+                indent(c, number());
+                break;
+            }
             case 17: {
-                rsc_contact_destroy(&contacts_[1]);
-                told(rsc_contact_copy(&contacts_[1], contacts_[0]));
-                break;
-            }
-            case 18: told(rsc_contact_move_tip(contact(), number(), number())); break;
-            case 19: {
-                double touch = 0;
                 rsc_contact* const c = contact();
-                if (told(rsc_contact_first_touch(c, &touch))) {
-                    finite(touch, "first touch");
-                    indent(c, touch - positive());
-                }
-                break;
-            }
-            case 20: indent(contact(), number()); break;
-            case 21: {
-                double separation = 0;
-                rsc_contact* const c = contact();
-                if (told(rsc_contact_press(c, positive(), &separation))) finite(separation, "separation");
+                if (told(rsc_contact_press(c, positive(), v))) finite(v[0], "separation");
                 look(c);
                 break;
             }
-            case 22: look(contact()); break;
-            case 23: {
-                double stiffness = 0;
-                rsc_contact* const c = contact();
-                if (told(rsc_contact_stiffness(c, &stiffness))) finite(stiffness, "stiffness");
-                break;
-            }
-            case 24: {
-                const auto x = numbers(3), y = numbers(3);
-                double w[3] = {};
-                if (told(rsc_contact_deflection(contact(), 3, x.data(), y.data(), w))) finite(w[0] + w[1] + w[2], "deflection");
-                break;
-            }
-            case 25:
+            case 18:
                 if (!case_) break;
                 told(rsc_case_set(case_, "solids%adhesion", std::to_string(positive()).c_str()));
                 if (in_.ConsumeBool()) told(rsc_case_set(case_, "solids%adhesion_range", std::to_string(positive()).c_str()));
                 break;
-            case 26: {
+            case 19: {
                 if (!case_) break;
                 keep_small(true);
                 std::int64_t failed = 0;
                 told(rsc_case_run(case_, &failed));
-                break;
             }
         }
     }
 
     void take_asperities() {
         const auto n = in_.ConsumeIntegralInRange<std::size_t>(0, 12);
-        const auto x = numbers(n), y = numbers(n), z = numbers(n), r = numbers(n, true);
-        std::vector<double> k1, k2, angle, b;
-        const bool curved = in_.ConsumeBool();
-        if (curved) {
-            k2 = numbers(n, true);
-            k1 = k2;
-            for (double& k : k1) k *= 1 + std::abs(number());
-            angle = numbers(n);
-        }
-        if (in_.ConsumeBool()) b = numbers(n);
-        rsc_asperities_destroy(&asperities_);
-        const bool made = told(rsc_asperities_take(&asperities_, rare() ? -1 : static_cast<std::int64_t>(n), x.data(), y.data(), z.data(),
-                                                   r.data(), curved ? k1.data() : nullptr, curved ? k2.data() : nullptr,
-                                                   curved ? angle.data() : nullptr, b.empty() ? nullptr : b.data()));
-        PROMISE(made == (asperities_ != nullptr), "a handle that does not match the status");
+        const bool curved = in_.ConsumeBool(), flattened = in_.ConsumeBool();
+        const auto x = numbers(n), y = numbers(n), z = numbers(n), r = numbers(n, true), k2 = numbers(n, true), angle = numbers(n),
+                   b = numbers(n);
+        std::vector<double> k1 = k2;
+        for (double& k : k1) k *= 1 + std::abs(number());
+        hold(asperities_, [&](rsc_asperities** a) {
+            return rsc_asperities_take(a, rare() ? -1 : static_cast<std::int64_t>(n), x.data(), y.data(), z.data(), r.data(),
+                                       curved ? k1.data() : nullptr, curved ? k2.data() : nullptr, curved ? angle.data() : nullptr,
+                                       flattened ? b.data() : nullptr);
+        });
     }
 
     void indent(rsc_contact* c, double separation) {
         double force = 0;
         const std::int32_t status = rsc_contact_indent(c, separation, &force);
         told(status);
-        if (status == RSC_SUCCESS || status == RSC_NOT_CONVERGED) finite(force, "force");
+        if (status == RSC_SUCCESS) finite(force, "force");
         look(c);
     }
 
@@ -247,10 +208,11 @@ private:
         std::int64_t contacts = 0, candidates = 0, pairs = 0;
         std::int32_t level = 0;
         if (!told(rsc_contact_result(c, &separation, &force, &area, &contacts))) return;
+        PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
+        if (level == RSC_LEVEL_NOT_CONVERGED && std::isnan(force) && contacts == 0) return;  // beyond all numbers: no state
         finite(separation, "separation");
         PROMISE(std::isfinite(force), "force " + std::to_string(force));  // negative with adhesion
         PROMISE(std::isfinite(area) && area >= 0, "area " + std::to_string(area));
-        PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
         PROMISE(level >= 0 && level < RSC_LEVEL_LAST_ + 1 && contacts <= candidates, "level");
         PROMISE(std::isfinite(residual), "residual at separation " + std::to_string(separation) + ", force " + std::to_string(force) +
                                              ", status " + std::to_string(level) + ", " + std::to_string(contacts) + " contacts");

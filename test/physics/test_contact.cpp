@@ -38,27 +38,6 @@ void regularisation_leaves_no_trace() {
     }
 }
 
-// dN/dZ0 against central differences; pressing with a force finds the separation again.
-void stiffness_and_force_control() {
-    const Asperities a = random_asperities(400, 0.012, 0.01, 5e-4, 0.5, 6);
-    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct, 1e-12));
-    const double h = 1e-6;
-    const double plus = contact.at_separation(0.006 + h).force, minus = contact.at_separation(0.006 - h).force;
-    const double N = contact.at_separation(0.006).force, K = contact.stiffness();
-    CHECK_RELATIVE(K, (plus - minus) / (2 * h),
-                   1e-6);  // second-order differences: (h/sigma)^2 = 1e-8, and kinks as contacts form
-    CHECK(K < 0);
-    const Level again = contact.at_force(N);
-    CHECK_RELATIVE(again.force, N, 1e-11);
-    CHECK_RELATIVE(again.separation, 0.006, 1e-9);
-    for (double force : {1e-6 * N, 1e-3 * N, 30 * N}) {
-        AsperityContact fresh(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct, 1e-10));
-        const Level level = fresh.at_force(force);
-        CHECK_RELATIVE(level.force, force, 1e-9);
-        CHECK(level.status != LevelStatus::not_converged);
-    }
-}
-
 // Two asperities so close that only one can carry: the one that the descending sphere meets first keeps the other out, whichever
 // would carry more. So it is from the first touch on, and so it is for a level alone.
 void of_two_the_first_met_carries() {
@@ -77,56 +56,10 @@ void of_two_the_first_met_carries() {
     }
 }
 
-// N = 1 - Z0 with a step from 0.7 to 5.7 at Z0 = 0.3.
-class Step final : public Contact {
-public:
-    double stiffness() override { return touching_ ? -1.0 : 0.0; }
-    double energy() const override { return 0; }
-    void move_tip(double, double) override {}
-    void recall(const std::vector<double>&, const Level*) override {}
-    double first_touch() const override { return 1; }
-    const Indenter& indenter() const override { return indenter_; }
-
-protected:
-    void forget_levels() override {}
-    Level solve(double Z0) override {
-        Level level;
-        level.separation = Z0;
-        level.force = Z0 >= 1 ? 0 : Z0 > 0.3 ? 1 - Z0 : 6 - Z0;
-        touching_ = level.force > 0;
-        return level;
-    }
-    double tolerance() const override { return 1e-10; }
-    double force_at_most(double depth) override { return depth; }
-    std::optional<double> likely_separation() const override { return {}; }
-    std::size_t levels_since_move() const override { return 2; }
-
-private:
-    Indenter indenter_{1, 1, 0, 0};
-    bool touching_ = false;
-};
-
-// A force that no separation carries is told; those on both sides of the step are found.
-void a_force_over_which_N_jumps() {
-    Step contact;
-    for (const double N : {0.5, 0.699, 5.701, 8.0}) {
-        const Level level = contact.at_force(N);
-        CHECK(level.status == LevelStatus::converged);
-        CHECK_RELATIVE(level.force, N, 1e-10);
-    }
-    for (const double N : {0.71, 3.0, 5.69}) {
-        const Level level = contact.at_force(N);
-        CHECK(level.status == LevelStatus::not_converged && level.fallback == Fallback::jump);
-        CHECK_CLOSE(level.separation, 0.3, 1e-12);
-    }
-}
-
 }  // namespace
 
 TESTS {
-    a_force_over_which_N_jumps();
     regularisation_leaves_no_trace();
-    stiffness_and_force_control();
     of_two_the_first_met_carries();
     CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
     CHECK_THROWS(AsperityContact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);

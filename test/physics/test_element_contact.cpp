@@ -97,9 +97,28 @@ void selection() {
     }
 }
 
+// Levels keep the tolerance that is asked for: N and A beside those of one a thousand times as tight, under a sphere and between flats. A pixel
+// more or less counts in A.
+void tolerances() {
+    const HeightMap map = rough(256, 32, 2);
+    for (const double R : {2.5, std::numeric_limits<double>::infinity()}) {
+        const Indenter tip{kE, R, 0.5, 0.5, std::isinf(R) ? Period{1, 1} : Period{}};
+        SolverOptions few = options(1e-5);
+        few.max_iterations = 1;
+        CHECK(make_element_contact(map, tip, few)->at_separation(0.01).status == LevelStatus::not_converged);
+        for (const double tolerance : {1e-4, 1e-5}) {
+            const auto at = [&](double asked) { return make_element_contact(map, tip, options(asked))->at_separation(0.01); };
+            const Level level = at(tolerance), fine = at(1e-3 * tolerance);
+            CHECK_RELATIVE(level.force, fine.force, tolerance);
+            CHECK_RELATIVE(level.area, fine.area, 2 * tolerance);
+        }
+    }
+}
+
 }  // namespace
 
 TESTS {
     hertz();
     selection();
+    tolerances();
 }

@@ -1,8 +1,7 @@
 // The numbers of the result files: a matrix of cases is run, and each value of each file is computed here once more from the contacts (or
 // the pixels under pressure) of its levels, from the heights, and from the case.
 //
-// The levels themselves are the library's; that they are right is what the tests of the contact show. Here, too, spots of the free Hertz
-// cases must balance: each force is that of its own penetration under all the others.
+// The levels themselves are the library's; that they are right is what the tests of the contact show.
 #include <netcdf.h>
 
 #include "case/read_case.hpp"
@@ -15,6 +14,7 @@
 #include "physics/values/single.hpp"
 #include "run/campaign.hpp"
 #include "run/run.hpp"
+#include "unit/netcdf_file.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -81,18 +81,13 @@ HeightMap measured_map() {
 }
 
 void write_map(const HeightMap& map, const std::string& path) {
-    int id = -1, dims[2] = {}, vx = -1, vy = -1, vz = -1;
-    CHECK(nc_create(path.c_str(), NC_CLOBBER, &id) == NC_NOERR);
-    nc_def_dim(id, "y", at(map.ny), &dims[0]), nc_def_dim(id, "x", at(map.nx), &dims[1]);
-    nc_def_var(id, "y", NC_DOUBLE, 1, &dims[0], &vy), nc_def_var(id, "x", NC_DOUBLE, 1, &dims[1], &vx);
-    nc_def_var(id, "height", NC_DOUBLE, 2, dims, &vz);
-    for (int v : {vx, vy, vz}) nc_put_att_text(id, v, "units", 2, "mm");
-    nc_enddef(id);
-    Vector x, y;
-    for (int i = 0; i < map.nx; ++i) x.push_back(map.x0 + map.dx * i);
-    for (int j = 0; j < map.ny; ++j) y.push_back(map.y0 + map.dy * j);
-    nc_put_var_double(id, vx, x.data()), nc_put_var_double(id, vy, y.data()), nc_put_var_double(id, vz, map.data.get());
-    CHECK(nc_close(id) == NC_NOERR);
+    using namespace netcdf_file;
+    const auto mm = [](const char* name, std::vector<std::string> over, Vector v) {
+        return Variable{name, NC_DOUBLE, over, v, {{"units", "mm"}}};
+    };
+    write(path, {{"y", at(map.ny)}, {"x", at(map.nx)}},
+          {mm("y", {"y"}, counted(at(map.ny), map.y0, map.dy)), mm("x", {"x"}, counted(at(map.nx), map.x0, map.dx)),
+           mm("height", {"y", "x"}, {map.data.get(), map.data.get() + map.nx * map.ny})});
 }
 
 std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
@@ -141,6 +136,10 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                    micro + bodies + ", hardness = 2 /\n" + surface + " /\n&asperities law = 'elliptic' /\n" +
                        "&indentation levels = 1.5, 0.6, 0.2, 0.6, centre = 57, 38 /\n" + out + " /\n&compare levels = 0.6, 0.6 /\n",
                    {{1}, {0.2, 3}}});
+    all.push_back({"unloading_compared",
+                   micro + bodies + ", hardness = 2 /\n" + surface + " /\n&asperities law = 'elliptic' /\n" +
+                       "&indentation levels = 0.2, 0.6, centre = 57, 38 /\n" + out + " /\n&compare levels = 0.6 /\n",
+                   {{0.2, 1}}});
     all.push_back({"yielding_elements", micro + bodies + ", hardness = 2 /\n" + surface + " /\n&solver model = 'elements' /\n" +
                                             "&indentation levels = 1.5, 0.6, 0.2, 0.5, centre = 57, 38 /\n" + out + " /\n"});
     const std::string on_map = "/\n&output map_cells = 11, radial_bins = 6, heights = .true., pdf_levels = 0.3, pdf_bins = 25 /\n";

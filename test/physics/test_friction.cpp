@@ -119,26 +119,6 @@ void mindlin_deresiewicz_cycle() {
     CHECK_CLOSE(cycle.force[41 + 36], -cycle.force[41], 1e-12 * mu * N);
 }
 
-// Mindlin and Deresiewicz (1953): N and Q rising together with dQ < mu dN: no slip, Q = m (dxi/ddelta) N, nothing lost.
-void loading_in_proportion() {
-    Spheres curve = several();
-    const double rate = 0.7 * kFriction.slide_per_approach();
-    for (int steps : {1, 7, 5000}) {
-        FrictionHistory path(kFriction);
-        path.go_to(curve, -0.002, {});
-        for (int k = 1; k <= steps; ++k) {
-            const double delta = -0.002 + 0.008 * k / steps;
-            path.go_to(curve, delta, {rate * (delta + 0.002), 0});
-        }
-        const double N = curve.load(0.006).force;
-        CHECK_RELATIVE(path.force(), N, 1e-13);
-        CHECK_RELATIVE(path.tangential_force().x, kFriction.ratio * rate * N, 1e-9);
-        CHECK_CLOSE(path.work_lost(), 0.0, 1e-14 * path.tangential_energy());
-        CHECK(path.state().nodes.size() < 4);  // one piece of memory, whatever the steps
-        CHECK_RELATIVE(path.tangential_energy(), kFriction.ratio * rate * rate * path.normal_energy(), 1e-9);
-    }
-}
-
 // Springs with friction one by one (Iwan), on an even grid of s: the spring at s carries what makes N exact at the grid points.
 struct Springs {
     double first, step;
@@ -346,7 +326,6 @@ TESTS {
     ratio_of_stiffnesses();
     mindlin_first_loading();
     mindlin_deresiewicz_cycle();
-    loading_in_proportion();
     random_histories();
     two_directions();
     tangent();

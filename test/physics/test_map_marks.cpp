@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kPoints = 64;
 
-HeightMap hills(double at_border, double spike) {
+HeightMap hills(double at_border, double spike, double x_of_it = 20, double y_of_it = -2) {
     HeightMap map = height_map(kPoints, kPoints, 1.0 / kPoints, 1.0 / kPoints, [=](int i, int j) {
         const auto hill = [&](double x, double y) { return std::exp(-(std::pow(i - x, 2) + std::pow(j - y, 2)) / 50); };
-        return 1e-3 * (hill(30, 34) + at_border * hill(20, -2) + 1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
+        return 1e-3 * (hill(30, 34) + at_border * hill(x_of_it, y_of_it) + 1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
     });
     map.row(50)[50] += spike;
     return map;
@@ -39,6 +39,7 @@ void border() {
     CHECK(press(hills(0, 0), 5e-4).edge_contacts == 0);
     const Level cut = press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
     CHECK(cut.edge_contacts == 1 && cut.status == LevelStatus::out_of_validity);
+    for (const auto& [x, y] : {std::pair{20, 65}, {-2, 20}, {65, 20}}) CHECK(press(hills(1.5, 0, x, y), 5e-4).edge_contacts == 1);
     CHECK(press(hills(0.3, 0), 5e-4).edge_contacts == 0);    // too low to touch
     CHECK(press(hills(1.5, 0), 1.2e-3).edge_contacts == 1);  // nothing else touches
 }

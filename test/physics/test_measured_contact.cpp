@@ -1,87 +1,21 @@
-// Contacts of measured maps: what a map's pixels, orientation and spectrum have to do with it, and what not.
-#include <unistd.h>
-
+// Measured maps: the namelist of their twins, and no contact near points that were filled.
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "error.hpp"
 #include "read/inputs.hpp"
-#include "result_reader.hpp"
 #include "rough/defects.hpp"
 #include "rough/synthesis.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
 #include "unit/map_files.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rsc_test_measured_" + std::to_string(getpid()));
-std::string in_folder(const std::string& name) { return (folder / name).string(); }
-
-double mean_of(const std::vector<double>& v) {
-    double sum = 0;
-    for (double x : v) sum += x;
-    return sum / static_cast<double>(v.size());
-}
-
-double error_of(const std::vector<double>& v) {
-    const double m = mean_of(v);
-    double square = 0;
-    for (double x : v) square += (x - m) * (x - m);
-    return std::sqrt(square / (static_cast<double>(v.size()) * (static_cast<double>(v.size()) - 1)));
-}
-
-// Forces of realizations 1 ... count of a case.
-std::vector<double> forces(const Case& settings, int count, std::size_t level) {
-    const Job job = prepare(settings);
-    std::vector<double> all;
-    for (int k = 1; k <= count; ++k) all.push_back(realize(job, k, 1).levels[level].force);
-    return all;
-}
-
-// The circle: surfaces of a known spectrum; one of them as a map in a file, tilted, in micrometres; its twins; and the same force.
-void twins() {
-    Case original;
-    for (const auto& [key, value] :
-         {std::pair{"surface%L", "1.0"}, std::pair{"surface%n", "256"}, std::pair{"surface%L_lambda_l", "8.0"},
-          std::pair{"surface%L_lambda_s", "48.0"}, std::pair{"surface%sigma", "0.005"}, std::pair{"surface%normalise", "'ensemble'"},
-          std::pair{"surface%plateau", ".true."}, std::pair{"indentation%levels", "0.01, 0.005"}, std::pair{"indentation%unit", "'length'"},
-          std::pair{"solids%R", "Infinity, 50.0"}})
-        set_key(original, key, value);
-    constexpr int kSurfaces = 150;
-    const Surface surface = make_surface(original, 7, 1);
-    map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
-    for (int j = 255; j >= 0; --j)
-        for (int i = 0; i < 256; ++i) map.z.push_back(1e-3 * (surface.map(i, j) + 0.002 * i / 256 - 0.1));
-    const std::string file = in_folder("map.gwy");
-    std::ofstream(file, std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "Topography", map));
-    Case measured = original;
-    measured.surface = {};
-    set_key(measured, "surface%source", "'heights'");
-    set_key(measured, "surface%file", "'" + file + "'");
-    set_key(measured, "output%file", "'" + in_folder("map.nc") + "'");
-    run_case(measured, {});
-    Case twin;
-    twin = original;
-    twin.surface = {};
-    set_key(twin, "surface%source", "'spectrum'");
-    set_key(twin, "surface%file", "'" + in_folder("map.nc") + "'");
-    set_key(twin, "surface%n", "256");
-    set_key(twin, "surface%normalise", "'ensemble'");
-    // The rms height of the map is one sample's: with the ensemble's, only the spectrum's shape is left to differ.
-    set_key(twin, "surface%sigma", "0.005");
-    twin.run.seed = 2;
-    for (const std::size_t level : {std::size_t{0}, std::size_t{1}}) {
-        const std::vector<double> a = forces(original, kSurfaces, level), b = forces(twin, kSurfaces, level);
-        const double error = std::hypot(error_of(a), error_of(b));
-        std::printf("N of %d surfaces at %zu: %.4g +- %.2g, of twins %.4g +- %.2g\n", kSurfaces, level, mean_of(a), error_of(a), mean_of(b),
-                    error_of(b));
-        CHECK_CLOSE(mean_of(b), mean_of(a), 2 * error);
-        CHECK(error < 0.1 * mean_of(a));  // the comparison says something
-    }
-}
+const Folder folder;
 
 // The namelist of a map's twins: their square is as long as the map's longer side, the tip lies as it did from the middle.
 void twins_of_an_oblong_map() {
@@ -90,8 +24,7 @@ void twins_of_an_oblong_map() {
     map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
     for (int j = 63; j >= 0; --j)
         for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
-    const std::string file = in_folder("oblong.gwy");
-    std::ofstream(file, std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "T", map));
+    const std::string file = folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file", "'" + file + "'");
@@ -121,8 +54,7 @@ void filled_points() {
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
     for (int j = 255; j >= 0; --j)
         for (int i = 0; i < 256; ++i) map.z.push_back(std::hypot(i - 128, j - 128) < 20 ? std::nan("") : 1e-3 * surface(i, j));
-    const std::string file = in_folder("hole.gwy");
-    std::ofstream(file, std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "T", map));
+    const std::string file = folder.write("hole.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file", "'" + file + "'");
@@ -142,9 +74,6 @@ void filled_points() {
 }  // namespace
 
 TESTS {
-    std::filesystem::create_directories(folder);
     twins_of_an_oblong_map();
     filled_points();
-    twins();
-    std::filesystem::remove_all(folder);
 }

@@ -59,20 +59,6 @@ void asperities_and_images() {
     }
 }
 
-// Enough asperities for a mesh.
-void direct_and_mesh() {
-    const Asperities a = on_square(700, 5, 0.005, 4e-4);
-    double force[2];
-    int k = 0;
-    for (Method method : {Method::direct, Method::mesh}) {
-        AsperityContact contact(a, flats(1), options(method, 1e-9));
-        const Level level = contact.at_separation(0.0);
-        CHECK(level.status != LevelStatus::not_converged && level.candidates > 300 && level.method == method);
-        force[k++] = level.force;
-    }
-    CHECK_RELATIVE(force[1], force[0], 1e-8);
-}
-
 // Force control is the inverse of separation control; stiffness and force are the derivatives of force and energy.
 void controls_and_derivatives() {
     constexpr double kInverse = 1e-9, kDifference = 1e-6;
@@ -103,6 +89,5 @@ void controls_and_derivatives() {
 
 TESTS {
     asperities_and_images();
-    direct_and_mesh();
     controls_and_derivatives();
 }

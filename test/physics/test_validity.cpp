@@ -62,40 +62,6 @@ void at_the_bounds() {
     CHECK(!exceeds_nominal_area(area));
 }
 
-// Elements: contacts near the border count, their size and depth do not.
-void elements() {
-    HeightMap map;
-    map.allocate(40, 40, 40);
-    map.dx = map.dy = 0.025;
-    SolverOptions options;
-    options.sigma = 0.01;
-    options.mean_spacing = 0.1;
-    options.surface = {0, 0, 1, 1};
-    for (const auto& [x, edge] : {std::pair(0.5, 0), std::pair(0.05, 1)}) {
-        for (int j = 0; j < 40; ++j)
-            for (int i = 0; i < 40; ++i) map.row(j)[i] = -0.5 * (std::pow(i * 0.025 - x, 2) + std::pow(j * 0.025 - 0.5, 2));
-        const Level level = make_element_contact(map, {1.0, 1e6, 0.5, 0.5}, options)->at_separation(-0.0005);
-        CHECK(level.contacts == 1 && level.edge_contacts == edge);
-        CHECK(level.status == (edge > 0 ? LevelStatus::out_of_validity : LevelStatus::converged));
-        // The disc about the tip that holds all pixels: the one at x and its four neighbours.
-        CHECK(level.pixels.index.size() == 5);
-        const double side = 0.025, beside = std::hypot(0.5 - x + 1.5 * side, 0.5 * side);
-        CHECK_RELATIVE(level.nominal_area, std::min(1.0, std::numbers::pi * beside * beside), 1e-12);
-    }
-    // Deep, the one contact is larger than a quarter of <d>: it counts, and nothing is said against it. Pressures by pixel: Hertz's are
-    // above p of their largest value p0 on the share 1 - (p/p0)^2 of the area.
-    for (int j = 0; j < 40; ++j)
-        for (int i = 0; i < 40; ++i) map.row(j)[i] = -0.5 * (std::pow(i * 0.025 - 0.51, 2) + std::pow(j * 0.025 - 0.49, 2));
-    const double a = 0.25, p0 = 2 * a / std::numbers::pi;
-    const Level level = make_element_contact(map, {1.0, 1e6, 0.51, 0.49}, options)->at_separation(-a * a);
-    CHECK(level.contacts == 1 && level.large_contacts == 1 && level.status == LevelStatus::converged);
-    CHECK(level.area <= level.nominal_area && level.nominal_area < 1.4 * level.area);
-    CHECK_CLOSE(level.extreme_area_fraction, 1 - std::pow(kExtreme / p0, 2), 0.03);  // a tenth of a is a pixel
-}
-
 }  // namespace
 
-TESTS {
-    at_the_bounds();
-    elements();
-}
+TESTS { at_the_bounds(); }

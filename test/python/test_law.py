@@ -21,11 +21,7 @@ from result_files import write_result  # noqa: E402
 UINTER = sys.argv.pop(1)
 SURFACE = "&surface n=256 L_lambda_l=8 L_lambda_s=64 sigma=0.01 /"
 CASES = {
-    "sphere": SURFACE + "&run title='A rough sphere' / &indentation start=5.0 stop=1.0 steps=33 /",
-    "campaign": SURFACE + "&run realizations=5 / &indentation start=5.0 stop=1.0 steps=17 /",
     "touching": SURFACE + "&indentation start=2.0 stop=1.0 steps=11 /",
-    "far": SURFACE + "&indentation start=9.0 stop=8.0 steps=3 /",
-    "flat": SURFACE + "&solids R=Infinity,Infinity / &indentation steps=3 /",
     "failed": SURFACE + "&indentation start=3.0 stop=0.0 steps=13 / &solver tolerance=1.0e-9 max_iterations=4 /",
 }
 
@@ -42,24 +38,6 @@ def setUpModule():
 
 def path(name):
     return os.path.join(FOLDER, name + ".nc")
-
-
-def flats_file(name, z, pressure, fall=None):
-    """A result of two flats, as interface.md names its variables: pressure of several realizations at the separations z."""
-    pressure = np.atleast_2d(pressure)
-    if fall is not None:
-        pressure[:, fall] = pressure[:, fall - 1] * 0.9
-    with netCDF4.Dataset(path(name), "w") as file:
-        file.createDimension("realization", pressure.shape[0])
-        file.createDimension("step", pressure.shape[1])
-        for variable, kind, values, units in (("separation", ("step",), z, "mm"), ("pressure", ("realization", "step"), pressure, "N mm-2"),
-                                              ("force", ("realization", "step"), pressure, "N"), ("area_fraction", ("realization", "step"), pressure / 1e4, "1")):
-            file.createVariable(variable, "f8", kind)[:] = values
-            file[variable].units = units
-        file.createVariable("status", "i4", ("realization", "step"))[:] = 0
-        file["status"].flag_meanings = "converged out_of_validity overlapping not_unique not_converged"
-        file.title, file.source = "Two flats", "rsc"
-    return path(name)
 
 
 def run(*words):
@@ -177,23 +155,12 @@ class WholeText(unittest.TestCase):
         pair = np.where(self.Z == 4, 4.0, np.where(self.Z == 2, 5.0, none))
         self.assertIn("3 points, force increasing", run(made("pair", self.Z, pair, pair, 0 * self.STATUS), "--table"))
 
-class Flats(unittest.TestCase):
-    Z = np.linspace(0.04, 0.0, 21)
-
-    def test_one_that_failed(self):
-        """A level that did not converge in one realization is no mean of all: it is left out."""
-        file = flats_file("half", self.Z, np.outer([0.9, 1.1], 1e4 * np.exp(-self.Z / 0.008)))
-        with netCDF4.Dataset(file, "a") as data:
-            data["status"][1, 7] = 4
-        found = law.Law(file)
-        self.assertEqual((found.unconverged, found.load.size), (1, 1 + self.Z.size - 1))
-
-
-
 class Uinter(unittest.TestCase):
     def test_table(self):
         """The properties that --abaqus writes, in series with a spring: against the same by numpy, on and between the points and beyond the last."""
-        file = flats_file("flats", Flats.Z, np.where(Flats.Z < 0.0395, 1e4 * np.exp(-Flats.Z / 0.008), 0))
+        z = np.linspace(40, 0, 21)  # um
+        pressure = np.where(z < 39.5, 10 * np.exp(-z / 8), 0)[None]  # mN/um2
+        file = made("flats", z, pressure, pressure / 10, 0 * pressure, flats=True)
         found = law.Law(file)
         text = run(file, "--abaqus")
         line = text[text.index("USER, PROPERTIES=") :].splitlines()

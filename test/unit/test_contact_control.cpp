@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTop = 1.5;
 
-// N = (1.5 - z)^(3/2) of the separation z as the model counts it; solutions that are passed are wrong by `passed` of the load until settled.
+// N = (1.5 - z)^(3/2) of the separation z as the model counts it, and `jump` more below 0.3; solutions that are passed are wrong by `passed` of the load until settled.
 class Known final : public Contact {
 public:
     explicit Known(double shift = 0, double passed = 0) : shift_(shift), passed_(passed) {}
@@ -26,6 +26,7 @@ public:
 
     long solves = 0, passes = 0, settled = 0, accepted = 0;
     bool fails = false;
+    double jump = 0;
     long iterations() const { return 3 * solves + 2 * passes + 7 * settled; }
     long products() const { return 30 * solves + 50 * passes + 11 * settled; }
     void put_period(const Period& period) { indenter_.period = period; }
@@ -36,7 +37,7 @@ protected:
         z_ = z;
         Level level;
         level.separation = z;
-        level.force = factor * std::pow(std::max(kTop - z, 0.0), 1.5);
+        level.force = factor * std::pow(std::max(kTop - z, 0.0), 1.5) + (z < 0.3 ? jump : 0);
         level.area = 2 * level.force;
         slope_ = z < kTop ? -1.5 * factor * std::sqrt(kTop - z) : 0;
         if (fails) level.status = LevelStatus::not_converged;
@@ -107,6 +108,23 @@ void control() {
         }
 }
 
+// A force that no separation carries is told; those on both sides of the jump are found.
+void jumps() {
+    Known contact;
+    contact.jump = 5;
+    const double below = std::pow(1.2, 1.5);
+    for (const double N : {0.5, below - 1e-3, below + 5.001, 8.0}) {
+        const Level level = contact.at_force(N);
+        CHECK(level.status == LevelStatus::converged);
+        CHECK_RELATIVE(level.force, N, 1e-8);
+    }
+    for (const double N : {below + 0.01, 3.0, below + 4.99}) {
+        const Level level = contact.at_force(N);
+        CHECK(level.status == LevelStatus::not_converged && level.fallback == Fallback::jump);
+        CHECK_CLOSE(level.separation, 0.3, 1e-12);
+    }
+}
+
 // Two contacts take turns; a level that one of them holds is not computed again.
 void curves() {
     Known one, other;
@@ -143,5 +161,6 @@ void curves() {
 
 TESTS {
     control();
+    jumps();
     curves();
 }

@@ -1,5 +1,4 @@
-// States as values: commit, roll back, copies and saves of contacts that yield; a sphere with friction that rolls; many contacts at once; runs
-// that are watched.
+// States as values: commit, roll back, copies and saves of contacts of every kind; a sphere with friction that rolls; runs that are watched.
 #include "check.hpp"
 #include "unit/library.hpp"
 #include "unit/temporary_folder.hpp"
@@ -10,68 +9,77 @@ constexpr double kTolerance = 1e-5;  // ten times that of the levels
 
 const std::string kSurface = "&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity,2.5 ";
 
-// A step that was tried leaves no trace; a copy and a restored save go on as the original does.
-void test_yielding(const std::string& keys, const Folder& folder) {
-    Made made(kSurface + "hardness=1500 / " + keys);
+double at(rsc_contact* contact, double time, double Z0) {
+    OK(rsc_contact_set_time(contact, time));
+    return force_at(contact, Z0);
+}
+
+// What is known of a level: values by name, and the deflection in the contact and beside it.
+std::vector<double> known(rsc_contact* contact, const std::string& memory) {
+    std::vector<double> all(2);
+    const double x[] = {0.5, 0.552}, y[] = {0.5, 0.481};
+    OK(rsc_contact_deflection(contact, 2, x, y, all.data()));
+    for (const char* name : {"force", "contact_area", "energy", "lateral_force_x", "moment_y", "contacts"})
+        all.push_back(value(contact, name));
+    if (!memory.empty()) all.push_back(value(contact, memory.c_str()));
+    return all;
+}
+
+// A contact that has been moved and committed, its copy, and what a file gives back know the same and go on alike; a step that was tried leaves no
+// trace. `memory`: the value that tells of the path.
+void test_kept(const std::string& keys, const std::string& memory) {
+    const Folder folder;
+    Made made(kSurface + keys + " / &compare levels='none' /");
     rsc_contact* const contact = made.contact;
+    const ContactHandle fresh = contact_on(made.asperities, made.c);
     ContactHandle copy, saved;
     const std::string path = folder / "save";
-    force_at(contact, 0.01);
-    const double before = force_at(contact, 0.0102), work = value(contact, "plastic_work"), stiffness = value(contact, "stiffness");
-    CHECK(before > 0 && work > 0);
+    for (rsc_contact* one : {contact, fresh.get()}) {
+        CHECK(at(one, 0, 0.01) != 0);
+        OK(rsc_contact_move_tip(one, 0.55, 0.98));  // over the border of a surface that repeats
+        at(one, 1, 0.0102);
+    }
     OK(rsc_contact_commit(contact));
     OK(rsc_contact_copy(&copy, contact));
     OK(rsc_contact_save(contact, path.c_str()));
     OK(rsc_contact_restore(&saved, made.asperities, path.c_str()));
-    for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
-        CHECK_RELATIVE(value(one, "force"), before, 1e-15);
-        CHECK_RELATIVE(value(one, "stiffness"), stiffness, 1e-3);
-    }
-    const double deeper = force_at(contact, 0.005), again = force_at(contact, 0.0102);
-    CHECK(deeper > before && again < before);  // it has yielded further
-    const ContactHandle fresh = contact_on(made.asperities, made.c);
-    force_at(fresh, 0.01), force_at(fresh, 0.0102);
-    const double way_back = force_at(fresh, 0.0104);
+    const std::vector<double> before = known(contact, memory);
+    const double stiffness = value(contact, "stiffness"), deeper = at(contact, 2, 0.005), again = at(contact, 2, 0.0102);
+    CHECK(deeper > before[2] && (memory != "plastic_work" || (again < before[2] && before.back() > 0)));  // it has yielded further
     OK(rsc_contact_rollback(contact));
-    CHECK_RELATIVE(value(contact, "force"), before, 1e-15);
-    CHECK_RELATIVE(value(contact, "plastic_work"), work, 1e-15);
-    CHECK_RELATIVE(value(contact, "stiffness"), stiffness, 1e-3);
     for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
-        CHECK_RELATIVE(force_at(one, 0.0104), way_back, kTolerance);
-        CHECK_RELATIVE(value(one, "plastic_work"), work, kTolerance);
-        CHECK_RELATIVE(force_at(one, 0.005), deeper, kTolerance);
+        CHECK(known(one, memory) == before);
+        CHECK_RELATIVE(value(one, "stiffness"), stiffness, 1e-3);
+        at(one, 2, 0.006);
         OK(rsc_contact_rollback(one));
-        CHECK_RELATIVE(force_at(one, 0.0104), way_back, kTolerance);
+        CHECK(known(one, memory) == before);
+    }
+    for (const auto& [time, x, Z0] : {std::tuple{3, 0.55, 0.0104}, {4, 0.55, 0.007}, {5, 0.53, 0.009}}) {
+        OK(rsc_contact_move_tip(fresh, x, 0.98));
+        const double force = at(fresh, time, Z0), path_value = memory.empty() ? 0 : value(fresh, memory.c_str());
+        for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
+            OK(rsc_contact_move_tip(one, x, 0.98));
+            CHECK_RELATIVE(at(one, time, Z0), force, kTolerance);
+            if (!memory.empty()) CHECK_RELATIVE(value(one, memory.c_str()), path_value, 10 * kTolerance);
+        }
     }
 }
 
-// With adhesion, a contact that is saved after a move of its tip goes on from there, with the deflections of its tension.
-void test_moved(const std::string& keys, const Folder& folder) {
-    Made made(kSurface + "adhesion=0.5 " + keys + " / &compare levels='none' /");
-    rsc_contact* const contact = made.contact;
-    ContactHandle saved;
-    const std::string path = folder / "save";
-    force_at(contact, 0.01);
-    OK(rsc_contact_commit(contact));
-    OK(rsc_contact_move_tip(contact, 0.55, 0.48));
-    ContactHandle copy;  // results are those of the last level until the next one
-    OK(rsc_contact_copy(&copy, contact));
-    for (const char* name : {"stiffness", "energy"}) CHECK_RELATIVE(value(copy, name), value(contact, name), 1e-15);
-    const double moved = force_at(contact, 0.01);
-    CHECK(moved != 0 && rsc_contact_commit(contact) == RSC_SUCCESS);
-    OK(rsc_contact_save(contact, path.c_str()));
-    OK(rsc_contact_restore(&saved, made.asperities, path.c_str()));
-    CHECK_RELATIVE(value(saved, "force"), moved, 1e-15);
-    const double x[] = {0.5, 0.552}, y[] = {0.5, 0.481};
-    double before[2], after[2];
-    OK(rsc_contact_deflection(contact, 2, x, y, before));
-    OK(rsc_contact_deflection(saved, 2, x, y, after));
-    for (int k = 0; k < 2; ++k) CHECK_RELATIVE(after[k], before[k], 1e-15);
-    for (rsc_contact* one : {contact, saved.get()}) OK(rsc_contact_move_tip(one, 0.47, 0.5));
-    for (const double Z : {0.01, 0.013, 0.008}) {
-        CHECK_RELATIVE(force_at(saved, Z), force_at(contact, Z), kTolerance);
-        CHECK_RELATIVE(value(saved, "energy_lost"), value(contact, "energy_lost"), 10 * kTolerance);
-    }
+// Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
+void test_time() {
+    const std::string body = "relaxation_share=0.4,0.3 relaxation_time=1,20";
+    Made made(kSurface + body + " / &solver tolerance=1e-9 /");
+    ContactHandle refused, copy;
+    FrictionHandle friction;
+    double Z0 = 0;
+    const double sudden = at(made.contact, 0, 0.01), held = at(made.contact, 2, 0.01);
+    CHECK(held < 0.9 * sudden && value(made.contact, "time") == 2 && at(made.contact, 2, 0.01) == held);
+    CHECK(rsc_contact_copy(&copy, made.contact) == RSC_SUCCESS && rsc_contact_set_time(copy, 1) == -2);
+    CHECK(rsc_contact_set_time(made.contact, 1) == -2 && rsc_contact_set_time(made.contact, std::nan("")) == -2);
+    CHECK(rsc_contact_set_time(made.contact, 30) == RSC_SUCCESS && rsc_contact_press(made.contact, held, &Z0) == RSC_SUCCESS && Z0 < 0.01);
+    CHECK(rsc_friction_create(&friction, made.contact, 0.3, 0.8) != RSC_SUCCESS);
+    OK(rsc_case_set(made.c, "solids%hardness", "5.0"));
+    CHECK(rsc_contact_create_from_case(&refused, made.asperities, made.c) == -3 && !refused);
 }
 
 struct Path {
@@ -148,10 +156,18 @@ void test_watched(const Folder& folder) {
 }  // namespace
 
 TESTS {
-    test_yielding("", Folder());
-    test_yielding("&solver model='elements' / &elements points_per_wave=4 /", Folder());
-    for (const char* keys : {"", "adhesion_range=2e-4", "adhesion_range=0.02 / &elements points_per_wave=4 / &solver model='elements'"})
-        test_moved(keys, Folder());
+    const std::string elements = " / &elements points_per_wave=4 / &solver model='elements'",
+                      layer = "layer_thickness=0.05 layer_E=4e5 layer_nu=0.2", relaxing = "relaxation_share=0.4,0.3 relaxation_time=1,20",
+                      tight = " / &solver tolerance=1e-9";
+    test_kept("", "");
+    test_kept(layer, "");
+    for (const std::string& model : {std::string(), elements}) {
+        test_kept("hardness=1500" + model, "plastic_work");
+        test_kept(relaxing + (model.empty() ? tight : model + " tolerance=1e-9"), "energy_lost");
+    }
+    for (const std::string& range : {std::string(), std::string("adhesion_range=2e-4"), "adhesion_range=0.02" + elements})
+        test_kept("adhesion=0.5 " + range, "energy_lost");
+    test_time();
     test_rolling();
     test_watched(Folder());
 }

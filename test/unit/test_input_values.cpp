@@ -1,81 +1,22 @@
 // Every number that comes out of a file: values, units, axes and their directions, whatever the file's format, type and length. All
 // numbers of an input differ from each other.
-#include <netcdf.h>
-
 #include "check.hpp"
 #include "error.hpp"
 #include "read/input_netcdf.hpp"
 #include "read/inputs.hpp"
-#include "unit/map_files.hpp"
+#include "unit/netcdf_file.hpp"
 #include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
-using namespace map_files;
+using namespace netcdf_file;
 
 namespace {
 
 const Folder folder;
 
-std::string write(const std::string& name, const std::string& content) { return folder.write(name, content); }
-
-void ok(int status) {
-    if (status != NC_NOERR) std::printf("NetCDF: %s\n", nc_strerror(status));
-    CHECK(status == NC_NOERR);
-}
-
-// A NetCDF file of variables over named dimensions, each with text and number attributes.
-struct Variable {
-    std::string name;
-    nc_type type;
-    std::vector<std::string> dimensions;
-    std::vector<double> values;
-    std::vector<std::pair<std::string, std::string>> texts = {};
-    std::vector<std::pair<std::string, double>> numbers = {};
-};
-
-std::string netcdf(const std::string& name, const std::vector<std::pair<std::string, std::size_t>>& dimensions,
-                   const std::vector<Variable>& variables, int format = NC_NETCDF4) {
-    int id = -1;
-    ok(nc_create((folder / name).c_str(), NC_CLOBBER | format, &id));
-    std::vector<int> ids;
-    std::size_t records = 0;
-    for (const auto& [d, length] : dimensions) {
-        int dimension = -1;
-        const bool record = d == "record";
-        ok(nc_def_dim(id, d.c_str(), record ? NC_UNLIMITED : length, &dimension));
-        if (record) records = length;
-        ids.push_back(dimension);
-    }
-    std::vector<int> all;
-    for (const Variable& v : variables) {
-        std::vector<int> of;
-        for (const std::string& d : v.dimensions)
-            for (std::size_t k = 0; k < dimensions.size(); ++k)
-                if (dimensions[k].first == d) of.push_back(ids[k]);
-        int variable = -1;
-        ok(nc_def_var(id, v.name.c_str(), v.type, static_cast<int>(of.size()), of.data(), &variable));
-        for (const auto& [key, text] : v.texts) ok(nc_put_att_text(id, variable, key.c_str(), text.size(), text.c_str()));
-        for (const auto& [key, number] : v.numbers) ok(nc_put_att_double(id, variable, key.c_str(), v.type, 1, &number));
-        all.push_back(variable);
-    }
-    ok(nc_enddef(id));
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-        const Variable& v = variables[k];
-        std::vector<std::size_t> start(v.dimensions.size(), 0), count;
-        for (const std::string& d : v.dimensions)
-            for (const auto& [named, length] : dimensions)
-                if (named == d) count.push_back(d == "record" ? records : length);
-        ok(nc_put_vara_double(id, all[k], start.data(), count.data(), v.values.data()));
-    }
-    ok(nc_close(id));
-    return folder / name;
-}
-
-std::vector<double> counted(std::size_t n, double first, double step) {
-    std::vector<double> v;
-    for (std::size_t k = 0; k < n; ++k) v.push_back(first + static_cast<double>(k) * step);
-    return v;
+std::string netcdf(const std::string& name, const Dimensions& dimensions, const std::vector<Variable>& variables) {
+    return netcdf_file::write(folder / name, dimensions, variables);
 }
 
 // height(y = 3, x = 4): 10 row + column.
@@ -126,15 +67,9 @@ void types() {
         for (const double scale : {1.0, 0.25})
             for (const double offset : {0.0, -3.0}) {
                 Variable v{"height", type, {"y", "x"}, heights()};
-                // Attributes of the type of the packed values are those of a real number here.
-                const std::string path = netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v});
-                int id = -1;
-                ok(nc_open(path.c_str(), NC_WRITE, &id));
-                ok(nc_redef(id));
-                if (scale != 1) ok(nc_put_att_double(id, 0, "scale_factor", NC_DOUBLE, 1, &scale));
-                if (offset != 0) ok(nc_put_att_double(id, 0, "add_offset", NC_DOUBLE, 1, &offset));
-                ok(nc_close(id));
-                const HeightMap m = read_heights(path, 2.0);
+                if (scale != 1) v.numbers.push_back({"scale_factor", {scale}});
+                if (offset != 0) v.numbers.push_back({"add_offset", {offset}});
+                const HeightMap m = read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0);
                 CHECK(m.dx == 0.5 && m.dy == 0.5 && m.x0 == 0 && m.y0 == 0);
                 for (int j = 0; j < 3; ++j)
                     for (int i = 0; i < 4; ++i) CHECK(m(i, j) == (10 * j + i) * scale + offset);
@@ -150,8 +85,8 @@ void types() {
     for (const bool own : {false, true}) {
         std::vector<double> z = heights();
         z[6] = NC_FILL_SHORT, z[7] = 12;
-        Variable v{"height", NC_SHORT, {"y", "x"}, z, {}, {{"scale_factor", 3}}};
-        if (own) v.numbers.push_back({"_FillValue", 12});
+        Variable v{"height", NC_SHORT, {"y", "x"}, z, {}, {{"scale_factor", {3}}}};
+        if (own) v.numbers.push_back({"_FillValue", {12}});
         const HeightMap m = read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
         CHECK(std::isnan(m(2, 1)) == !own && std::isnan(m(3, 1)) == own && m(0, 1) == 30);
         CHECK(std::isnan(m(0, 2)) == false && m(0, 2) == 60);
@@ -218,7 +153,7 @@ void lists() {
     CHECK(read_asperities(file({"asperity_biharmonic"}, true), "mm").angle.size() == 3);
     for (const char* one : {"asperity_x", "asperity_y", "asperity_z", "asperity_radius"})
         CHECK(!accepted([&] { read_asperities(file({one}, true), "mm"); }));
-    const Asperities text = read_asperities(write("l.txt", "# x y z r\n1.5 -2 3e-3 4 # first\n\n+5 6d0 7D-1 8\n"));
+    const Asperities text = read_asperities(folder.write("l.txt", "# x y z r\n1.5 -2 3e-3 4 # first\n\n+5 6d0 7D-1 8\n"));
     CHECK((text.x == std::vector{1.5, 5.0} && text.y == std::vector{-2.0, 6.0} && text.z == std::vector{3e-3, 0.7} &&
            text.radius == std::vector{4.0, 8.0}));
     const Extent e = extent(
@@ -236,7 +171,7 @@ void lists() {
     CHECK_RELATIVE(table->highest(), 5e3, 1e-13);
     CHECK_RELATIVE((*table)(3e3), 11e-24, 1e-12);
     CHECK_RELATIVE((*table)(std::sqrt(15.0) * 1e3), std::sqrt(143.0) * 1e-24, 1e-12);
-    const auto columns_of_two = read_spectrum(write("s.txt", "2 7\n3 11\n5 13\n"), "um").table;
+    const auto columns_of_two = read_spectrum(folder.write("s.txt", "2 7\n3 11\n5 13\n"), "um").table;
     CHECK(columns_of_two->lowest() == 2 && columns_of_two->highest() == 5 && columns_of_two->largest() == 13);
     const auto bare =
         read_spectrum(netcdf("s.nc", {{"k", 3}}, {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 5}}, {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}}}),
@@ -247,7 +182,7 @@ void lists() {
     const auto with = [](double exponent, const char* name = "psd") {
         return read_spectrum(netcdf("s.nc", {{"k", 3}},
                                     {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 8}},
-                                     {name, NC_DOUBLE, {"k"}, {7, 11, 13}, {}, {{"twin_exponent", exponent}}}}),
+                                     {name, NC_DOUBLE, {"k"}, {7, 11, 13}, {}, {{"twin_exponent", {exponent}}}}}),
                              "um")
             .table;
     };
@@ -257,14 +192,14 @@ void lists() {
     CHECK(!accepted([] {
         read_spectrum(
             netcdf("s.nc", {{"k", 3}, {"none", 0}},
-                   {{"wavenumber", NC_DOUBLE, {"none"}, {}}, {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}, {}, {{"twin_exponent", -0.5}}}}),
+                   {{"wavenumber", NC_DOUBLE, {"none"}, {}}, {"psd", NC_DOUBLE, {"k"}, {7, 11, 13}, {}, {{"twin_exponent", {-0.5}}}}}),
             "um");
     }));
 }
 
 void texts() {
     // A matrix is row by row from y = 0; one spacing, L over its columns.
-    const HeightMap m = read_heights(write("m.txt", "1 2 3 4 5\n6 7 8 9 10\n-11 +12 1.3d1 14e0 15.5\n"), 10.0);
+    const HeightMap m = read_heights(folder.write("m.txt", "1 2 3 4 5\n6 7 8 9 10\n-11 +12 1.3d1 14e0 15.5\n"), 10.0);
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 2 && m.dy == 2 && m.x0 == 0 && m.y0 == 0 && !m.periodic);
     const double wanted[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -11, 12, 13, 14, 15.5};
     for (int k = 0; k < 15; ++k) CHECK(m(k % 5, k / 5) == wanted[k]);
@@ -276,8 +211,8 @@ void texts() {
         all += place + std::to_string(100 * j + i) + "\n";
         if (p != 7) some += place + (p == 13 ? "BAD" : p == 16 ? "NaN" : std::to_string(100 * j + i)) + "\n";
     }
-    const HeightMap t = read_heights(write("t.txt", all), 2.5),
-                    h = read_heights(write("h.txt", some), std::nullopt, "mm", "", Missing::fill);
+    const HeightMap t = read_heights(folder.write("t.txt", all), 2.5),
+                    h = read_heights(folder.write("h.txt", some), std::nullopt, "mm", "", Missing::fill);
     for (const HeightMap* map : {&t, &h}) {
         CHECK(map->nx == 5 && map->ny == 4);
         CHECK_CLOSE(map->x0, -1, 1e-14);

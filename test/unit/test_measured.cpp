@@ -23,15 +23,6 @@ HeightMap make(int nx, int ny, double dx, double dy, Height height) {
     return map;
 }
 
-HeightMap copy(const HeightMap& from) {
-    HeightMap map;
-    map.allocate(from.nx, from.ny, from.stride);
-    map.dx = from.dx, map.dy = from.dy, map.x0 = from.x0, map.y0 = from.y0, map.periodic = from.periodic;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) map.row(j)[i] = from(i, j);
-    return map;
-}
-
 double largest(const HeightMap& map) {
     double most = 0;
     for (int j = 0; j < map.ny; ++j)
@@ -91,7 +82,7 @@ void forms() {
     // The form under roughness: what is left is the roughness, up to its own projection on the form.
     const Spectrum spectrum{.L = 8, .L_lambda_l = 16, .L_lambda_s = 40, .sigma = 0.01};
     const HeightMap rough = synthesize(spectrum, 128, Normalise::sample, 3, 1);
-    HeightMap both = copy(rough);
+    HeightMap both = rough.copy();
     both.periodic = false;
     for (int j = 0; j < 128; ++j)
         for (int i = 0; i < 128; ++i) {
@@ -118,7 +109,7 @@ void missing_points() {
     const auto square = [](double x, double y) { return x * x - y * y + 3 * x * y + y; };
     const auto check = [](auto height, double dx, double dy, double tolerance) {
         HeightMap map = make(60, 45, dx, dy, height);
-        const HeightMap truth = copy(map);
+        const HeightMap truth = map.copy();
         long holes = 0;
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) {
@@ -150,7 +141,7 @@ void filtering() {
     HeightMap wave = make(64, 48, 0.1, 0.2, [](double x, double y) { return std::cos(2 * kPi * (2 * x / 6.4 + 3 * y / 9.6)); });
     wave.periodic = true;
     const double k = 2 * kPi * std::hypot(2 / 6.4, 3 / 9.6);
-    HeightMap half = copy(wave);
+    HeightMap half = wave.copy();
     gaussian_filter(half, 2 * kPi / k);
     double error = 0;
     for (int j = 0; j < 48; ++j)
@@ -161,7 +152,7 @@ void filtering() {
     HeightMap map = synthesize(spectrum, 40, Normalise::sample, 2, 1);
     map.periodic = false;
     map.ny = 31, map.dy = 0.13;
-    const HeightMap before = copy(map);
+    const HeightMap before = map.copy();
     const double cutoff = 2.4, alpha = std::sqrt(std::log(2.0) / kPi);  // 18 steps and more: no aliasing of the weights
     gaussian_filter(map, cutoff);
     const auto reflected = [](int i, int n) {

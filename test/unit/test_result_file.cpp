@@ -151,6 +151,23 @@ void test_edges(const Folder& folder) {
     CHECK(file.text("", "seed") == "1234567890123");
 }
 
+// Numbers that are not finite never reach a file. Obstacles of the file system: test/cli/faults.sh, files.sh.
+void test_not_finite(const Folder& folder) {
+    const std::string path = folder / "never.nc";
+    for (const char* variable : {"contact_force", "map_pressure", "height"}) {
+        Result r = sample::result(1);
+        (variable[0] == 'c'   ? r.contacts.force[5]
+         : variable[0] == 'm' ? r.observations.map_pressure[0]
+                              : r.heights->row(2)[3]) = std::nan("");
+        try {
+            write_result(r, path, {});
+            CHECK(!"refused");
+        } catch (const Error& e) {
+            CHECK(e.kind() == Failure::internal && std::strstr(e.what(), variable) && !fs::exists(path));
+        }
+    }
+}
+
 }  // namespace
 
 TESTS {
@@ -158,4 +175,5 @@ TESTS {
         test_one_realization(Folder(), format, compression);
     test_sums(Folder());
     test_edges(Folder());
+    test_not_finite(Folder());
 }

@@ -182,6 +182,32 @@ void bounds() {
     CHECK(std::isnan(level.force_error_expected));
 }
 
+// The errors expected of elements hold: four surfaces with 8 points in the shortest wave against the same with 32.
+void finer() {
+    Case c;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1, c.surface.sigma = 2.4e-3;
+    c.solids.R[1] = 313;
+    c.solver.model = Model::elements;
+    c.indentation.levels = {2, 1.5, 1, 0.5, 0};
+    int levels = 0, force = 0, area = 0;
+    for (const int seed : {1, 2, 3, 4}) {
+        c.run.seed = seed;
+        const auto pressed = [&](double points) {
+            c.elements.points_per_wave = points;
+            return realize(prepare(c), 1, 1).levels;
+        };
+        const std::vector<Level> coarse = pressed(8), fine = pressed(32);
+        for (std::size_t k = 0; k < coarse.size(); ++k) {
+            if (!(fine[k].force > 0)) continue;
+            ++levels;
+            const double dN = std::abs(coarse[k].force / fine[k].force - 1), dA = std::abs(coarse[k].area / fine[k].area - 1);
+            force += dN <= coarse[k].force_error_expected;
+            area += dA <= coarse[k].area_error_expected;
+        }
+    }
+    CHECK(levels > 10 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
+}
+
 }  // namespace
 
 TESTS {
@@ -193,4 +219,5 @@ TESTS {
     filled();
     resolution();
     bounds();
+    finer();
 }
