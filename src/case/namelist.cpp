@@ -1,5 +1,7 @@
 #include "case/namelist.hpp"
 
+#include "case/namelist_value.hpp"
+
 namespace rsc::namelist {
 namespace {
 
@@ -264,47 +266,37 @@ private:
         group.assignments.push_back(std::move(a));
     }
 
-    // One dimension, blanks allowed anywhere. Returns an error message.
+    // One dimension, blanks allowed between its parts. Returns an error message.
     std::string subscript(Assignment& a) {
+        const std::string of = "the subscript of '" + a.key + "' ";
+        const std::string wanted = of + "must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
+        const std::size_t close = text_.find_first_of(")\n", at_);
+        if (close == std::string_view::npos || text_[close] != ')') return wanted;
+        std::string_view inside = text_.substr(at_ + 1, close - at_ - 1);
         Subscript s;
         s.at = position(at_);
-        next();
-        for (int part = 0; part < 3; ++part) {
-            skip_blanks();
-            int c = next();
-            const bool negative = c == '-';
-            if (c == '-' || c == '+') c = next();
-            std::optional<long> number;
-            for (; is_digit(c); c = next()) {
-                number = 10 * number.value_or(0) + (c - '0');
-                if (*number > kLargestRepeat) return "a subscript of '" + a.key + "' is too large";
-            }
-            if (number && negative) number = -*number;
-            if (is_blank(c)) {
-                skip_blanks();
-                c = next();
-            }
-            const bool ends = c == ')';
-            if (c == ',') return "'" + a.key + "' has one dimension";
-            if (!ends && c != ':') {
-                back(c);
-                return "the subscript of '" + a.key + "' must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
-            }
-            if (c == ':') s.section = true;
-            if (part == 0) s.first = number;
-            if (part == 1) s.last = number;
-            if (part == 2) {
-                if (c == ':') break;
-                if (!ends || !number || *number == 0) return "the step in the subscript of '" + a.key + "' must be an integer other than 0";
-                s.step = *number;
-            }
-            if (ends) {
-                if (part == 0 && !number) return "the subscript of '" + a.key + "' is empty";
-                a.subscript = s;
-                return {};
-            }
+        at_ = close + 1;
+        if (inside.find(',') != std::string_view::npos) return "'" + a.key + "' has one dimension";
+        std::vector<std::optional<long>> parts;
+        for (bool more = true; more; inside.remove_prefix(more ? inside.find(':') + 1 : 0)) {
+            std::string_view part = inside.substr(0, inside.find(':'));
+            more = part.size() < inside.size();
+            while (!part.empty() && is_blank(part.front())) part.remove_prefix(1);
+            while (!part.empty() && is_blank(part.back())) part.remove_suffix(1);
+            const auto number = to_integer(part);
+            if (!number && !part.empty()) return wanted;
+            if (number && std::abs(*number) > kLargestRepeat) return of + "is too large";
+            parts.push_back(number);
         }
-        return "the subscript of '" + a.key + "' has too many colons";
+        if (parts.size() > 3) return of + "has too many colons";
+        if (parts.size() == 1 && !parts[0]) return of + "is empty";
+        if (parts.size() == 3 && parts[2].value_or(0) == 0) return "the step in " + of + "must be an integer other than 0";
+        s.section = parts.size() > 1;
+        s.first = parts[0];
+        if (parts.size() > 1) s.last = parts[1];
+        if (parts.size() > 2) s.step = *parts[2];
+        a.subscript = s;
+        return {};
     }
 
     // --- values -----------------------------------------------------------------------------------------------------------
@@ -371,7 +363,6 @@ private:
     bool item(Assignment& a, std::size_t start) {
         Item item;
         item.at = position(start);
-        item.behind_comma = comma_;
         repeat_count(item);
         const int c = peek();
         if (item.counted && is_separator(c)) {

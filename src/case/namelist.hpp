@@ -26,8 +26,7 @@ struct Item {
     bool quoted = false;
     bool counted = false;    // a repeat count was written
     bool commented = false;  // a comment follows without a blank between
-    bool behind_comma = false;
-    long repeat = 1;  // >= 1
+    long repeat = 1;         // >= 1
     Position at;
 };
 

@@ -12,23 +12,11 @@ std::size_t skip_digits(std::string_view word, std::size_t i) {
     return i;
 }
 
-// Infinity or zero, for a number too large or too small for a double. `digits` has no sign and an exponent marked by e.
-double out_of_range(std::string_view digits) {
-    const std::size_t e = digits.find('e');
-    const std::string_view mantissa = digits.substr(0, e);
-    double exponent = 0;  // saturates far beyond the range of a double
-    bool negative = false;
-    if (e != std::string_view::npos)
-        for (const char c : digits.substr(e + 1)) {
-            if (c == '-') negative = true;
-            if (is_digit(c) && exponent < 1e9) exponent = 10 * exponent + (c - '0');
-        }
-    if (negative) exponent = -exponent;
-    const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
-    const std::size_t first = mantissa.find_first_of("123456789");
-    if (first == std::string_view::npos) return 0;
-    const double leading = exponent + (first < point ? static_cast<double>(point - first) : -static_cast<double>(first - point));
-    return leading > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+// Infinity or zero, for a number too large or too small for a double.
+double out_of_range(std::string_view plain) {
+    long double wide = 0;
+    if (std::from_chars(plain.data(), plain.data() + plain.size(), wide).ec == std::errc{}) return static_cast<double>(wide);
+    return plain.find("e-") == std::string_view::npos ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
 }  // namespace

@@ -61,8 +61,9 @@ const char* group_meaning(std::string_view group);
 const Key* find_key(std::string_view group, std::string_view name);
 // "; did you mean 'sigma'?", "; it belongs to &surface" or nothing.
 std::string suggest_key(std::string_view group, std::string_view name);
-// "surface%sigma", several with "or", for the name of a key without its group; empty if there is none. Case is ignored.
-std::string keys_named(std::string_view name);
+// The key "group%key", blanks around the names ignored. Throws Error(bad_input) with the nearest names.
+const Key& key_of(std::string_view name);
+std::string full_name(const Key& key);  // "group%key"
 
 // --- values by name -----------------------------------------------------------------------------------------------------------
 

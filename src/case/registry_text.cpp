@@ -13,8 +13,6 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-std::string full_name(const Key& key) { return std::string(key.group) + "%" + key.name; }
-
 const char* type_name(Type type) {
     switch (type) {
         case Type::logical: return "logical";
@@ -98,22 +96,13 @@ std::string describe(std::string_view name) {
         }
         return out.str();
     }
-    const std::size_t percent = name.find('%');
-    const std::string group = namelist::lower_case(name.substr(0, percent));
-    if (!group_meaning(group)) {
-        if (const std::string meant = keys_named(name); percent == std::string_view::npos && !meant.empty())
-            bad_input("'" + std::string(name) + "' is a key, not a group; did you mean " + meant + "?");
-        bad_input("unknown group '" + group + "'" + namelist::suggestion(group, group_names()));
-    }
-    if (percent == std::string_view::npos) {
+    if (const std::string group = namelist::lower_case(name); group_meaning(group)) {
         describe_group(out, group);
-        return out.str();
+    } else {
+        const Key& key = key_of(name);
+        out << "&" << key.group << "\n";
+        describe_key(out, key);
     }
-    const std::string_view key_name = name.substr(percent + 1);
-    const Key* key = find_key(group, key_name);
-    if (!key) bad_input("&" + group + ": unknown key '" + std::string(key_name) + "'" + suggest_key(group, key_name));
-    out << "&" << group << "\n";
-    describe_key(out, *key);
     return out.str();
 }
 

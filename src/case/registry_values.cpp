@@ -27,33 +27,10 @@ std::string quote(const Item& item) {
     return item.quoted ? namelist::from_string(shown) : "'" + shown + "'";
 }
 
-// For a number followed by a unit, as in "10um".
-std::string unit_written(const Item& item) {
-    const std::size_t end = item.text.find_last_of("0123456789.");
-    if (item.quoted || end == std::string::npos || end + 1 == item.text.size() || !namelist::to_real(item.text.substr(0, end + 1)))
-        return {};
-    return "; a number is written without its unit, which is run%length_unit for lengths";
-}
-
-// The most frequent causes of surplus values.
-std::string likely_cause(const Assignment& a, const Item& item) {
-    const std::string& text = item.text;
-    if (item.quoted || text.empty()) return {};
-    if (text.front() == '#') return "; comments begin with '!'";
-    const auto digits = [](const std::string& t) { return !t.empty() && t.find_first_not_of("0123456789") == std::string::npos; };
-    for (std::size_t k = 1; k < a.items.size(); ++k) {
-        const Item& before = a.items[k - 1];
-        if (&a.items[k] != &item || before.quoted) continue;
-        const std::string sign_off =
-            before.text.substr(before.text.find_first_not_of("+-") == std::string::npos ? 0 : before.text.find_first_not_of("+-"));
-        const bool touching = item.behind_comma && before.at.line == item.at.line &&
-                              before.at.column + static_cast<int>(before.text.size()) + 1 == item.at.column;
-        if (touching && digits(sign_off) && digits(text.substr(0, text.find_first_of("eEdD"))))
-            return "; the decimal mark is a point: " + before.text + "." + text;
-        if (namelist::to_real(before.text) && std::isalpha(static_cast<unsigned char>(text.front())))
-            return "; a number is written without its unit, which is run%length_unit for lengths";
-    }
-    return {};
+// For a number that is wrong, or surplus: the most frequent causes.
+std::string hint(const Item& item) {
+    const bool number = !item.quoted && item.text.find_first_of("0123456789#") == 0;
+    return !number ? "" : "; numbers are written with a decimal point and without their unit, comments begin with '!'";
 }
 
 // Trailing blanks are not significant in Fortran.
@@ -74,90 +51,69 @@ std::string resolve(const Assignment& a, long size, Walk& walk, const std::strin
     return {};
 }
 
-template <class Slots, class Number>
-bool put(Slots& slot, long element, Number value) {
-    const auto i = element - 1;
-    if (auto* p = std::get_if<int*>(&slot))
-        (*p)[i] = static_cast<int>(value);
-    else if (auto* q = std::get_if<std::int64_t*>(&slot))
-        (*q)[i] = static_cast<std::int64_t>(value);
-    else if (auto* r = std::get_if<double*>(&slot))
-        (*r)[i] = static_cast<double>(value);
-    else if (auto* o = std::get_if<std::optional<double>*>(&slot))
-        (*o)[i] = static_cast<double>(value);
-    else
-        return false;
-    return true;
+template <class Number>
+void put(Slot& slot, long element, Number value) {
+    std::visit(
+        [&](auto& place) {
+            using T = std::remove_reference_t<decltype(place)>;
+            if constexpr (std::is_same_v<T, int*> || std::is_same_v<T, std::int64_t*> || std::is_same_v<T, double*>)
+                place[element - 1] = static_cast<std::remove_pointer_t<T>>(value);
+            else if constexpr (std::is_same_v<T, std::optional<double>*>)
+                place[element - 1] = static_cast<double>(value);
+        },
+        slot);
 }
 
 // Converts and stores one value; returns an error message.
 std::string store(Slot slot, const Key& key, long element, const Item& item, Ledger::Entry& entry) {
-    switch (key.type) {
-        case Type::logical: {
-            const auto value = item.quoted ? std::nullopt : namelist::to_logical(item.text);
-            if (!value) return "expected .true. or .false., found " + quote(item);
-            *std::get<bool*>(slot) = *value;
-            return {};
-        }
-        case Type::integer:
-        case Type::long_integer: {
-            const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
-            const bool small = key.type == Type::integer;
-            if (!value || (small && (*value > std::numeric_limits<int>::max() || *value < std::numeric_limits<int>::min()))) {
-                const bool digits =
-                    !item.quoted && item.text.find_first_not_of("+-0123456789") == std::string::npos && item.text.size() > 5;
-                return digits ? quote(item) + " is not an integer of " + (small ? "32" : "64") + " bits"
-                              : "expected an integer, found " + quote(item);
-            }
-            put(slot, element, *value);
-            return {};
-        }
-        case Type::real: {
-            if (key.word && item.quoted) {
-                const std::string word = namelist::lower_case(trimmed(item.text));
-                const auto found = std::find_if(key.choices.begin(), key.choices.end(), [&](const char* c) { return word == c; });
-                if (found == key.choices.end()) return quote(item) + " is none of " + list_choices(key) + ", and no list of numbers";
-                if (element != 1 || !entry.values.empty() || entry.word) return "one word, or a list of numbers";
-                entry.word = static_cast<int>(found - key.choices.begin());
-                return {};
-            }
-            if (entry.word) return "one word, or a list of numbers";
-            const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
-            if (!value) return "expected a real number, found " + quote(item) + unit_written(item);
-            if (!key.list) {
-                put(slot, element, *value);
-                return {};
-            }
-            const auto i = static_cast<std::size_t>(element);
-            if (entry.values.size() < i) entry.values.resize(i);
-            entry.values[i - 1] = *value;
-            return {};
-        }
-        case Type::string:
-        case Type::choice: break;
-    }
-    // gfortran takes a text without quotes when a digit or a repeat count comes first.
-    if (!item.quoted && (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
-        return "text must be in quotes, found " + quote(item);
-    std::string text = trimmed(item.text);
-    if (static_cast<long>(text.size()) > key.length) return "a text of more than " + std::to_string(key.length) + " characters";
-    if (key.type == Type::string) {
-        *std::get<std::string*>(slot) = std::move(text);
-        return {};
-    }
-    const std::string word = namelist::lower_case(text);
-    const auto found = std::find_if(key.choices.begin(), key.choices.end(), [&](const char* c) { return word == c; });
-    if (found == key.choices.end()) {
-        return quote(item) + " is none of " + list_choices(key) + namelist::suggestion(word, {key.choices.begin(), key.choices.end()});
-    }
-    if (key.list) {
+    const auto to_list = [&](double value) {
         const auto i = static_cast<std::size_t>(element);
         if (entry.values.size() < i) entry.values.resize(i);
-        entry.values[i - 1] = static_cast<double>(found - key.choices.begin());
-        return {};
+        entry.values[i - 1] = value;
+    };
+    const bool word = key.type == Type::choice || (key.word && item.quoted);
+    if (key.type == Type::logical) {
+        const auto value = item.quoted ? std::nullopt : namelist::to_logical(item.text);
+        if (!value) return "expected .true. or .false., found " + quote(item);
+        *std::get<bool*>(slot) = *value;
+    } else if (key.type == Type::integer || key.type == Type::long_integer) {
+        const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
+        const bool small = key.type == Type::integer;
+        if (!value || (small && *value != static_cast<int>(*value))) {
+            const bool digits = !item.quoted && item.text.find_first_not_of("+-0123456789") == std::string::npos && item.text.size() > 5;
+            return digits ? quote(item) + " is not an integer of " + (small ? "32" : "64") + " bits"
+                          : "expected an integer, found " + quote(item);
+        }
+        put(slot, element, *value);
+    } else if (key.type == Type::real && !word) {
+        if (entry.word) return "one word, or a list of numbers";
+        const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
+        if (!value) return "expected a real number, found " + quote(item) + hint(item);
+        key.list ? to_list(*value) : put(slot, element, *value);
+    } else {
+        // gfortran takes a text without quotes when a digit or a repeat count comes first.
+        if (!item.quoted && (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
+            return "text must be in quotes, found " + quote(item);
+        const std::string text = trimmed(item.text);
+        if (!word && static_cast<long>(text.size()) > key.length)
+            return "a text of more than " + std::to_string(key.length) + " characters";
+        if (!word) {
+            *std::get<std::string*>(slot) = text;
+            return {};
+        }
+        const std::string lower = namelist::lower_case(text);
+        const auto found = std::ranges::find(key.choices, lower);
+        if (found == key.choices.end())
+            return quote(item) + " is none of " + list_choices(key) + namelist::suggestion(lower, {key.choices.begin(), key.choices.end()});
+        const auto number = static_cast<int>(found - key.choices.begin());
+        if (key.word && (element != 1 || !entry.values.empty() || entry.word)) return "one word, or a list of numbers";
+        if (key.word)
+            entry.word = number;
+        else if (key.list)
+            to_list(number);
+        else
+            std::get<ChoiceSlot>(slot).set(std::get<ChoiceSlot>(slot).object, number);
     }
-    const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
-    choice.set(choice.object, static_cast<int>(found - key.choices.begin()));
     return {};
 }
 
@@ -251,7 +207,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         if (left == 0 || item.repeat > left) {
             const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
             return fault(item.at, item.counted ? "the repeat count is too large: " + room + " at most"
-                                               : "too many values: " + room + " at most, found " + quote(item) + likely_cause(a, item));
+                                               : "too many values: " + room + " at most, found " + quote(item) + hint(item));
         }
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {
@@ -305,28 +261,13 @@ struct Named {
 };
 
 Named named(std::string_view name, std::string_view value) {
-    const std::size_t percent = name.find('%');
-    if (percent == std::string_view::npos) {
-        const std::string meant = keys_named(name.substr(0, name.find('(')));
-        bad_input("expected group%key, found '" + std::string(name) + "'" + (meant.empty() ? "" : "; did you mean " + meant + "?"));
-    }
-    const auto strip = [](std::string_view s) {
-        while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
-        while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
-        return s;
-    };
-    const std::string_view group = strip(name.substr(0, percent)), rest = strip(name.substr(percent + 1));
-    if (!group_meaning(namelist::lower_case(group))) {
-        bad_input("unknown group '" + std::string(group) + "'" + namelist::suggestion(group, group_names()));
-    }
-    const std::string_view bare = strip(rest.substr(0, rest.find('(')));
-    const Key* key = find_key(group, bare);
-    if (!key) bad_input("unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
+    const Key& key = key_of(name.substr(0, name.find('(')));
+    const std::string_view rest = name.substr(name.find_first_not_of(' ', name.find('%') + 1));
     const namelist::Document document = namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
     if (!document.faults.empty()) bad_input(document.faults.front().text);
     const std::vector<Assignment>& assignments = document.groups.front().assignments;
     if (assignments.size() != 1) bad_input("expected one value for one key");
-    return {key, assignments.front()};
+    return {&key, assignments.front()};
 }
 
 std::string element_text(const Key& key, const Slot& slot, long element) {

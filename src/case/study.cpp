@@ -15,16 +15,14 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
         faults.push_back({a.at, "&study: " + text});
         return std::string();
     };
-    const std::size_t percent = a.key.find('%');
-    if (percent == std::string::npos) return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
-    const std::string group = a.key.substr(0, percent), name = a.key.substr(percent + 1);
-    if (group == "study" || !group_meaning(group)) {
-        return fault("unknown group '" + group + "' in '" + a.key + "'" +
-                     (group == "study" ? "" : namelist::suggestion(group, group_names())));
+    if (a.key.find('%') == std::string::npos) return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
+    const Key* key = nullptr;
+    try {
+        key = &key_of(a.key);
+    } catch (const Error& error) {
+        return fault(error.what());
     }
-    const Key* key = find_key(group, name);
-    if (!key) return fault("unknown key '" + a.key + "'" + suggest_key(group, name));
-    const std::string full = group + "%" + key->name;
+    const std::string full = full_name(*key);
     const bool array = key->size > 1;
     if (!a.subscript) return array ? fault(full + " is an array: vary one element of it, as in " + full + "(1) = ...") : full;
     if (!array) return fault(full + " is no array: it takes no subscript");
@@ -36,10 +34,6 @@ std::string join(const std::vector<std::pair<std::string, std::string>>& values)
     std::string text;
     for (const auto& [key, value] : values) text += (text.empty() ? "" : " ") + key + "=" + value;
     return text;
-}
-
-void set_file(Member& member, std::size_t members) {
-    member.settings.output.file = member_file(member.settings.output.file, member.index, members);
 }
 
 std::size_t member_count(const Study& study) {
@@ -61,24 +55,17 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
             mode_given = true;
-            std::size_t given = a.items.size();
-            while (given > 1 && a.items[given - 1].null && !a.items[given - 1].counted) --given;  // the end of a line before '/'
-            const std::string word = given == 1 && a.items[0].quoted && !a.subscript ? namelist::lower_case(a.items[0].text) : "";
-            if (word == "product")
-                study.mode = StudyMode::product;
-            else if (word == "zip")
-                study.mode = StudyMode::zip;
-            else
-                fault(a.at, "mode: must be 'product' or 'zip'");
+            const std::string word = !a.items.empty() && a.items[0].quoted && !a.subscript ? namelist::lower_case(a.items[0].text) : "";
+            study.mode = word == "zip" ? StudyMode::zip : StudyMode::product;
+            const bool more = std::any_of(a.items.begin() + !a.items.empty(), a.items.end(), [](const auto& item) { return !item.null; });
+            if (more || (word != "zip" && word != "product")) fault(a.at, "mode: must be 'product' or 'zip'");
             continue;
         }
         Study::Axis axis;
         axis.at = a.at;
         axis.key = axis_key(a, faults);
         if (axis.key.empty()) continue;
-        const bool twice =
-            std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& other) { return other.key == axis.key; });
-        if (twice) {
+        if (std::ranges::find(study.axes, axis.key, &Study::Axis::key) != study.axes.end()) {
             fault(a.at, axis.key + ": given twice");
             continue;
         }
@@ -158,7 +145,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         }
         // The bounds of each key were checked before; only relations between keys remain.
         for (const auto& [key, value] : member.values) set_key(member.settings, key, value);
-        set_file(member, count);
+        member.settings.output.file = member_file(member.settings.output.file, member.index, count);
         for (const Problem& problem : check_case(member.settings))
             if (++wrong_members <= namelist::kMostFaults)
                 wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") + std::to_string(member.index) + " (" +

@@ -102,7 +102,7 @@ double length_factor(const std::string& from, const std::string& to, int power) 
     const auto require = [&](const std::string& text, const Unit& parsed) {
         if (const std::string wrong = problem_of(session, text, parsed, Quantity::length); !wrong.empty()) bad_input(wrong);
     };
-    require(b, wanted);
+    if (power != 0) require(b, wanted);  // 0: an angle or a pure number
     if (power == 1) require(a, unit);
     const Unit raised(ut_raise(wanted.get(), power), ut_free);
     const double factor = unit && raised ? factor_between(unit, raised) : 0;

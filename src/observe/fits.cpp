@@ -18,6 +18,15 @@ double ks_distance(const Binned& binned, Cdf cdf) {
     return distance;
 }
 
+// Regularised incomplete gamma functions P and Q = 1 - P, each accurate where it is small; NaN instead of exceptions.
+std::array<double, 2> gamma_tails(double a, double x) {
+    using namespace boost::math::policies;
+    using Quiet = policy<domain_error<ignore_error>, overflow_error<ignore_error>, evaluation_error<ignore_error>, promote_double<false>>;
+    if (!(x > 0)) return {0, 1};
+    if (std::isinf(x)) return {1, 0};
+    return {boost::math::gamma_p(a, x, Quiet()), boost::math::gamma_q(a, x, Quiet())};
+}
+
 // Upper bound of the shape (alpha + 1)/beta, so that std::tgamma does not overflow (std::lgamma writes a global variable).
 constexpr double kLargestShape = 150;
 
@@ -28,11 +37,10 @@ using Parameters = std::array<double, 3>;
 std::vector<double> probabilities(const Parameters& theta, std::size_t bins, double width) {
     const double a = std::exp(theta[0] - theta[1]), beta = std::exp(theta[1]), delta = std::exp(theta[2]);
     std::vector<double> p(bins + 1);
-    IncompleteGamma low{0, 1};
+    std::array<double, 2> low{0, 1};
     for (std::size_t b = 0; b <= bins; ++b) {
-        const IncompleteGamma high =
-            b < bins ? incomplete_gamma(a, std::pow(width * static_cast<double>(b + 1) / delta, beta)) : IncompleteGamma{1, 0};
-        p[b] = low.P < 0.5 ? high.P - low.P : low.Q - high.Q;  // difference of the smaller tails, to avoid cancellation
+        const std::array high = gamma_tails(a, b < bins ? std::pow(width * static_cast<double>(b + 1) / delta, beta) : HUGE_VAL);
+        p[b] = low[0] < 0.5 ? high[0] - low[0] : low[1] - high[1];  // difference of the smaller tails, to avoid cancellation
         low = high;
     }
     return p;
@@ -144,24 +152,8 @@ ScaleFit fit_exponential(double count, double sum, const Binned& binned) {
     return fit;
 }
 
-IncompleteGamma incomplete_gamma(double a, double x) {
-    // Returns NaN instead of exceptions and computes in double precision.
-    using Quiet = boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
-                                                boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
-                                                boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
-                                                boost::math::policies::promote_double<false>>;
-    if (!(x > 0)) return {0, 1};
-    if (std::isinf(x)) return {1, 0};
-    if (x < a + 1) {
-        const double P = boost::math::gamma_p(a, x, Quiet());
-        return {P, 1 - P};
-    }
-    const double Q = boost::math::gamma_q(a, x, Quiet());
-    return {1 - Q, Q};
-}
-
 double generalised_gamma_cdf(double x, double alpha, double beta, double delta) {
-    return x > 0 ? incomplete_gamma((alpha + 1) / beta, std::pow(x / delta, beta)).P : 0;
+    return gamma_tails((alpha + 1) / beta, std::pow(std::max(x, 0.0) / delta, beta))[0];
 }
 
 GammaFit fit_generalised_gamma(const Binned& binned, double mean, double independent) {

@@ -44,10 +44,4 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
 // Cumulative generalised gamma distribution.
 double generalised_gamma_cdf(double x, double alpha, double beta, double delta);
 
-// Regularised incomplete gamma functions, P + Q = 1, a > 0, x >= 0 (Abramowitz and Stegun 6.5.29 and 6.5.31).
-struct IncompleteGamma {
-    double P = 0, Q = 1;
-};
-IncompleteGamma incomplete_gamma(double a, double x);
-
 }  // namespace rsc

@@ -2,6 +2,7 @@
 // Error(bad_input) with the line or byte of the error.
 #pragma once
 
+#include "format.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {
@@ -32,5 +33,8 @@ struct TextTable {
 // the words nan and bad are missing values: NaN. Throws Error(bad_input) for words that are no finite number, rows of different length or
 // separator, files without rows, and UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
+
+// A word of a file for a message, in quotes.
+inline std::string shown(std::string_view word) { return "'" + printable(word, 40) + (word.size() > 40 ? "...'" : "'"); }
 
 }  // namespace rsc

@@ -22,26 +22,19 @@ void skip_object(ByteReader& in) {
 }
 
 void skip(ByteReader& in, char type, const std::string& name) {
-    const auto array = [&](std::size_t size) { in.take(in.number<std::uint32_t>("the length of " + name), size, name); };
-    switch (type) {
-        case 'b':
-        case 'c': in.take(1, 1, name); break;
-        case 'i': in.take(1, 4, name); break;
-        case 'q':
-        case 'd': in.take(1, 8, name); break;
-        case 's': in.text(name); break;
-        case 'o': skip_object(in); break;
-        case 'C': array(1); break;
-        case 'I': array(4); break;
-        case 'Q':
-        case 'D': array(8); break;
-        case 'S':
-            for (auto n = in.number<std::uint32_t>("the length of " + name); n > 0; --n) in.text(name);
-            break;
-        case 'O':
-            for (auto n = in.number<std::uint32_t>("the length of " + name); n > 0; --n) skip_object(in);
-            break;
-        default: in.refuse(name + " has an unknown type, '" + printable(std::string_view(&type, 1)) + "'");
+    constexpr std::string_view singles = "bciqd", arrays = "CIQD";
+    constexpr std::size_t single_sizes[] = {1, 1, 4, 8, 8}, array_sizes[] = {1, 4, 8, 8};
+    const auto length = [&] { return in.number<std::uint32_t>("the length of " + name); };
+    if (const std::size_t k = singles.find(type); k != std::string_view::npos) {
+        in.take(1, single_sizes[k], name);
+    } else if (const std::size_t l = arrays.find(type); l != std::string_view::npos) {
+        in.take(length(), array_sizes[l], name);
+    } else if (type == 's' || type == 'S') {
+        for (std::uint32_t n = type == 'S' ? length() : 1; n > 0; --n) in.text(name);
+    } else if (type == 'o' || type == 'O') {
+        for (std::uint32_t n = type == 'O' ? length() : 1; n > 0; --n) skip_object(in);
+    } else {
+        in.refuse(name + " has an unknown type, '" + printable(std::string_view(&type, 1)) + "'");
     }
 }
 

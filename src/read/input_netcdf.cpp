@@ -3,8 +3,10 @@
 #include <netcdf.h>
 #include <zlib.h>
 
+#include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
+#include "read/bytes.hpp"
 
 // NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr; NetCDF suppresses this in the first thread only.
 extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));
@@ -47,7 +49,8 @@ void require_sound(const std::string& path) {
 
 namespace {
 
-// The header is described in the NetCDF user's guide, "File format specifications". Numbers are big-endian.
+// The header is described in the NetCDF user's guide, "File format specifications". Numbers are big-endian. The NetCDF library crashes on
+// some damaged headers.
 class ClassicHeader {
 public:
     explicit ClassicHeader(const std::string& path)
@@ -348,6 +351,33 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) bad_input(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }
+}
+
+std::optional<double> NetcdfInput::unit_factor(const Variable& v, const std::string& length_unit, int power) const {
+    const auto units = text_attribute(v, "units");
+    if (!units) return std::nullopt;
+    try {
+        return length_factor(*units, length_unit, power);
+    } catch (const Error& error) {
+        bad_input(path_ + ": the units of " + v.name + ": " + error.what());
+    }
+}
+
+std::vector<double> NetcdfInput::values(const std::string& name, std::size_t rank, const std::string& length_unit, int power,
+                                        const char* expected) const {
+    const auto v = find(name);
+    if (!v) bad_input(path_ + ": there is no variable " + name + "; " + expected);
+    if (v->lengths.size() != rank || !v->numeric())
+        bad_input(path_ + ": " + name + ", numeric over " + (rank == 1 ? "one dimension" : "two dimensions") + ", was expected, not " +
+                  v->shape());
+    std::size_t count = 1;
+    for (const std::size_t length : v->lengths) count *= length;
+    check_memory(path_, v->shape(), 8.0 * static_cast<double>(count));
+    std::vector<double> all(count);
+    read(*v, all.data());
+    const double factor = unit_factor(*v, length_unit, power).value_or(1.0);
+    for (double& value : all) value *= factor;
+    return all;
 }
 
 }  // namespace rsc

@@ -50,6 +50,13 @@ public:
     // counted from 0, of the first value that is missing or not finite; with `missing` missing values become NaN, but infinity is refused.
     void read(const Variable& variable, double* out, bool missing = false) const;
 
+    // Factor from a variable's `units` to length_unit^power; none if it has no units.
+    std::optional<double> unit_factor(const Variable& variable, const std::string& length_unit, int power = 1) const;
+    // All values of the variable `name`, with `rank` dimensions, converted from its units, if it has them, to length_unit^power. Throws
+    // Error(bad_input), with `expected` if there is no such variable.
+    std::vector<double> values(const std::string& name, std::size_t rank, const std::string& length_unit, int power,
+                               const char* expected) const;
+
     // None if the attribute does not exist; throws Error(bad_input) if it is no text. Control characters are replaced.
     std::optional<std::string> text_attribute(const Variable& variable, const char* name) const;
     std::optional<std::vector<double>> numbers_attribute(const Variable& variable, const char* name) const;

@@ -1,5 +1,7 @@
 #include "read/formats.hpp"
 
+#include "case/namelist.hpp"
+#include "case/namelist_value.hpp"
 #include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
@@ -91,81 +93,35 @@ HeightMap read_binary(const std::string& path, const std::string& bytes, const s
     return map;
 }
 
-// Words of a text with their line numbers.
-class Words {
-public:
-    Words(const std::string& path, std::string_view text) : path_(path), text_(text) {}
-    long line() const { return line_; }
-    [[noreturn]] void refuse_here(const std::string& what) const { bad_input(path_ + ":" + std::to_string(line_) + ": " + what); }
-
-    // The rest of the line, without blanks around it; false at the end of the text.
-    bool next_line(std::string_view& content) {
-        if (at_ >= text_.size()) return false;
-        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-        content = text_.substr(at_, end - at_);
-        at_ = std::min(end + 1, text_.size());
-        line_ = ++ends_;
-        while (!content.empty() && blank(content.front())) content.remove_prefix(1);
-        while (!content.empty() && blank(content.back())) content.remove_suffix(1);
-        return true;
-    }
-    // Empty at the end of the text.
-    std::string_view next_word() {
-        while (at_ < text_.size() && blank(text_[at_])) ends_ += text_[at_++] == '\n';
-        line_ = ends_ + 1;
-        const std::size_t start = at_;
-        while (at_ < text_.size() && !blank(text_[at_])) ++at_;
-        return text_.substr(start, at_ - start);
-    }
-
-private:
-    static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v' || c == '\0'; }
-
-    const std::string& path_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    long line_ = 0, ends_ = 0;  // of the last word; line ends before the next word
-};
-
-std::string lower(std::string_view text) {
-    std::string s(text);
-    for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return s;
-}
-
-std::string shown(std::string_view word) { return format(word.size() > 40 ? "'%s...'" : "'%s'", printable(word, 40).c_str()); }
-
-template <class T>
-bool to_number(std::string_view word, T& value) {
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc() && end == word.data() + word.size() && !word.empty();
-}
-
-HeightMap read_text(const std::string& path, const std::string& bytes, const std::string& length_unit) {
-    Words words(path, bytes);
-    std::string_view line;
-    words.next_line(line);  // the version
-    std::map<std::string, std::pair<std::string_view, long>> header;
-    bool data = false;
-    while (!data && words.next_line(line)) {
-        if (line.empty() || line[0] == ';') continue;
-        if (line[0] == '*') {
-            data = true;
-            break;
-        }
-        const std::size_t end = std::min(line.find_first_of("= \t"), line.size());
-        std::string_view value = line.substr(end);
-        value.remove_prefix(std::min(value.find_first_not_of("= \t"), value.size()));
-        header[lower(line.substr(0, end))] = {value, words.line()};
-    }
-    if (!data) bad_input(path + ": the line '*' that ends the header is missing; is the file complete?");
+HeightMap read_text(const std::string& path, std::string bytes, const std::string& length_unit) {
+    std::replace(bytes.begin(), bytes.end(), '\0', ' ');
+    std::istringstream in(bytes);
+    long lines = 0;
+    std::map<std::string, std::pair<std::string, long>> header;  // the value of a name, and its line
+    std::string line, word;
+    std::getline(in, line);  // the version
+    do {
+        if (!std::getline(in, line)) bad_input(path + ": the line '*' that ends the header is missing; is the file complete?");
+        ++lines;
+        std::replace(line.begin(), line.end(), '=', ' ');
+        std::istringstream words(line);
+        std::string value;
+        word.clear();
+        words >> word >> value;
+        header[namelist::lower_case(word)] = {value, lines + 1};
+    } while (word[0] != '*');
     const auto number = [&](const char* name, auto& value) {
-        const auto found = header.find(lower(name));
+        const auto found = header.find(namelist::lower_case(name));
         if (found == header.end()) bad_input(path + ": the header has no " + std::string(name));
-        if (!to_number(found->second.first, value))
-            bad_input(path + ":" + std::to_string(found->second.second) + ": " + name + ": a number was expected, not " +
-                      shown(found->second.first));
+        const auto& [text, at] = found->second;
+        const auto read = [&] {
+            if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(value)>>)
+                return namelist::to_real(text);
+            else
+                return namelist::to_integer(text);
+        }();
+        if (!read) bad_input(path + ":" + std::to_string(at) + ": " + name + ": a number was expected, not " + shown(text));
+        value = static_cast<std::remove_reference_t<decltype(value)>>(*read);
     };
     Header h;
     number("NumPoints", h.nx), number("NumProfiles", h.ny);
@@ -182,22 +138,19 @@ HeightMap read_text(const std::string& path, const std::string& bytes, const std
     // Some writers of integers also mark missing points by a number.
     const double missing = h.type == 5 ? missing_value<std::int16_t>() : h.type == 6 ? missing_value<std::int32_t>() : std::nan("");
     const std::size_t points = h.nx * h.ny;
+    const std::string size = std::to_string(h.nx) + " x " + std::to_string(h.ny);
+    const auto refuse = [&](const std::string& what) {
+        in.clear();
+        const auto lines_before = std::count(bytes.begin(), bytes.begin() + in.tellg(), '\n');
+        bad_input(path + ":" + std::to_string(lines_before + 1) + ": " + what);
+    };
     for (std::size_t k = 0; k < points; ++k) {
-        const std::string_view word = words.next_word();
-        if (word.empty() || word[0] == '*')
-            words.refuse_here(std::to_string(k) + " heights where " + std::to_string(h.nx) + " x " + std::to_string(h.ny) +
-                              " were expected; is the file complete?");
-        double value = 0;
-        const std::string small = lower(word.substr(0, 4));
-        if (small == "bad" || small == "nan") {
-            map.data[k] = std::nan("");
-            continue;
-        }
-        if (!to_number(word, value)) words.refuse_here(shown(word) + " is not a number");
-        map.data[k] = value == missing ? std::nan("") : factor * value;
+        if (!(in >> word) || word[0] == '*') refuse(std::to_string(k) + " heights where " + size + " were expected; is the file complete?");
+        const auto value = namelist::lower_case(word) == "bad" ? std::nan("") : namelist::to_real(word);
+        if (!value) refuse(shown(word) + " is not a number");
+        map.data[k] = *value == missing ? std::nan("") : factor * *value;
     }
-    if (const std::string_view word = words.next_word(); !word.empty() && word[0] != '*')
-        words.refuse_here(shown(word) + " after the last of " + std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights");
+    if (in >> word && word[0] != '*') refuse(shown(word) + " after the last of " + size + " heights");
     return map;
 }
 

@@ -1,42 +1,12 @@
 #include "read/inputs.hpp"
 
-#include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
-#include "read/bytes.hpp"
 #include "read/formats.hpp"
 #include "read/input_netcdf.hpp"
 #include "rough/measured_spectrum.hpp"
 
 namespace rsc {
-namespace {
-
-std::vector<double> read_variable(const NetcdfInput& file, const char* name, const std::string& length_unit, int power,
-                                  std::size_t rank = 1) {
-    const auto variable = file.find(name);
-    const auto refuse = [&](const std::string& what) { bad_input(file.path() + ": " + what); };
-    if (!variable)
-        refuse(std::string("there is no variable ") + name +
-               "; it was expected as in the result of a measured map (surface%source = 'heights')");
-    if (variable->lengths.size() != rank || !variable->numeric())
-        refuse(std::string(name) + " over " + (rank == 1 ? "one dimension" : "two dimensions") + " was expected, not " + variable->shape());
-    std::size_t count = 1;
-    for (const std::size_t length : variable->lengths) count *= length;
-    check_memory(file.path(), variable->shape(), 4.0 * static_cast<double>(count));
-    std::vector<double> values(count);
-    file.read(*variable, values.data());
-    double factor = 1;
-    if (const auto units = file.text_attribute(*variable, "units")) try {
-            factor = length_factor(*units, length_unit, power);
-        } catch (const Error& error) {
-            refuse(std::string("the units of ") + name + ": " + error.what());
-        }
-    for (double& v : values) v *= factor;
-    return values;
-}
-
-}  // namespace
-
 InputSpectrum read_spectrum(const std::string& path, const std::string& length_unit, bool by_direction, bool heights) {
     InputSpectrum found;
     try {
@@ -44,7 +14,8 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
         if (is_netcdf(path)) {
             const NetcdfInput file(path);
             const auto read = [&](const char* name, int power, std::size_t rank = 1) {
-                return read_variable(file, name, length_unit, power, rank);
+                return file.values(name, rank, length_unit, power,
+                                   "it was expected as in the result of a measured map (surface%source = 'heights')");
             };
             const auto exponent = [&](const char* name) {
                 const auto given = file.numbers_attribute(*file.find(name), "twin_exponent");

@@ -1,5 +1,7 @@
 #include "read/formats.hpp"
 
+#include "case/namelist.hpp"
+#include "case/namelist_value.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -21,27 +23,9 @@ const char* name_of(char separator) { return separator == ' ' ? "blanks" : separ
     bad_input(path + ":" + std::to_string(line) + ": " + what);
 }
 
-// A word for a message.
-std::string shown(std::string_view word) {
-    std::string s(word.substr(0, 40));
-    for (char& c : s)
-        if (static_cast<unsigned char>(c) < 32) c = '?';
-    return "'" + s + (word.size() > 40 ? "...'" : "'");
-}
-
-// Comparison without case.
-bool is_missing(std::string_view word) {
-    const auto is = [&](std::string_view other) {
-        return std::equal(word.begin(), word.end(), other.begin(), other.end(), [](char a, char b) { return (a | 32) == b; });
-    };
-    return is("nan") || is("bad");
-}
-
 double number(std::string_view word, const std::string& path, long line, std::size_t column, Style& style) {
     const std::string place = shown(word) + " in column " + std::to_string(column);
-    // std::from_chars does not accept a plus sign before a number.
-    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-    std::string text(plus ? word.substr(1) : word);
+    std::string text(word);
     if (style.separator == ';') {
         const std::size_t mark = text.find_first_of(".,");
         if (mark != std::string::npos) {
@@ -56,17 +40,11 @@ double number(std::string_view word, const std::string& path, long line, std::si
             }
         }
     }
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = end == text.data() + text.size() && !text.empty();
-    // Out of range means too large, or so small that the nearest double is zero, which is accepted.
-    if (whole && error == std::errc::result_out_of_range && std::abs(std::strtod(text.c_str(), nullptr)) < 1.0) return 0.0;
-    if (!whole || error != std::errc()) refuse(path, line, place + " is not a number");
-    if (!std::isfinite(value))
+    const auto value = namelist::to_real(text);
+    if (!value) refuse(path, line, place + " is not a number");
+    if (!std::isfinite(*value))
         refuse(path, line, place + " is not finite: every value must be known (missing points of a map: surface%missing)");
-    return value;
+    return *value;
 }
 
 // Appends the numbers of a line to `values`; returns how many there were.
@@ -104,7 +82,8 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
         while (i < text.size() && !blank(text[i]) && !separates(text[i])) ++i;
         const std::string_view word = text.substr(start, i - start);
         if (count > 0) require(gap, shown(word));
-        values.push_back(missing && is_missing(word) ? std::nan("") : number(word, path, line, count + 1, style));
+        const std::string lower = missing ? namelist::lower_case(word) : "";
+        values.push_back(lower == "nan" || lower == "bad" ? std::nan("") : number(word, path, line, count + 1, style));
         ++count;
         gap = 0;
     }

@@ -196,31 +196,17 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
     return maps[0];
 }
 
-// Factor from a variable's `units` to length_unit^power; none if it has no units.
-std::optional<double> unit_factor(const NetcdfInput& file, const NetcdfInput::Variable& v, const std::string& length_unit, int power = 1) {
-    const auto units = file.text_attribute(v, "units");
-    if (!units) return std::nullopt;
-    try {
-        return length_factor(*units, length_unit, power);
-    } catch (const Error& error) {
-        bad_input(file.path() + ": the units of " + v.name + ": " + error.what());
-    }
-}
-
 // Factors of heights, x and y. Heights in nanometres with coordinates in micrometres are common, and without conversion slopes would be
 // 1000 times too large. If only some variables have units, the unit of the others is unknown.
-struct Factors {
-    double height = 1, x = 1, y = 1;
-};
-
-Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights, const std::string& length_unit, bool coordinates) {
+std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights, const std::string& length_unit,
+                                   bool coordinates) {
     std::vector<NetcdfInput::Variable> all = {heights};
     if (coordinates)
         for (const std::size_t dimension : {1, 0}) all.push_back(*file.find(heights.axes[dimension]));
-    double factor[3] = {1, 1, 1};
+    std::array<double, 3> factor{1, 1, 1};
     const NetcdfInput::Variable *with = nullptr, *without = nullptr;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const auto known = unit_factor(file, all[k], length_unit);
+        const auto known = file.unit_factor(all[k], length_unit);
         if (!known)
             without = &all[k];
         else if ((factor[k] = *known) != 1)
@@ -229,7 +215,7 @@ Factors unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heigh
     if (with && without)
         bad_input(file.path() + ": " + with->name + " is in '" + file.text_attribute(*with, "units").value_or("") + "', but " +
                   without->name + " has no attribute units, so its unit is unknown");
-    return {factor[0], factor[1], factor[2]};
+    return factor;
 }
 
 HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, const std::string& length_unit, const std::string& channel,
@@ -246,17 +232,17 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
         check_L(path, *L);
         map.dx = map.dy = *L / map.nx;
     }
-    const Factors factor = unit_factors(file, variable, length_unit, x.has_value());
+    const auto [factor_z, factor_x, factor_y] = unit_factors(file, variable, length_unit, x.has_value());
     if (x) {
-        map.x0 = x->first * factor.x;
-        map.y0 = y->first * factor.y;
-        map.dx = x->step * factor.x;
-        map.dy = y->step * factor.y;
+        map.x0 = x->first * factor_x;
+        map.y0 = y->first * factor_y;
+        map.dx = x->step * factor_x;
+        map.dy = y->step * factor_y;
         check_given_L(path, variable.axes[1], map.nx, map.dx, L);
     }
     file.read(variable, map.data.get(), missing);
-    if (factor.height != 1)
-        std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [&](double& z) { z *= factor.height; });
+    if (factor_z != 1)
+        std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [f = factor_z](double& z) { z *= f; });
     if (x && x->reversed) reverse_columns(map);
     if (y && y->reversed) reverse_rows(map);
     return map;
@@ -295,34 +281,21 @@ void refuse_unknown(const std::string& path, const std::string& start) {
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
     const NetcdfInput file(path);
     Asperities a;
-    std::optional<std::size_t> size;
-    const auto take = [&](const std::string& name, std::vector<double>& values, int power, bool required = true) {
-        const auto v = file.find(name);
-        if (!v && !required) return;
-        if (!v)
-            bad_input(path + ": there is no variable " + name + "; asperity_x, asperity_y, asperity_z and asperity_radius were expected");
-        if (v->lengths.size() != 1 || !v->numeric()) bad_input(path + ": " + name + "(asperity), numeric, was expected, not " + v->shape());
-        if (size && *size != v->lengths[0])
-            bad_input(path + ": " + v->shape() + ": " + std::to_string(*size) + " values as of asperity_x were expected");
-        if (v->lengths[0] > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            bad_input(path + ": " + v->shape() + ": more than 2147483647 asperities");
-        check_memory(path, v->shape(), 8.0 * static_cast<double>(v->lengths[0]));
-        size = v->lengths[0];
-        values.resize(*size);
-        file.read(*v, values.data());
-        const std::string units = file.text_attribute(*v, "units").value_or("radian");
-        if (power == 0 && units != "radian" && units != "radians" && units != "rad" && units != "1")
-            bad_input(path + ": " + name + " is in '" + units + "'; radian is expected");
-        const double factor = power != 0 ? unit_factor(file, *v, length_unit, power).value_or(1.0) : 1.0;
-        if (factor != 1)
-            for (double& value : values) value *= factor;
-    };
     const bool curvatures = file.find("asperity_kappa1") && file.find("asperity_kappa2") && file.find("asperity_angle");
     for (const AsperityColumn& column : kAsperityColumns) {
         const bool of_curvatures =
             column.values == &Asperities::kappa1 || column.values == &Asperities::kappa2 || column.values == &Asperities::angle;
         if (of_curvatures && !curvatures) continue;
-        take("asperity_" + std::string(column.name), a.*column.values, column.length_power, column.required || of_curvatures);
+        const std::string name = "asperity_" + std::string(column.name);
+        const auto variable = file.find(name);
+        if (!variable && !column.required && !of_curvatures) continue;
+        std::vector<double>& values = a.*column.values;
+        values =
+            file.values(name, 1, length_unit, column.length_power, "asperity_x, asperity_y, asperity_z and asperity_radius were expected");
+        if (values.size() != a.x.size())
+            bad_input(path + ": " + variable->shape() + ": " + std::to_string(a.x.size()) + " values as of asperity_x were expected");
+        if (values.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+            bad_input(path + ": " + variable->shape() + ": more than 2147483647 asperities");
     }
     if (a.size() == 0) bad_input(path + ": there is no asperity in it");
     validate(a, [&](std::size_t i) { return path + ": asperity " + std::to_string(i) + ", counted from 0"; });

@@ -26,4 +26,9 @@ double height_step(const HeightMap& map);
 // noise of variance step^2/12. Waves of little more power are damped; the first ring without more power and all shorter waves are removed.
 void smooth_rounded(HeightMap& map, double step);
 
+// Transforms a map without missing points to its waves, lets `damp` multiply them by their gains times `scale`, and transforms back. The waves are nx x ny numbers, row by
+// row: the cosine series of the map, number (i, j) with i and j half waves along its sides, or with `periodic` those of FFTW's half-complex format.
+// Throws Error(no_memory) with the purpose.
+void damp_waves(HeightMap& map, bool periodic, const char* purpose, const std::function<void(double* waves, double scale)>& damp);
+
 }  // namespace rsc

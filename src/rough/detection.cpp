@@ -10,38 +10,6 @@ namespace {
 
 constexpr int kFewestRows = 64;  // rows of a share; the rows beside it are synthesised twice
 
-// Summits found in one share of the rows: `found` or `refined`, depending on the detail.
-struct Part {
-    Asperities found;
-    long saddles = 0;
-    RefinedSummits refined;
-};
-
-void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
-
-// The means are summed over all summits in order, so that they do not depend on the number of parts.
-SummitCount counted(const Asperities& all, long saddles, long repeated) {
-    double sum_g = 0, sum_a = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        sum_g += std::sqrt(all.kappa1[i] * all.kappa2[i]);
-        sum_a += 0.5 * (all.kappa1[i] + all.kappa2[i]);
-    }
-    const double n = all.size() > 0 ? static_cast<double>(all.size()) : 1.0;
-    return {static_cast<long>(all.size()), saddles, repeated, sum_g / n, sum_a / n};
-}
-
-// Concatenates the parts in order.
-Asperities join(std::vector<Part>& parts, SummitCount* count) {
-    Asperities all = std::move(parts[0].found);
-    long saddles = parts[0].saddles;
-    for (std::size_t t = 1; t < parts.size(); ++t) {
-        for (const AsperityColumn& column : kAsperityColumns) append(all.*column.values, parts[t].found.*column.values);
-        saddles += parts[t].saddles;
-    }
-    if (count) *count = counted(all, saddles, 0);
-    return all;
-}
-
 // Degree of alignment of the summits' long axes: 1 if aligned, 0 if no more than by chance.
 double lay_share(const Asperities& summits) {
     std::complex<double> directed = 0;
@@ -58,22 +26,29 @@ double lay_share(const Asperities& summits) {
     return all > 0 ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
 }
 
-Asperities join_refined(std::vector<Part>& parts, int nx, int ny, bool periodic, SummitCount* count) {
-    RefinedSummits all = std::move(parts[0].refined);
-    for (std::size_t t = 1; t < parts.size(); ++t) all.append(parts[t].refined);
-    const long repeated = drop_repeated(all, nx, ny, periodic);
+// Concatenates the parts in order. Those between grid points (`refined`) lose what was found several times.
+Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny, bool periodic, SummitCount* count) {
+    RefinedSummits all = std::move(parts[0]);
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (std::size_t t = 1; t < parts.size(); ++t) {
+        for (const AsperityColumn& column : kAsperityColumns) append(all.found.*column.values, parts[t].found.*column.values);
+        append(all.from, parts[t].from);
+        all.saddles += parts[t].saddles;
+    }
+    const long repeated = refined ? drop_repeated(all, nx, ny, periodic) : 0;
     if (count) *count = counted(all.found, all.saddles, repeated);
+    if (!refined) return std::move(all.found);
     // With a lay, the quartic term continues along the long axis of an elongated summit. On isotropic surfaces summits are elongated by
     // chance in all directions; there the plain biharmonic agrees better with boundary elements (study in input/trust).
     const double share = lay_share(all.found);
-    for (std::size_t i = 0; i < all.elongated.size(); ++i) all.found.biharmonic[i] += share * (all.elongated[i] - all.found.biharmonic[i]);
+    for (std::size_t i = 0; i < all.from.size(); ++i) all.found.biharmonic[i] += share * (all.from[i].elongated - all.found.biharmonic[i]);
     return std::move(all.found);
 }
 
-// Runs part(its Part, first, last) on shares of the rows 0 ... rows - 1, several per thread. Returns the parts in order.
-std::vector<Part> share_rows(int rows, int threads, const std::function<void(Part&, int, int)>& part) {
+// Runs part(its summits, first, last) on shares of the rows 0 ... rows - 1, several per thread. Returns the parts in order.
+std::vector<RefinedSummits> share_rows(int rows, int threads, const std::function<void(RefinedSummits&, int, int)>& part) {
     const int shares = threads > 1 ? std::clamp(rows / kFewestRows, 1, 8 * threads) : 1;
-    std::vector<Part> parts(static_cast<std::size_t>(shares));
+    std::vector<RefinedSummits> parts(static_cast<std::size_t>(shares));
     parallel_for(shares, 1, threads, [&](int t) {
         const auto bound = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / shares); };
         stopping_point();
@@ -115,19 +90,31 @@ Asperities mirrored(const Asperities& found, double L, int n) {
     }
     std::partial_sum(first.begin(), first.end(), first.begin());
     for (std::size_t i = 0; i < found.size(); ++i) order[first[row[i]]++] = i;
-    Asperities all;
-    for (const AsperityColumn& column : kAsperityColumns) {
-        const std::vector<double>& from = found.*column.values;
-        std::vector<double>& to = all.*column.values;
-        to.resize(from.size());
-        for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[order[k]];
-    }
+    Asperities all = selected(found, order);
     std::swap(all.x, all.y);
     for (double& angle : all.angle) angle = angle < 0 ? -std::numbers::pi / 2 - angle : std::numbers::pi / 2 - angle;
     return all;
 }
 
 }  // namespace
+
+Asperities selected(const Asperities& all, const std::vector<std::size_t>& which) {
+    Asperities some;
+    for (const AsperityColumn& column : kAsperityColumns)
+        if (const std::vector<double>& from = all.*column.values; !from.empty())
+            for (const std::size_t k : which) (some.*column.values).push_back(from[k]);
+    return some;
+}
+
+SummitCount counted(const Asperities& all, long saddles, long repeated) {
+    double sum_g = 0, sum_a = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        sum_g += std::sqrt(all.kappa1[i] * all.kappa2[i]);
+        sum_a += 0.5 * (all.kappa1[i] + all.kappa2[i]);
+    }
+    const double n = all.size() > 0 ? static_cast<double>(all.size()) : 1.0;
+    return {static_cast<long>(all.size()), saddles, repeated, sum_g / n, sum_a / n};
+}
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
                            double points_per_wave, const BodyAbove* above, const Breaks* breaks) {
@@ -137,7 +124,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
     for (int reach = 1; refined && points_per_wave == 0 && reach <= kMeasuredReach; ++reach) stencils.push_back(Stencil::polynomial(reach));
     const int edge = map.periodic ? 0 : 1;
     const int rows = map.ny - 2 * edge;
-    std::vector<Part> parts = share_rows(rows, threads, [&](Part& part, int first, int last) {
+    std::vector<RefinedSummits> parts = share_rows(rows, threads, [&](RefinedSummits& part, int first, int last) {
         RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
         SummitClimber climber(stencils, place, map.ny, map.y0, curvature, above, breaks);
         for (int j = first + edge; j < last + edge; ++j) {
@@ -146,14 +133,14 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
                 return j + d >= 0 && j + d < map.ny ? map.row(j + d) : nullptr;
             };
             if (refined) {
-                climber.climb(j, row, part.refined);
+                climber.climb(j, row, part);
                 continue;
             }
             place.y = map.y0 + j * map.dy;
             part.saddles += append_summits(place, row(-1), row(0), row(1), curvature, part.found);
         }
     });
-    return refined ? join_refined(parts, map.nx, map.ny, map.periodic && (!above || above->periodic()), count) : join(parts, count);
+    return join(parts, refined, map.nx, map.ny, map.periodic && (!above || above->periodic()), count);
 }
 
 int summit_points(const Spectrum& spectrum, int n) {
@@ -183,27 +170,23 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
     if (source.whole()) return find_asperities(source.take(), curvature, count, threads, detail, fine / shortest_wave(spectrum), above);
-    if (refined) {
-        const std::vector<Stencil> stencils{Stencil::band_limited(fine / shortest_wave(spectrum))};
-        std::vector<Part> parts = share_rows(fine, threads, [&](Part& part, int first, int last) {
-            SummitClimber climber(stencils, {fine, 0.0, step, step, 0.0, true}, fine, 0.0, curvature, above);
-            // The window is at least twice as long as the 2 margin rows kept from one filling to the next, so that moving these is cheap.
-            const int held = 4 * climber.margin() + RowSource::kBlock;
-            visit_while_making(source, climber.margin(), held, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
-                climber.climb(
-                    j, [&](int d) { return z + d * stride; }, part.refined);
-            });
-        });
-        return join_refined(parts, fine, fine, !above || above->periodic(), count);
-    }
-    std::vector<Part> parts = share_rows(n, threads, [&](Part& part, int first, int last) {
-        RowPlace place{n, 0.0, step, step, 0.0, true};
-        visit_while_making(source, 1, RowSource::kBlock + 2, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
+    std::vector<Stencil> stencils;
+    if (refined) stencils.push_back(Stencil::band_limited(fine / shortest_wave(spectrum)));
+    std::vector<RefinedSummits> parts = share_rows(fine, threads, [&](RefinedSummits& part, int first, int last) {
+        RowPlace place{fine, 0.0, step, step, 0.0, true};
+        SummitClimber climber(stencils, place, fine, 0.0, curvature, above);
+        const int margin = refined ? climber.margin() : 1;
+        // The window is at least twice as long as the 2 margin rows kept from one filling to the next, so that moving these is cheap.
+        visit_while_making(source, margin, 4 * margin + RowSource::kBlock, first, last, [&](int j, const double* z, std::ptrdiff_t stride) {
             place.y = j * step;
-            part.saddles += append_summits(place, z - stride, z, z + stride, curvature, part.found);
+            if (refined)
+                climber.climb(
+                    j, [&](int d) { return z + d * stride; }, part);
+            else
+                part.saddles += append_summits(place, z - stride, z, z + stride, curvature, part.found);
         });
     });
-    return join(parts, count);
+    return join(parts, refined, fine, fine, !above || above->periodic(), count);
 }
 
 }  // namespace rsc

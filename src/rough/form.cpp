@@ -2,7 +2,7 @@
 
 #include "error.hpp"
 #include "format.hpp"
-#include "rough/library_lock.hpp"
+#include "rough/defects.hpp"
 
 namespace rsc {
 namespace {
@@ -123,22 +123,25 @@ struct Sphere {
     }
 };
 
-// Mean square residual of the sphere; NaN if the map is wider than the sphere.
-double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double level) {
-    double sum = 0;
-    long points = 0;
+// Mean of value(z, i, j) over the points that are not missing, summed row by row; NaN if there are none.
+template <class Value>
+double mean_present(const HeightMap& map, Value value) {
+    double total = 0, points = 0;
     for (int j = 0; j < map.ny; ++j) {
         double row = 0;
-        for (int i = 0; i < map.nx; ++i) {
-            const double z = map(i, j);
-            if (std::isnan(z)) continue;
-            const double e = z - level - s(f.u(i) * f.scale, f.v(j) * f.scale);
-            row += e * e;
-            ++points;
-        }
-        sum += row;
+        for (int i = 0; i < map.nx; ++i)
+            if (const double z = map(i, j); !std::isnan(z)) row += value(z, i, j), ++points;
+        total += row;
     }
-    return sum / static_cast<double>(points);
+    return total / points;
+}
+
+// Mean square residual of the sphere; NaN if the map is wider than the sphere.
+double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double level) {
+    return mean_present(map, [&](double z, int i, int j) {
+        const double e = z - level - s(f.u(i) * f.scale, f.v(j) * f.scale);
+        return e * e;
+    });
 }
 
 // Fits a sphere to the heights above `level`.
@@ -188,38 +191,18 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     refuse("no sphere as wide as the map fits it; use detrend = 'quadratic'");
 }
 
-// Mean of the heights that are not missing.
-double mean_present(const HeightMap& map, long& points) {
-    double total = 0;
-    points = 0;
-    for (int j = 0; j < map.ny; ++j) {
-        double row = 0;
-        for (int i = 0; i < map.nx; ++i) {
-            const double z = map(i, j);
-            if (std::isnan(z)) continue;
-            row += z;
-            ++points;
-        }
-        total += row;
-    }
-    return total / static_cast<double>(points);
-}
-
-void lower(HeightMap& map, double by) {
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= by;
-}
-
 }  // namespace
 
 Form detrend(HeightMap& map, Detrend how) {
     Form form;
     form.how = how;
-    long points = 0;
-    const double level = mean_present(map, points);
-    if (points == 0) refuse("all points of the map are missing");
+    const auto height = [](double z, int, int) { return z; };
+    const double level = mean_present(map, height);
+    if (std::isnan(level)) refuse("all points of the map are missing");
     if (how != Detrend::none) form.level = level;
-    if (how == Detrend::mean) lower(map, level);
+    if (how == Detrend::mean)
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= level;
     const Frame frame(map);
     const double a = frame.scale;
     if (how == Detrend::plane) {
@@ -241,17 +224,8 @@ Form detrend(HeightMap& map, Detrend how) {
         form.zxx = -s.bend * (1 + s.p * s.p), form.zxy = -s.bend * s.p * s.q, form.zyy = -s.bend * (1 + s.q * s.q);
         form.radius = s.bend != 0 ? std::sqrt(1 + s.p * s.p + s.q * s.q) / s.bend : HUGE_VAL;
     }
-    const double middle = mean_present(map, points);
-    double square = 0;
-    for (int j = 0; j < map.ny; ++j) {
-        double row = 0;
-        for (int i = 0; i < map.nx; ++i) {
-            const double d = map(i, j) - middle;
-            if (!std::isnan(d)) row += d * d;
-        }
-        square += row;
-    }
-    form.rms = std::sqrt(square / static_cast<double>(points));
+    const double middle = mean_present(map, height);
+    form.rms = std::sqrt(mean_present(map, [&](double z, int, int) { return (z - middle) * (z - middle); }));
     return form;
 }
 
@@ -278,26 +252,12 @@ double gaussian_transmission(double cutoff, double k) {
 void gaussian_filter(HeightMap& map, double cutoff) {
     if (!(cutoff > 0 && std::isfinite(cutoff)))
         throw Error(Failure::bad_input, "filter_cutoff must be positive and finite, not " + text_of(cutoff));
-    const auto nx = static_cast<std::size_t>(map.nx), ny = static_cast<std::size_t>(map.ny);
-    const std::unique_ptr<double[], HeightMap::Free> buffer(allocate_doubles(nx * ny, "a filtered height map"));
-    double* const z = buffer.get();
-    FftwPlan forward, back;
-    {
-        const fftw_r2r_kind there = map.periodic ? FFTW_R2HC : FFTW_REDFT10, again = map.periodic ? FFTW_HC2R : FFTW_REDFT01;
-        const auto lock = fftw_planning();
-        forward.reset(fftw_plan_r2r_2d(map.ny, map.nx, z, z, there, there, FFTW_ESTIMATE));
-        back.reset(fftw_plan_r2r_2d(map.ny, map.nx, z, z, again, again, FFTW_ESTIMATE));
-    }
-    if (!forward || !back) throw Error(Failure::internal, "filter: FFTW made no plan");
-    for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), nx, z + static_cast<std::size_t>(j) * nx);
-    fftw_execute(forward.get());
     const std::vector<double> tx = transmissions(map.nx, map.dx, cutoff, map.periodic);
     const std::vector<double> ty = transmissions(map.ny, map.dy, cutoff, map.periodic);
-    const double scale = 1.0 / ((map.periodic ? 1.0 : 4.0) * static_cast<double>(nx) * static_cast<double>(ny));
-    for (std::size_t j = 0; j < ny; ++j)
-        for (std::size_t i = 0; i < nx; ++i) z[j * nx + i] *= scale * ty[j] * tx[i];
-    fftw_execute(back.get());
-    for (int j = 0; j < map.ny; ++j) std::copy_n(z + static_cast<std::size_t>(j) * nx, nx, map.row(j));
+    damp_waves(map, map.periodic, "a filtered height map", [&](double* z, double scale) {
+        for (const double y : ty)
+            for (const double x : tx) *z++ *= scale * y * x;
+    });
 }
 
 }  // namespace rsc

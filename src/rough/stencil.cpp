@@ -131,41 +131,23 @@ Stencil Stencil::band_limited(double points_per_wave) {
     }
 }
 
-// Weights at 0 for the points 0, 1, -1, 2, -2, ... by B. Fornberg, Generation of finite difference formulas on arbitrarily spaced grids,
-// Math. Comp. 51 (1988) 699.
+// The polynomial that is 1 at point i and 0 at the others is prod (t - v)/(i - v); its coefficients are products of integers.
 Stencil Stencil::polynomial(int reach) {
     Stencil stencil(reach);
-    const int points = 2 * reach + 1;
-    stencil.derivatives_ = std::min(points, kDerivatives);
-    const auto place = [](int n) { return n % 2 == 1 ? (n + 1) / 2 : -n / 2; };
-    const auto size = static_cast<std::size_t>(points);
-    std::vector<std::vector<double>> w(size, std::vector<double>(size));  // [point][derivative]
-    w[0][0] = 1;
-    double c1 = 1;
-    for (int n = 1; n < points; ++n) {
-        double c2 = 1;
-        const auto at_n = static_cast<std::size_t>(n);
-        const std::vector<double> before = w[at_n - 1];
-        for (int v = 0; v < n; ++v) {
-            const double c3 = place(n) - place(v);
-            c2 *= c3;
-            auto& row = w[static_cast<std::size_t>(v)];
-            for (int q = n; q >= 0; --q) {
-                const auto at_q = static_cast<std::size_t>(q);
-                row[at_q] = (place(n) * row[at_q] - (q > 0 ? q * row[at_q - 1] : 0.0)) / c3;
-            }
+    stencil.derivatives_ = std::min(2 * reach + 1, kDerivatives);
+    for (int i = 0; i <= reach; ++i) {
+        std::array<double, kTaps> c{1};
+        double scale = 1;
+        for (int v = -reach; v <= reach; ++v) {
+            if (v == i) continue;
+            for (std::size_t k = c.size() - 1; k > 0; --k) c[k] = c[k - 1] - v * c[k];
+            c[0] *= -v;
+            scale *= i - v;
         }
-        for (int q = n; q >= 0; --q) {
-            const auto at_q = static_cast<std::size_t>(q);
-            w[at_n][at_q] = c1 / c2 * ((q > 0 ? q * before[at_q - 1] : 0.0) - place(n - 1) * before[at_q]);
-        }
-        c1 = c2;
+        double factorial = 1;
+        for (int q = 0; q < stencil.derivatives_; factorial *= ++q)
+            stencil.centre_[q][i] = factorial * c[static_cast<std::size_t>(q)] / scale;
     }
-    for (int n = 0; n < points; ++n)
-        if (place(n) >= 0)
-            for (int q = 0; q < stencil.derivatives_; ++q)
-                stencil.centre_[q][place(n)] =
-                    place(n) == 0 && q % 2 == 1 ? 0.0 : w[static_cast<std::size_t>(n)][static_cast<std::size_t>(q)];
     return stencil;
 }
 

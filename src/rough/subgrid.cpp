@@ -8,19 +8,6 @@ namespace {
 // Largest distance of a summit from a start that is not a maximum [grid steps]; the top of the start's paraboloid is within one step.
 constexpr int kShortTravel = 1;
 
-template <class T>
-void join(std::vector<T>& to, const std::vector<T>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-}
-
-template <class T>
-void keep_marked(std::vector<T>& values, const std::vector<char>& keep) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (keep[i]) values[kept++] = values[i];
-    values.resize(kept);
-}
-
 // Maps u, at most a few steps outside, to [0, n) on a periodic line of n steps.
 double wrapped(double u, int n) {
     u -= n * std::floor(u / n);
@@ -30,16 +17,6 @@ double wrapped(double u, int n) {
 int wrapped(int i, int n) { return (i % n + n) % n; }
 
 }  // namespace
-
-void RefinedSummits::append(const RefinedSummits& other) {
-    join(found.x, other.found.x), join(found.y, other.found.y), join(found.z, other.found.z);
-    join(found.radius, other.found.radius), join(found.angle, other.found.angle);
-    join(found.kappa1, other.found.kappa1), join(found.kappa2, other.found.kappa2);
-    join(found.biharmonic, other.found.biharmonic), join(elongated, other.elongated);
-    join(row, other.row), join(column, other.column), join(maximum, other.maximum);
-    join(u, other.u), join(v, other.v), join(moved, other.moved);
-    saddles += other.saddles;
-}
 
 SummitClimber::SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny, double y0, Curvature curvature,
                              const BodyAbove* above, const Breaks* breaks)
@@ -217,11 +194,10 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
 
 // Biharmonic of the round profile that flattens like an elongated summit. To first order, contact depends on the mean of the quartic over
 // the rim of the contact ellipse: (3/8)(c_LL r + c_SS/r) + c_LS/8 for an ellipse of area pi with the axis ratio sqrt(r), long over short.
-// c_LL, c_LS and c_SS are the coefficients of the quartic along the long and short axes (physics, section 16).
-void SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, RefinedSummits& to) const {
+// c_LL, c_LS and c_SS are the coefficients of the quartic along the long and short axes (physics, section 16). Also appends the plain one.
+double SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, Asperities& a) const {
     const double dx = place_.dx, dy = place_.dy, z40 = s.zxxxx / (dx * dx * dx * dx), z31 = s.zxxxy / (dx * dx * dx * dy),
                  z22 = s.zxxyy / (dx * dx * dy * dy), z13 = s.zxyyy / (dx * dy * dy * dy), z04 = s.zyyyy / (dy * dy * dy * dy);
-    const Asperities& a = to.found;
     const double c = std::cos(a.angle.back()), t = std::sin(a.angle.back()), cc = c * c, tt = t * t, ct = c * t;
     const double along = z40 * cc * cc + 4 * z31 * cc * ct + 6 * z22 * cc * tt + 4 * z13 * ct * tt + z04 * tt * tt;
     const double across = z40 * tt * tt - 4 * z31 * ct * tt + 6 * z22 * cc * tt - 4 * z13 * cc * ct + z04 * cc * cc;
@@ -229,8 +205,8 @@ void SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered, Re
     const double k1 = a.kappa1.back(), k2 = a.kappa2.back();
     constexpr double kAxes = 0.636;  // exponent of the axis ratio of a Hertz contact, (kappa1/kappa2)^0.636 (Brewe and Hamrock 1977)
     const double r = std::pow(k1 / k2, 2 * kAxes);
-    to.found.biharmonic.push_back(z40 + 2 * z22 + z04 - lowered);
-    to.elongated.push_back((r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2)) - lowered);
+    a.biharmonic.push_back(z40 + 2 * z22 + z04 - lowered);
+    return (r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2)) - lowered;
 }
 
 void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
@@ -267,58 +243,50 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
             to.saddles += maximum;
             continue;
         }
-        append_biharmonic(*s, lowered, to);
-        to.row.push_back(j);
-        to.column.push_back(i);
-        to.maximum.push_back(maximum);
-        to.u.push_back(u);
-        to.v.push_back(v);
-        to.moved.push_back(std::max(std::abs(s->x), std::abs(s->y)));
+        const double elongated = append_biharmonic(*s, lowered, to.found);
+        to.from.push_back({j, i, maximum, u, v, std::max(std::abs(s->x), std::abs(s->y)), elongated});
     }
 }
 
 long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
+    using From = RefinedSummits::From;
     constexpr double kSame = 1e-3;              // grid steps; summits are located to 1e-7, and different ones are farther apart
     constexpr int kReach = Patch::kTravel + 1;  // largest distance of a start from its summit
     const auto apart = [&](double a, double b, int n) {
         const double d = std::abs(a - b);
         return periodic ? std::min(d, n - d) : d;
     };
-    const auto better = [&](std::size_t f, std::size_t e) {
-        if (s.maximum[f] != s.maximum[e]) return s.maximum[f] > s.maximum[e];
-        return s.moved[f] < s.moved[e] || (s.moved[f] == s.moved[e] && f < e);
+    const auto better = [](const From& f, const From& e) {
+        if (f.maximum != e.maximum) return f.maximum;
+        return f.moved < e.moved || (f.moved == e.moved && &f < &e);
     };
-    const auto same = [&](std::size_t f, std::size_t e) { return apart(s.u[f], s.u[e], nx) < kSame && apart(s.v[f], s.v[e], ny) < kSame; };
-    // Index of the first start at or after (row, column).
+    const auto same = [&](const From& f, const From& e) { return apart(f.u, e.u, nx) < kSame && apart(f.v, e.v, ny) < kSame; };
+    // The first start at or after (row, column).
     const auto place = [&](int row, int column) {
-        const auto [first, end] = std::equal_range(s.row.begin(), s.row.end(), row);
-        const auto base = s.column.begin();
-        return static_cast<std::size_t>(std::lower_bound(base + (first - s.row.begin()), base + (end - s.row.begin()), column) - base);
+        return std::lower_bound(s.from.begin(), s.from.end(), std::pair(row, column),
+                                [](const From& f, std::pair<int, int> at) { return std::pair(f.row, f.column) < at; });
     };
-    std::vector<char> keep(s.row.size(), 1);
-    long dropped = 0, maxima = 0;
-    for (std::size_t e = 0; e < s.row.size(); ++e) {
-        const int u = static_cast<int>(s.u[e]), v = static_cast<int>(s.v[e]);
+    std::vector<std::size_t> kept;
+    long maxima = 0;
+    for (const From& e : s.from) {
+        bool keep = true;
+        const int u = static_cast<int>(e.u), v = static_cast<int>(e.v);
         const auto look = [&](int row, int first, int last) {
-            for (std::size_t f = place(row, first), end = place(row, last + 1); f < end && keep[e]; ++f)
-                if (f != e && better(f, e) && same(f, e)) keep[e] = 0;
+            for (auto f = place(row, first), end = place(row, last + 1); f < end && keep; ++f) keep = !(better(*f, e) && same(*f, e));
         };
-        for (int d = -kReach; d <= kReach && keep[e]; ++d) {
+        for (int d = -kReach; d <= kReach && keep; ++d) {
             if (!periodic && (v + d < 0 || v + d >= ny)) continue;
             const int row = wrapped(v + d, ny), first = u - kReach, last = u + kReach;
             look(row, std::max(first, 0), std::min(last, nx - 1));
             if (periodic && first < 0) look(row, std::max(nx + first, 0), nx - 1);
             if (periodic && last >= nx) look(row, 0, std::min(last - nx, nx - 1));
         }
-        if (keep[e]) continue;
-        ++dropped;
-        maxima += s.maximum[e];
+        if (keep) kept.push_back(static_cast<std::size_t>(&e - s.from.data()));
+        maxima += !keep && e.maximum;
     }
-    if (dropped == 0) return 0;
-    Asperities& a = s.found;
-    for (auto* values : {&a.x, &a.y, &a.z, &a.radius, &a.kappa1, &a.kappa2, &a.angle, &a.biharmonic, &s.elongated, &s.u, &s.v, &s.moved})
-        keep_marked(*values, keep);
-    keep_marked(s.row, keep), keep_marked(s.column, keep), keep_marked(s.maximum, keep);
+    for (std::size_t k = 0; k < kept.size(); ++k) s.from[k] = s.from[kept[k]];
+    s.from.resize(kept.size());
+    s.found = selected(s.found, kept);
     return maxima;
 }
 

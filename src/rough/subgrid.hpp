@@ -3,6 +3,7 @@
 
 #include "rough/asperities.hpp"
 #include "rough/breaks.hpp"
+#include "rough/detection.hpp"
 #include "rough/refine.hpp"
 #include "rough/summits.hpp"
 
@@ -10,14 +11,16 @@ namespace rsc {
 
 // Summits found from starts in a range of rows, in the order of the starts.
 struct RefinedSummits {
+    struct From {
+        int row, column;   // of the start
+        bool maximum;      // the start is a maximum of the grid
+        double u, v;       // position of the summit in grid steps, x = x0 + u dx, y = y0 + v dy
+        double moved;      // distance from the start, the larger of both directions [grid steps]
+        double elongated;  // biharmonic of the round profile that flattens like the elongated summit [1/length^3]
+    };
     Asperities found;
-    std::vector<int> row, column;   // of the start
-    std::vector<char> maximum;      // the start is a maximum of the grid
-    std::vector<double> u, v;       // position in grid steps, x = x0 + u dx, y = y0 + v dy
-    std::vector<double> elongated;  // biharmonic of the round profile that flattens like the elongated summit [1/length^3]
-    std::vector<double> moved;      // distance from the start, the larger of both directions [grid steps]
-    long saddles = 0;               // grid maxima without a summit in reach
-    void append(const RefinedSummits& other);
+    std::vector<From> from;
+    long saddles = 0;  // grid maxima without a summit in reach
 };
 
 // Climbs from grid points to the summits of the surface, row by row.
@@ -47,7 +50,7 @@ private:
     bool smooth_around(int i, int j, const RefinedSummit& summit, double bend) const;
     double usual_bend() const;
     RefinedSummit of_grid(int i, int j, double bend, bool& broken) const;
-    void append_biharmonic(const RefinedSummit& s, double lowered, RefinedSummits& to) const;
+    double append_biharmonic(const RefinedSummit& s, double lowered, Asperities& a) const;
 
     // Buffer of five rows of the difference. A periodic surface under a body that is not periodic is continued by kBeside points on either
     // side.
@@ -73,5 +76,11 @@ private:
 
 // If several starts lead to the same summit, keeps one that is a maximum, else the nearest one. Returns the number of maxima removed.
 long drop_repeated(RefinedSummits& summits, int nx, int ny, bool periodic);
+
+// The asperities with these indices, in this order.
+Asperities selected(const Asperities& all, const std::vector<std::size_t>& which);
+
+// Counts and means of asperities with curvatures, summed in order, so that they do not depend on how the search was divided.
+SummitCount counted(const Asperities& all, long saddles, long repeated);
 
 }  // namespace rsc

@@ -11,24 +11,6 @@ constexpr double kNearStep = 1.0;
 
 constexpr int kGroup = 8;  // points tested together: one in a hundred is a summit, so one test rejects most groups
 
-// Sets flags[g] if a point of the group starting at 1 + g*kGroup is above its eight neighbours.
-RSC_ALWAYS_INLINE void flag_groups_body(const double* below, const double* z, const double* above, int groups, std::uint64_t* flags) {
-    for (int g = 0; g < groups; ++g) {
-        const int first = 1 + g * kGroup;
-        std::uint64_t above_all[kGroup];
-        for (int k = 0; k < kGroup; ++k) {
-            const int i = first + k;
-            above_all[k] = above_neighbours(below, z, above, i - 1, i, i + 1) ? ~std::uint64_t{0} : 0;
-        }
-        std::uint64_t any = 0;
-        for (int k = 0; k < kGroup; ++k) any |= above_all[k];
-        flags[g] = any;
-    }
-}
-
-RSC_DISPATCH(flag_groups, flag_groups_body, (const double* below, const double* z, const double* above, int groups, std::uint64_t* flags),
-             (below, z, above, groups, flags))
-
 // Sets bits of flags[k] for the points k = 0 ... points - 1: 1 if the paraboloid of the second differences has its top within kNearStep
 // grid steps, 2 if the point is above its neighbours along both axes.
 RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, const double* above, int points, std::uint64_t* flags) {
@@ -43,32 +25,6 @@ RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, cons
 
 RSC_DISPATCH(flag_near, flag_near_body, (const double* below, const double* z, const double* above, int points, std::uint64_t* flags),
              (below, z, above, points, flags))
-
-// Calls keep(l, i, r) for every summit i of the row, with its neighbours l and r along the row.
-template <class Keep>
-void scan_row(const RowPlace& place, const double* below, const double* z, const double* above, Keep keep) {
-    const auto test = [&](int l, int i, int r) {
-        if (above_neighbours(below, z, above, l, i, r)) keep(l, i, r);
-    };
-    const int nx = place.nx;
-    if (nx < 2) return;
-    if (place.periodic) test(nx - 1, 0, 1);
-    constexpr int kBuffer = 256;
-    std::uint64_t flags[kBuffer];
-    int i = 1;
-    while (i + kGroup <= nx - 1) {
-        const int groups = (nx - 1 - i) / kGroup < kBuffer ? (nx - 1 - i) / kGroup : kBuffer;
-        flag_groups(below + (i - 1), z + (i - 1), above + (i - 1), groups, flags);
-        for (int g = 0; g < groups; ++g) {
-            if (!flags[g]) continue;
-            const int first = i + g * kGroup;
-            for (int k = first; k < first + kGroup; ++k) test(k - 1, k, k + 1);
-        }
-        i += groups * kGroup;
-    }
-    for (; i < nx - 1; ++i) test(i - 1, i, i + 1);
-    if (place.periodic) test(nx - 2, nx - 1, 0);
-}
 
 }  // namespace
 
@@ -92,12 +48,15 @@ bool append_summit(double x, double y, double z, const SecondOrder& second, Curv
 long append_summits(const RowPlace& place, const double* below, const double* z, const double* above, Curvature curvature,
                     Asperities& found) {
     long saddles = 0;
-    scan_row(place, below, z, above, [&](int l, int i, int r) {
-        const PointDifferences d = differences(below, z, above, l, i, r);
+    std::vector<Start> starts;
+    find_starts(place, below, z, above, starts);
+    for (const auto [i, maximum] : starts) {
+        if (!maximum) continue;
+        const PointDifferences d = differences(below, z, above, i > 0 ? i - 1 : place.nx - 1, i, i + 1 < place.nx ? i + 1 : 0);
         const SecondOrder second{0.5 * d.zxx / (place.dx * place.dx), 0.5 * d.zyy / (place.dy * place.dy),
                                  0.5 * d.zxy / (place.dx * place.dy)};
         if (!append_summit(place.x0 + i * place.dx, place.y, z[i], second, curvature, found)) ++saddles;
-    });
+    }
     return saddles;
 }
 
