@@ -239,14 +239,16 @@ void Checkpoint::remove() {
     if (::unlink(name_.c_str()) != 0 && errno != ENOENT) fail_to_write(name_, errno);
 }
 
-std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now) {
+std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now, const std::string& of_there,
+                                                 const std::string& of_now) {
     std::vector<std::string> lines;
     const auto shown = [](const std::string& value) { return value.empty() ? std::string("unset") : value; };
     for (const Key& key : registry()) {
         const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name), b = get_key(now, name);
         // A campaign may grow: realizations of the smaller one are part of the larger one.
         if (name == "run%realizations" && there.run.realizations < now.run.realizations) continue;
-        if (a != b && key.changes == Changes::numbers) lines.push_back(name + ": " + shown(a) + " there, " + shown(b) + " now");
+        if (a != b && key.changes == Changes::numbers)
+            lines.push_back(name + ": " + shown(a) + " " + of_there + ", " + shown(b) + " " + of_now);
     }
     return lines;
 }

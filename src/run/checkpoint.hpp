@@ -48,8 +48,9 @@ public:
     // Removes the file of a finished campaign.
     void remove();
 
-    // "surface%sigma: 0.01 there, 0.02 now": one line for each key that differs and must not.
-    static std::vector<std::string> differences(const Case& there, const Case& now);
+    // "surface%sigma: 0.01 there, 0.02 now": one line for each key that differs and must not; of_there and of_now name the two cases.
+    static std::vector<std::string> differences(const Case& there, const Case& now, const std::string& of_there = "there",
+                                                const std::string& of_now = "now");
 
 private:
     void create();
