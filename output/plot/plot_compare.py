@@ -9,24 +9,15 @@ from plot_spots import spots_of
 from plot_style import Page, STYLES, amount, label
 
 
-def shapes(result, step, count):
-    """Ratio of the axes of the spots of a level, and the angle of the longer one; circles for laws without ellipses."""
-    if "asperity_kappa1" not in result or result.case.get("asperities%law", "'hertz'").strip("'") == "hertz":
-        return np.ones(count), np.zeros(count)
-    first = int(result["contact_start"][step]) - 1
-    which = result.window("contact_asperity", slice(first, first + count)).astype(int) - 1
-    return (result["asperity_kappa1"][which] / result["asperity_kappa2"][which]) ** (2 / 3), result["asperity_angle"][which]  # accurate enough for a picture
-
-
-def along_line(spots, ratio, angle, y, x0, x1):
+def along_line(spots, y, x0, x1):
     """Hertz's pressures of the spots along the line at y from x0 to x1; in yielding spots the pressure is constant."""
     x = np.linspace(x0, x1, 2000)
     p = np.zeros_like(x)
-    for sx, sy, a, f, yields, r, t in zip(*spots, ratio, angle):
+    for sx, sy, a, b, t, f, yields in zip(*spots):
         u = (x - sx) * np.cos(t) + (y - sy) * np.sin(t)
         v = -(x - sx) * np.sin(t) + (y - sy) * np.cos(t)
-        inside = 1 - u**2 / (a * a * r) - v**2 * r / (a * a)
-        p += np.where(inside > 0, f / (np.pi * a * a) * (1 if yields else 1.5 * np.sqrt(np.maximum(inside, 0))), 0)
+        inside = 1 - (u / a) ** 2 - (v / b) ** 2
+        p += np.where(inside > 0, f / (np.pi * a * b) * (1 if yields else 1.5 * np.sqrt(np.maximum(inside, 0))), 0)
     return x, p
 
 
@@ -61,8 +52,8 @@ def compare(results, options):
     # Around the spot of the largest force, or without stored spots around the highest pressure.
     peak, reach = int(np.argmax(pressure)), 0.0
     if spots is not None:
-        strongest = int(np.argmax(spots[3]))
-        peak, reach = int(np.argmin(np.hypot(px - spots[0][strongest], py - spots[1][strongest]))), 4 * spots[2][strongest]
+        strongest = int(np.argmax(spots[5]))
+        peak, reach = int(np.argmin(np.hypot(px - spots[0][strongest], py - spots[1][strongest]))), 4 * np.sqrt(spots[2][strongest] * spots[3][strongest])
     n = int(np.clip(reach / hx, 20, 200))  # pixels on either side of it
     x0, x1, y0, y1 = px[peak] - (n + 0.5) * hx, px[peak] + (n + 0.5) * hx, py[peak] - (n + 0.5) * hy, py[peak] + (n + 0.5) * hy
     near = (px > x0) & (px < x1) & (py > y0) & (py < y1)
@@ -76,14 +67,13 @@ def compare(results, options):
     values[((px[at] - x0) / hx).astype(int)] = pressure[at]
     line.stairs(values, x0 + hx * np.arange(2 * n + 2), color="0.5", fill=True, alpha=0.5)
     if spots is not None:
-        x, y, a = spots[:3]
-        ratio, angle = shapes(result, step, x.size)
-        some = (abs(x - px[peak]) < n * hx + 3 * a) & (abs(y - py[peak]) < n * hy + 3 * a)
+        x, y, a, b, angle = spots[:5]
+        some = (abs(x - px[peak]) < n * hx + a) & (abs(y - py[peak]) < n * hy + a)
         if some.any():
-            axis.add_collection(EllipseCollection(2 * (a * np.sqrt(ratio))[some], 2 * (a / np.sqrt(ratio))[some], np.degrees(angle)[some], units="xy", offsets=np.c_[x, y][some],
+            axis.add_collection(EllipseCollection(2 * a[some], 2 * b[some], np.degrees(angle)[some], units="xy", offsets=np.c_[x, y][some],
                                                   transOffset=axis.transData, facecolors="none", edgecolors="#c1440e", linewidths=1.0, gid="spots"))
         page.entry("asperities", color="#c1440e", ls="-", lw=1.0)
-        line.plot(*along_line([v[some] for v in spots], ratio[some], angle[some], py[peak], x0, x1), "-", color="#c1440e", lw=1.0)
+        line.plot(*along_line([v[some] for v in spots], py[peak], x0, x1), "-", color="#c1440e", lw=1.0)
     axis.axhline(py[peak], color="#0b3c5d", lw=0.6, ls=":")
     axis.set(xlim=(x0, x1), ylim=(y0, y1), title="spots around the strongest")
     line.set(xlim=(x0, x1), title="pressure along the dotted line")

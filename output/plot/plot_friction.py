@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
+from plot_spots import spots_of
 from plot_style import Page, STYLES, amount, label
 
 
@@ -50,7 +51,7 @@ def stick(results, options):
     if not found or "contact_radius" not in found[0]:
         return None
     result, step = found
-    Z, count, start = result.mean("separation"), result["contact_count"].astype(int), result["contact_start"].astype(int) - 1
+    Z, count = result.mean("separation"), result["contact_count"].astype(int)
     full = result["tangential_displacement"][step].max()
     slides = _slide_per_depth(result, step) * (Z - Z[step])
     inner = int(np.argmin(abs(slides - 0.5 * full)))
@@ -59,10 +60,9 @@ def stick(results, options):
     page = Page(options, aspect=0.85)
     axis = page.axes[0]
     for level, colour, text in ((step, STYLES[1][2], "slips"), (inner, STYLES[0][2], "sticks")):
-        part = slice(start[level], start[level] + count[level])
-        which = result["contact_asperity"][part].astype(int) - 1
-        x, y, wide = result["asperity_x"][which], result["asperity_y"][which], 2 * result["contact_radius"][part]
-        axis.add_collection(EllipseCollection(wide, wide, 0 * wide, units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData, facecolors=colour, edgecolors="none", gid=text))
+        x, y, major, minor, angle = spots_of(result, level)[:5]
+        wide = 2 * major
+        axis.add_collection(EllipseCollection(wide, 2 * minor, np.degrees(angle), units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData, facecolors=colour, edgecolors="none", gid=text))
         page.entry(text, marker="o", color=colour, ls="none")
         if level == step:
             half, cx, cy = 0.55 * max(np.ptp(x) + wide.max(), np.ptp(y) + wide.max()), (x.min() + x.max()) / 2, (y.min() + y.max()) / 2

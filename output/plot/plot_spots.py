@@ -27,11 +27,15 @@ def heights(result, axis, window=None, bright=0.0, most=900):
 
 
 def spots_of(result, step):
-    """x, y, radius, force and yielding of the spots of a level; None if the file has no spots."""
+    """x, y, major and minor semi-axes, angle of the major one, force and yielding of the spots of a level; None if the file has no spots."""
     if "contact_start" not in result or "contact_radius" not in result or not result["contact_count"][step] > 0:
         return None
     first, count = int(result["contact_start"][step]) - 1, int(result["contact_count"][step])
     span = slice(first, first + count)
+    yields = result.window("contact_yields", span) > 0 if "contact_yields" in result else np.zeros(count, bool)
+    force = result.window("contact_force", span)
+    if "contact_major" in result:
+        return *(result.window("contact_" + name, span) for name in ("spot_x", "spot_y", "major", "minor", "angle")), force, yields
     if "contact_x" in result:
         x, y = result.window("contact_x", span), result.window("contact_y", span)
     elif "contact_asperity" in result:
@@ -39,8 +43,8 @@ def spots_of(result, step):
         x, y = result["asperity_x"][which], result["asperity_y"][which]
     else:
         return None
-    yields = result.window("contact_yields", span) > 0 if "contact_yields" in result else np.zeros(count, bool)
-    return x, y, result.window("contact_radius", span), result.window("contact_force", span), yields
+    a = result.window("contact_radius", span)
+    return x, y, a, a, 0 * a, force, yields
 
 
 def pixels_of(result, step):
@@ -60,12 +64,12 @@ def pixels_of(result, step):
 
 
 def draw_spots(axis, spots, least=0.0, edge=0.0):
-    """Spots as discs, elastic ones, those that yield and those under tension in different colours; least: the smallest radius drawn."""
-    x, y, a, f, yields = spots
+    """Spots as ellipses, elastic ones, those that yield and those under tension in different colours; least: the smallest semi-axis drawn."""
+    x, y, major, minor, angle, f, yields = spots
     for some, colour, name in ((~yields & (f >= 0), ELASTIC, "spots"), (yields, YIELDING, "yielding spots"), (~yields & (f < 0), PULLING, "pulling spots")):
         if some.any():  # matplotlib 3.6 draws an empty EllipseCollection as one big ellipse
-            wide = 2 * np.maximum(a[some], least)
-            axis.add_collection(EllipseCollection(wide, wide, 0 * wide, units="xy", offsets=np.column_stack([x[some], y[some]]), transOffset=axis.transData, facecolors=colour, edgecolors="k",
+            wide, high = (2 * np.maximum(axes[some], least) for axes in (major, minor))
+            axis.add_collection(EllipseCollection(wide, high, np.degrees(angle[some]), units="xy", offsets=np.column_stack([x[some], y[some]]), transOffset=axis.transData, facecolors=colour, edgecolors="k",
                                                   linewidths=edge, gid=name))
 
 
@@ -84,7 +88,7 @@ def spots(results, options):
     found = spots_of(result, step)
     if found is None:
         return None
-    x, y, a, f, yields = found
+    x, y, a, _, _, f, yields = found
     big = int(np.argmax(a))
     low, high = np.array([(x - a).min(), (y - a).min()]), np.array([(x + a).max(), (y + a).max()])
     half = 0.54 * (high - low).max()

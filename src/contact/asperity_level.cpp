@@ -12,12 +12,6 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-bool inside(const Spot& spot, double x, double y) {
-    const double c = std::cos(spot.angle), s = std::sin(spot.angle), dx = x - spot.x, dy = y - spot.y;
-    const double p = (dx * c + dy * s) / spot.major, q = (dy * c - dx * s) / spot.minor;
-    return p * p + q * q < 1;
-}
-
 // Contact spots of a level on the surface; their long axes are in the direction of the smaller curvature.
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
@@ -30,19 +24,26 @@ std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities&
         const double root = std::sqrt(law.axes(level.asperity[k]));
         spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root, asperities.angle[at(level.asperity[k])]});
     }
-    // The spot of a summit that lies in that of a larger one is part of it (law/ellipse_law.hpp), and does not overlap it.
+    return spots;
+}
+
+// The spot of a summit that lies in that of a larger one is part of it (law/ellipse_law.hpp): the index of the largest such spot for each
+// spot, its own if there is none.
+std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& level, const Law& law) {
     std::vector<double> reach(spots.size(), 0.0);
     for (std::size_t k = 0; k < spots.size(); ++k)
         if (law.spot(level.asperity[k], level.u[k]))
             reach[k] = spots[k].major + std::hypot(spots[k].x - level.x[k], spots[k].y - level.y[k]);
-    std::vector<bool> part(spots.size(), false);
+    std::vector<std::size_t> whole(spots.size());
+    std::iota(whole.begin(), whole.end(), std::size_t{0});
+    const auto smaller = [&](std::size_t i, std::size_t j) { return spots[i].major * spots[i].minor < spots[j].major * spots[j].minor; };
     for_close_pairs(level.x, level.y, reach, [&](std::size_t i, std::size_t j, double) {
-        const std::size_t large = spots[i].major * spots[i].minor < spots[j].major * spots[j].minor ? j : i, small = i + j - large;
-        part[small] = part[small] || inside(spots[large], level.x[small], level.y[small]);
+        const std::size_t large = smaller(i, j) ? j : i, small = i + j - large;
+        if (spots[large].contains(level.x[small], level.y[small]) && smaller(whole[small], large)) whole[small] = large;
     });
-    for (std::size_t k = 0; k < spots.size(); ++k)
-        if (part[k]) spots[k].major = spots[k].minor = 0;
-    return spots;
+    for (std::size_t& k : whole)
+        while (whole[k] != k) k = whole[k];
+    return whole;
 }
 
 // Largest Z0 at which the flank of a summit touches the indenter: slope^2/(2 curvature) above the Z0 at which its top touches, or if the
@@ -112,10 +113,17 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     const Asperities& asperities = bodies.asperities;
     const Indenter& indenter = bodies.indenter;
     const SolverOptions& options = bodies.options;
-    if (traits(options.law).elliptic_spots)
-        level.area = union_area(spots_of(level, law, asperities), &level.overlapping_pairs, indenter.period, &level.own_area);
-    else
+    if (traits(options.law).elliptic_spots) {
+        const std::vector<Spot> own = spots_of(level, law, asperities);
+        const std::vector<std::size_t> whole = wholes_of(own, level, law);
+        level.spots = own;
+        for (std::size_t k = 0; k < own.size(); ++k)
+            if (whole[k] != k) level.spots[k].major = level.spots[k].minor = 0;  // a part does not overlap its whole
+        level.area = union_area(level.spots, &level.overlapping_pairs, indenter.period, &level.own_area);
+        for (std::size_t k = 0; k < own.size(); ++k) level.spots[k] = own[whole[k]];
+    } else {
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
+    }
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
     bool ellipses = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/indentation.hpp"
+#include "contact/spots.hpp"
 
 namespace rsc {
 
@@ -118,12 +119,15 @@ struct Level : LevelValues {
     std::vector<int> asperity;  // index of the asperity (0-based), or of the pixel of the spot with the highest pressure
     std::vector<double> x, y;   // position of the summit, or centroid of the pressure [length]
     std::vector<double> f;      // force [force]
-    std::vector<double> a;      // contact radius: the spot's area is pi a^2 [length]
-    std::vector<double> u;      // penetration with interaction [length]
+    std::vector<double> a;  // contact radius: the spot's area is pi a^2; of an ellipse, the root of the product of its semi-axes [length]
+    std::vector<double> u;  // penetration with interaction [length]
     LevelPixels pixels;
     LevelTractions tractions;
     std::vector<double> own_area;  // area of an elliptic spot not covered by earlier spots; the sum is the area of the union; empty: pi a^2
-    std::vector<int> yields;       // nonzero if the contact yields (hardness); empty or one per contact
+    // Laws with elliptic spots: the spots whose union is the contact area; that of a contact within the spot of another one is the other's.
+    // Empty: circles of radius a.
+    std::vector<Spot> spots;
+    std::vector<int> yields;  // nonzero if the contact yields (hardness); empty or one per contact
 
     void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
         asperity.push_back(index);

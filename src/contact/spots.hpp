@@ -15,6 +15,13 @@ struct Spot {
     double x, y;          // centre [length]
     double major, minor;  // semi-axes [length]
     double angle;         // direction of the major semi-axis from x
+    // 1 at the centre, 0 at the rim, negative outside: a Hertz pressure is in proportion to its square root.
+    double inside(double at_x, double at_y) const {
+        const double c = std::cos(angle), s = std::sin(angle), dx = at_x - x, dy = at_y - y;
+        const double p = (dx * c + dy * s) / major, q = (dy * c - dx * s) / minor;
+        return 1 - p * p - q * q;
+    }
+    bool contains(double at_x, double at_y) const { return inside(at_x, at_y) > 0; }
 };
 
 // Area of the union of spots [length^2], exact to rounding; spots without area are allowed. `close` (optional) receives the result of

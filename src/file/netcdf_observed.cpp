@@ -233,7 +233,16 @@ void ResultTable::contacts() {
         add_disorder("contact_y", {"contact"}, unit(1), "y" + what, c.y, comment("a contact is a set of pixels connected by their sides"));
     }
     add_disorder("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
-    add_disorder("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius, comment("its area is pi a^2"));
+    add_disorder("contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius,
+                 comment("its area is pi a^2: of an ellipse, the root of the product of its semi-axes"));
+    if (!c.major.empty()) {
+        add_disorder("contact_spot_x", {"contact"}, unit(1), "x of the middle of the contact's elliptic spot", c.spot_x,
+                     comment("a contact within the spot of another has that spot; the contact area is the area of the union of all spots"));
+        add_disorder("contact_spot_y", {"contact"}, unit(1), "y of the middle of the contact's elliptic spot", c.spot_y);
+        add_disorder("contact_major", {"contact"}, unit(1), "major semi-axis of the contact's elliptic spot", c.major);
+        add_disorder("contact_minor", {"contact"}, unit(1), "minor semi-axis of the contact's elliptic spot", c.minor);
+        add_disorder("contact_angle", {"contact"}, "radian", "direction of the major semi-axis, from x", c.angle);
+    }
     if (!c.yields.empty()) add("contact_yields", {"contact"}, "1", "1 if the contact yields at this level, 0 if it is elastic", c.yields);
 }
 

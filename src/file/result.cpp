@@ -72,6 +72,10 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         }
         packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
         packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
+        for (const Spot& spot : level.spots) {
+            packed.spot_x.push_back(spot.x), packed.spot_y.push_back(spot.y);
+            packed.major.push_back(spot.major), packed.minor.push_back(spot.minor), packed.angle.push_back(spot.angle);
+        }
         if (result.path_dependent()) packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
     }
     result.contacts = std::move(packed);

@@ -21,7 +21,8 @@ struct PackedContacts {
     std::vector<std::int32_t> asperity;      // index of the asperity, from 0; elements: empty
     std::vector<double> x, y;                // centroid of the contact's pressure; asperities: empty
     std::vector<double> force, radius;
-    std::vector<std::int32_t> yields;  // 1 if the contact yields; empty if none ever does
+    std::vector<double> spot_x, spot_y, major, minor, angle;  // ellipses (Level::spots); other laws and elements: empty
+    std::vector<std::int32_t> yields;                         // 1 if the contact yields; empty if none ever does
 };
 
 // First loading and the cycle at constant separation, one row for each level (contact/friction.hpp). NaN for levels without contact.

@@ -31,28 +31,31 @@ Range points_within(double origin, double step, int n, double low, double high) 
 
 int wrapped(int i, int n) { return (i % n + n) % n; }
 
-// Adds a force over the points within the radius a, or the nearest point, in proportion to shape(1 - d^2/a^2) at the distance d.
-// If `whole`, the integral of the shape over the disc, is positive, points with 1 - d^2/a^2 < edge share equally what the others leave of it.
+// Adds a force over the points within a spot, or the nearest point, in proportion to shape(t), t being 1 at the centre and 0 at the rim
+// (Spot::inside). Points with t above `beside` touch. If `whole`, the integral of the shape over the spot, is positive, points with t < edge
+// share equally what the others leave of it.
 template <class Shape>
-void add_disc(Pressures& all, const HeightMap& map, bool repeats, double x, double y, double a, double force, double contact, Shape&& shape,
+void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s, double force, double beside, Shape&& shape,
               double whole = 0, double edge = 0) {
-    const auto range = [&](double origin, double step, int n, double centre) {
-        const Range r{static_cast<int>(std::ceil((centre - a - origin) / step)),
-                      static_cast<int>(std::floor((centre + a - origin) / step))};
+    const auto range = [&](double origin, double step, int n, double centre, double along, double across) {
+        const double half = std::hypot(s.major * along, s.minor * across);
+        const Range r{static_cast<int>(std::ceil((centre - half - origin) / step)),
+                      static_cast<int>(std::floor((centre + half - origin) / step))};
         return repeats ? r : Range{std::max(r.first, 0), std::min(r.last, n - 1)};
     };
-    const Range columns = range(map.x0, map.dx, map.nx, x), rows = range(map.y0, map.dy, map.ny, y);
+    const double cosine = std::cos(s.angle), sine = std::sin(s.angle);
+    const Range columns = range(map.x0, map.dx, map.nx, s.x, cosine, sine), rows = range(map.y0, map.dy, map.ny, s.y, sine, cosine);
     Pressures spot;
     double sum = 0;
     std::vector<Load*> outermost;
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) {
-            const double d2 = std::pow(map.x0 + i * map.dx - x, 2) + std::pow(map.y0 + j * map.dy - y, 2), t = 1 - d2 / (a * a);
+            const double t = s.inside(map.x0 + i * map.dx, map.y0 + j * map.dy);
             if (!(t > 0)) continue;
             const double p = whole > 0 && t < edge ? 0 : shape(t);
             Load& here = spot[std::int64_t{wrapped(j, map.ny)} * map.nx + wrapped(i, map.nx)];
             here.pressure += p;
-            here.touches = here.touches || d2 < contact * contact;
+            here.touches = here.touches || t > beside;
             sum += p;
             if (whole > 0 && t < edge) outermost.push_back(&here);
         }
@@ -65,7 +68,7 @@ void add_disc(Pressures& all, const HeightMap& map, bool repeats, double x, doub
             return repeats ? wrapped(i, n) : std::clamp(i, 0, n - 1);
         };
         sum = 1;
-        spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, y)} * map.nx + nearest(map.x0, map.dx, map.nx, x), {1.0, contact > 0}}};
+        spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, s.y)} * map.nx + nearest(map.x0, map.dx, map.nx, s.x), {1.0, beside < 1}}};
     }
     for (const auto& [point, load] : spot) {
         Load& here = all[point];
@@ -83,20 +86,20 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     const LevelTractions& at = level.tractions;
     for (std::size_t k = 0; k < at.x.size(); ++k) {
         const double a = at.a[k], c = at.c[k];
-        if (a > 0) add_disc(all, map, repeats, at.x[k], at.y[k], a, at.pressed[k], a, hertz);
+        if (a > 0) add_spot(all, map, repeats, {at.x[k], at.y[k], a, a, 0}, at.pressed[k], 0, hertz);
         const auto tension = [&](double t) {
             if (c == a) return 1 / std::sqrt(t);
             return 2 / std::numbers::pi * std::atan2(std::sqrt(c * c - a * a), std::sqrt(std::max(a * a - (1 - t) * c * c, 0.0)));
         };
         // The tension of JKR is infinite at the edge: points within a step of it have the mean there.
-        add_disc(all, map, repeats, at.x[k], at.y[k], c, at.pulled[k], a, tension, c == a ? 2 * std::numbers::pi * a * a : 0,
-                 2 * std::max(map.dx, map.dy) / c);
+        add_spot(all, map, repeats, {at.x[k], at.y[k], c, c, 0}, at.pulled[k], 1 - a * a / (c * c), tension,
+                 c == a ? 2 * std::numbers::pi * a * a : 0, 2 * std::max(map.dx, map.dy) / c);
     }
     if (!at.x.empty()) return all;
     for (std::size_t k = 0; k < level.f.size(); ++k) {
         const bool uniform = k < level.yields.size() && level.yields[k];
-        add_disc(all, map, repeats, level.x[k], level.y[k], level.a[k], level.f[k], level.a[k],
-                 [&](double t) { return uniform ? 1.0 : std::sqrt(t); });
+        const Spot spot = level.spots.empty() ? Spot{level.x[k], level.y[k], level.a[k], level.a[k], 0} : level.spots[k];
+        add_spot(all, map, repeats, spot, level.f[k], 0, [&](double t) { return uniform ? 1.0 : std::sqrt(t); });
     }
     return all;
 }

@@ -33,7 +33,7 @@ struct FieldLevel {
     ResidualProfile lowered;
 };
 
-// Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot, uniform if
+// Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot (the ellipses of Level::spots), uniform if
 // it yields, with the tension of adhesion (contact/deflection.hpp), on the points within the spot (or the nearest point), scaled to the force of the spot. The gap is that between the indenter
 // and the surface deformed by these pressures; for asperities, which do not follow every point of the surface, it is 0 where the surface
 // would penetrate the indenter. Without a window the fields cover the contact of all levels with a margin, or the whole surface of periodic

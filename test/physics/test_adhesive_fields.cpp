@@ -1,4 +1,4 @@
-// Deflections and fields of contacts with adhesion (contact/deflection.hpp, observe/fields.hpp).
+// Deflections and fields of contacts with adhesion, and fields of elliptic spots (contact/deflection.hpp, observe/fields.hpp).
 #include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
@@ -183,9 +183,33 @@ void test_element_fields() {
     }
 }
 
+// Fields of an elliptic spot beside its summit: its points touch, and its pressure is Hertz's, with the second moments a^2/5 and b^2/5.
+void test_elliptic_spot() {
+    constexpr double a = 0.2, b = 0.05, angle = 0.7, f = 3.0;
+    Level level;
+    level.add_contact(0, 0.5, 0.5, f, std::sqrt(a * b), 1e-3);
+    level.spots = {{0.53, 0.46, a, b, angle}};
+    const double step = 0.002;
+    const Fields fields = fields_of(map_of(501, step, 0.7), {kE, kFlat, 0.5, 0.5}, Interaction::point, {{0, &level, {}}}, kAll);
+    double force = 0, area = 0, x = 0, y = 0, along = 0, across = 0;
+    for (std::size_t k = 0; k < fields.pressure.size(); ++k) {
+        const double dx = fields.x[k % fields.x.size()] - 0.53, dy = fields.y[k / fields.x.size()] - 0.46,
+                     p = fields.pressure[k] * step * step;
+        const double s = dx * std::cos(angle) + dy * std::sin(angle), t = dy * std::cos(angle) - dx * std::sin(angle);
+        CHECK((fields.contact[k] != 0) == (s * s / (a * a) + t * t / (b * b) < 1));
+        force += p, area += fields.contact[k] * step * step, x += p * dx, y += p * dy, along += p * s * s, across += p * t * t;
+    }
+    CHECK_RELATIVE(force, f, 1e-12);
+    CHECK_RELATIVE(area, pi * a * b, 5e-3);
+    CHECK(std::hypot(x, y) < 1e-3 * f * b);
+    CHECK_RELATIVE(along / f, a * a / 5, 5e-3);
+    CHECK_RELATIVE(across / f, b * b / 5, 5e-3);
+}
+
 }  // namespace
 
 TESTS {
+    test_elliptic_spot();
     test_tension();
     test_one();
     test_asperity_fields();

@@ -49,17 +49,21 @@ Answer ask(const Law& law, int i, double u) {
     return a;
 }
 
-// Force and work increase with their own derivatives, and the slope never decreases.
+// Force and work increase with their own derivatives, and the force is convex: it lies above its tangents, also where one ellipse takes over
+// from another.
 void check_work(const Law& law, int i, double deepest) {
-    constexpr double kDerivative = 1e-5, kStepShare = 1e-5;
-    double slope = 0;
-    for (double u = 0.002 * deepest; u < deepest; u *= 1.07) {
+    constexpr double kDerivative = 1e-5, kStepShare = 1e-5, kRounding = 1e-9;
+    double slope = 0, last = 0;
+    Answer before{};
+    for (double u = 0.002 * deepest; u < deepest; last = u, u *= 1.01) {
         const double h = kStepShare * u;
         const Answer a = ask(law, i, u), low = ask(law, i, u - h), high = ask(law, i, u + h);
         CHECK_RELATIVE((high.work - low.work) / (2 * h), a.force, kDerivative);
         CHECK_RELATIVE((high.force - low.force) / (2 * h), a.slope, 10 * kDerivative);
-        CHECK(a.slope >= slope * (1 - 1e-9));
-        slope = a.slope;
+        CHECK(a.slope >= slope * (1 - kRounding));
+        CHECK(a.force - before.force >= (1 - kRounding) * slope * (u - last));
+        CHECK(a.force - before.force <= (1 + kRounding) * a.slope * (u - last));
+        slope = a.slope, before = a;
     }
 }
 
@@ -89,6 +93,11 @@ TESTS {
             }
             check_work(*law, 0, 7e-3);
         }
+
+    // A small top on a wide one: its own spot jumps to that of the wide one, which carries more already at smaller penetrations.
+    check_work(
+        *law_of(map_of([](double x, double y) { return -(x * x + y * y) + 2e-3 * std::exp(-(x * x + y * y) / 0.002); }, {{0, 0, 4, 4, 0}})),
+        0, 0.03);
 
     // Two tops on a ridge. The higher one carries, with the lower one, what their common ellipse carries, and not less than alone.
     {

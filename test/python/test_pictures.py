@@ -227,11 +227,11 @@ class Numbers(Drawn):
         for name in ("force", "contact_area", "contacts"):
             self.has_curve(figure, v["force"][0, steps], 100 * (v[name][0, steps] / v["compare_" + name] - 1))
         turned = [c for axis in figure.axes for c in axis.collections if c.get_gid() == "spots"]
-        angles = v["asperity_angle"][v["contact_asperity"].astype(int) - 1]
-        self.assertTrue(turned and all(np.isclose(np.cos(angles[:, None] - c._angles), 1, atol=1e-9).any(axis=0).all() for c in turned))
+        angles, ratios = v["contact_angle"], v["contact_major"] / v["contact_minor"]
+        self.assertTrue(turned and all((np.isclose(np.cos(angles[:, None] - c._angles), 1, atol=1e-9) & np.isclose(ratios[:, None], c._widths / c._heights, rtol=1e-9)).any(axis=0).all() for c in turned))
         # The pressure of one elliptic spot along all lines adds up to its force.
         lines = np.linspace(-0.8, 0.8, 401)
-        drawn = [plot_compare.along_line([[0.0], [0.0], [0.5], [3.0], [0]], [1.5], [0.4], line, -0.8, 0.8) for line in lines]
+        drawn = [plot_compare.along_line([[0.0], [0.0], [0.5 * 1.5**0.5], [0.5 / 1.5**0.5], [0.4], [3.0], [0]], line, -0.8, 0.8) for line in lines]
         self.assertAlmostEqual(sum(p.sum() * (x[1] - x[0]) for x, p in drawn) * (lines[1] - lines[0]) / 3.0, 1, delta=2e-3)
 
     def test_distributions(self):

@@ -5,8 +5,6 @@
 namespace rsc {
 namespace {
 
-// The C++ library and Boost take the modulus k, which is rounded to 1 for narrow ellipses; these functions take the complementary modulus.
-//
 // Complete elliptic integrals of modulus k: K, and B = [E - (1 - k^2) K]/k^2, D = (K - E)/k^2, which are finite and accurate at k = 0.
 struct Elliptic {
     double K, B, D;
@@ -37,6 +35,8 @@ double curvature_ratio(double axes) {
 }
 
 }  // namespace
+
+double complete_K(double complementary) { return elliptic(complementary).K; }
 
 EllipseFactors ellipse_factors(double ratio) {
     if (!(ratio >= 1) || !std::isfinite(ratio)) {

@@ -40,10 +40,10 @@ public:
         return {e.force + e.stiffness * past, e.stiffness, work_.back() + past * (e.force + 0.5 * e.stiffness * past)};
     }
 
-    LoadedEllipse ellipse(double u) const {
+    Spot spot(double u) const {
         const std::size_t k = std::min(above(u), node_.size() - 1);
         const LoadedEllipse &low = node_[k == 1 ? 1 : k - 1], &high = node_[k];
-        LoadedEllipse e = high;
+        Spot e = high.spot;
         if (k == 1 || u > high.u) {  // like the spot of a paraboloid, also beyond the table, where the area would else remain constant
             const double root = std::sqrt(std::max(u / high.u, 0.0));
             e.major *= root, e.minor *= root;
@@ -52,11 +52,11 @@ public:
         const double rise = high.stiffness - low.stiffness;  // the size of the spot follows the stiffness
         const double w = rise > 0 ? std::clamp((at(u).slope - low.stiffness) / rise, 0.0, 1.0) : 1.0;
         // The ellipses are mixed by their matrices, which do not depend on how the angle is counted.
-        const auto mixed = [&](auto part) { return (1 - w) * part(low) + w * part(high); };
-        const double t = mixed([](const LoadedEllipse&v) { return 0.5 * (v.major + v.minor); }),
-                     x = mixed([](const LoadedEllipse&v) { return 0.5 * (v.major - v.minor) * std::cos(2 * v.angle); }),
-                     y = mixed([](const LoadedEllipse&v) { return 0.5 * (v.major - v.minor) * std::sin(2 * v.angle); });
-        e.dx = mixed([](const LoadedEllipse& v) { return v.dx; }), e.dy = mixed([](const LoadedEllipse& v) { return v.dy; });
+        const auto mixed = [&](auto part) { return (1 - w) * part(low.spot) + w * part(high.spot); };
+        const double t = mixed([](const Spot&v) { return 0.5 * (v.major + v.minor); }),
+                     x = mixed([](const Spot&v) { return 0.5 * (v.major - v.minor) * std::cos(2 * v.angle); }),
+                     y = mixed([](const Spot&v) { return 0.5 * (v.major - v.minor) * std::sin(2 * v.angle); });
+        e.x = mixed([](const Spot& v) { return v.x; }), e.y = mixed([](const Spot& v) { return v.y; });
         e.major = t + std::hypot(x, y), e.minor = t - std::hypot(x, y), e.angle = 0.5 * std::atan2(y, x);
         return e;
     }
@@ -145,7 +145,7 @@ public:
             if (table_[at(i)].empty())
                 near(i, 2 * spacing_, [&](int j) {
                     const Vec2 d = between(j, i);
-                    if (lower(i, j) && contains(widest_[at(j)], d.x, d.y)) state_[at(i)] = State::covered;
+                    if (lower(i, j) && widest_[at(j)].spot.contains(d.x, d.y)) state_[at(i)] = State::covered;
                 });
         for (int i : added) share(i);
     }
@@ -177,8 +177,8 @@ public:
         if (state_[at(asperity)] == State::covered) return 0;
         if (table.empty()) return other_->area(asperity, u);
         if (!(u > 0)) return 0;
-        const LoadedEllipse e = table.ellipse(u);
-        return std::numbers::pi * e.major * e.minor;
+        const Spot spot = table.spot(u);
+        return std::numbers::pi * spot.major * spot.minor;
     }
 
     double axes(int asperity) const override { return other_->axes(asperity); }
@@ -190,8 +190,7 @@ public:
     std::optional<Spot> spot(int asperity, double u) const override {
         const Table& table = table_[at(asperity)];
         if (table.empty() || !(u > 0)) return std::nullopt;
-        const LoadedEllipse e = table.ellipse(u);
-        return Spot{e.dx, e.dy, e.major, e.minor, e.angle};
+        return table.spot(u);
     }
 
 private:
@@ -236,10 +235,10 @@ private:
     std::vector<int> members(int i, const LoadedEllipse& e, bool lower_ones) const {
         std::vector<int> found;
         if (!(e.u > 0)) return found;
-        near(i, e.major + std::hypot(e.dx, e.dy), [&](int j) {
+        near(i, e.spot.major + std::hypot(e.spot.x, e.spot.y), [&](int j) {
             if (lower(j, i) != lower_ones || clearance_[at(i)] - e.u >= clearance_[at(j)]) return;
             const Vec2 d = between(i, j);
-            if (contains(e, d.x, d.y)) found.push_back(j);
+            if (e.spot.contains(d.x, d.y)) found.push_back(j);
         });
         std::sort(found.begin(), found.end());
         return found;

@@ -1,5 +1,7 @@
 #include "contact/law/most_loaded.hpp"
 
+#include "contact/law/ellipse.hpp"
+
 namespace rsc {
 namespace {
 
@@ -12,13 +14,7 @@ double dot(const Unknowns& a, const Unknowns& b) {
     return sum;
 }
 
-double agm(double a, double b) {
-    for (int k = 0; k < 40 && std::abs(a - b) > 1e-15 * a; ++k) {
-        const double mean = 0.5 * (a + b);
-        b = std::sqrt(a * b), a = mean;
-    }
-    return 0.5 * (a + b);
-}
+double agm(double a, double b) { return std::numbers::pi * a / (2 * complete_K(b / a)); }
 
 // Points of the unit disc with weights for the mean with the pressure of a flat punch: uniform in sqrt(1 - r^2) and in the angle. Exact for
 // polynomials of degree 11.
@@ -244,7 +240,7 @@ std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, do
         const double t = 0.5 * (e[2] + e[4]), d = std::hypot(0.5 * (e[2] - e[4]), e[3]);
         if (t + d > widest || load.highest > top + tolerance * u) break;
         missing.push_back(missing_share(heights, e, load.force / load.stiffness));
-        found.push_back({u, load.force, load.stiffness, e[0], e[1], t + d, t - d, 0.5 * std::atan2(2 * e[3], e[2] - e[4])});
+        found.push_back({u, load.force, load.stiffness, {e[0], e[1], t + d, t - d, 0.5 * std::atan2(2 * e[3], e[2] - e[4])}});
     }
     // The missing shares grow with u; their slope is the smaller of those to both sides, 0 at an extremum.
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -255,12 +251,6 @@ std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, do
         found[k].force *= 1 + missing[k];
     }
     return found;
-}
-
-bool contains(const LoadedEllipse& e, double dx, double dy) {
-    const double c = std::cos(e.angle), s = std::sin(e.angle), x = dx - e.dx, y = dy - e.dy;
-    const double p = (x * c + y * s) / e.major, q = (y * c - x * s) / e.minor;
-    return p * p + q * q < 1;
 }
 
 }  // namespace rsc

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "contact/indentation.hpp"
+#include "contact/spots.hpp"
 #include "contact/touching.hpp"
 #include "rough/stencil.hpp"
 
@@ -36,8 +37,7 @@ private:
 // An ellipse of largest load at the penetration u.
 struct LoadedEllipse {
     double u = 0, force = 0, stiffness = 0;  // [length], [force], dF/du [force/length]
-    double dx = 0, dy = 0;                   // centre minus summit [length]
-    double major = 0, minor = 0, angle = 0;  // semi-axes [length]; direction of the major one from x
+    Spot spot{};                             // its centre counted from the summit
 };
 
 // Ellipses of a summit with the given mean curvature sqrt(kappa1 kappa2), ratio of curvatures and direction of its long axis, for increasing
@@ -45,8 +45,5 @@ struct LoadedEllipse {
 // higher than the summit, which belong to another one. Empty if that is so from the start.
 std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, double E_star, double curvature, double ratio, double angle,
                                                 double widest);
-
-// True if the point at an offset from the summit is inside.
-bool contains(const LoadedEllipse& ellipse, double dx, double dy);
 
 }  // namespace rsc

@@ -60,11 +60,21 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     } else {
         f.same("contact_asperity", which), f.attribute("contact_asperity", "start_index", {1});
         CHECK(!f.has("contact_x"));
+        CHECK(f.has("contact_major") == (!t.hertz && !force.empty()));
     }
     if (std::isfinite(t.c.solids.hardness)) f.same("contact_yields", yields);
     if (t.elements || t.hertz) return;
     // Other laws: what they answer to the penetrations.
     const auto law = make_law(t.c.asperities.law, t.r[0].asperities, t.E);
+    Vector major, minor, angle;
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const int i = static_cast<int>(which[k]) - 1;
+        law->prepare({&i, 1});
+        const double root = std::sqrt(law->axes(i));
+        major.push_back(radius[k] / root), minor.push_back(radius[k] * root), angle.push_back(t.r[0].asperities.angle[at(i)]);
+    }
+    f.same("contact_major", major, kRounding), f.same("contact_minor", minor, kRounding), f.same("contact_angle", angle, kRounding);
+    f.same("contact_spot_x", x, kRounding, 1e-12 * t.Lx), f.same("contact_spot_y", y, kRounding, 1e-12 * t.Ly);
     for (std::size_t s = 0; s < t.steps && !std::isfinite(t.c.solids.hardness); ++s)
         for (std::size_t k = 0; k < t.contacts[0][s].spots.size(); ++k) {
             const Spot2& p = t.contacts[0][s].spots[k];
