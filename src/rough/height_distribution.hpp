@@ -13,16 +13,10 @@ struct HeightShape {
 // A distribution of mean 0 and variance 1, represented as an increasing function of a standard normal variable.
 class HeightDistribution {
 public:
-    // The member of Johnson's system (Biometrika 36, 1949) with this skewness and kurtosis: SU, SB or, between them, the lognormal one.
-    // Throws Error(bad_input) with the bound unless skewness^2 + 1 < kurtosis <= 100, and if the kurtosis is so close to the lower bound
-    // that nearly all heights would take one of two values.
-    static HeightDistribution of_moments(double skewness, double kurtosis);
-
     // Interpolates heights at increasing normal scores linearly and extrapolates linearly. Throws Error(bad_input) unless heights increase.
     static HeightDistribution of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights);
 
     double operator()(double normal) const;
-    double normal(double value) const;  // the inverse of operator()
     HeightShape shape() const;
 
 private:

@@ -6,6 +6,7 @@
 #include "rough/height_distribution.hpp"
 #include "rough/library_lock.hpp"
 #include "rough/surface.hpp"
+#include "rough/vector_math.hpp"
 
 namespace rsc {
 namespace {
@@ -18,12 +19,11 @@ double distance(HeightShape got, HeightShape wish) {
     return std::max(std::abs(got.skewness - wish.skewness) / kNearSkewness, std::abs(got.kurtosis - wish.kurtosis) / kNearKurtosis);
 }
 
-// Kept within Johnson's system, away from distributions of two values.
+// Kept feasible, away from distributions of two values.
 HeightShape usable(HeightShape shape) {
     const double skewness = std::clamp(shape.skewness, -6.0, 6.0);
     return {skewness, std::clamp(shape.kurtosis, 1.2 * skewness * skewness + 1.3, 90.0)};
 }
-HeightDistribution of_shape(HeightShape shape) { return HeightDistribution::of_moments(shape.skewness, shape.kurtosis); }
 
 // Modes of the half plane within an ellipse (and the band of the surface), stored in the columns of the caller.
 struct Modes {
@@ -54,42 +54,66 @@ public:
           m_(m),
           columns_(modes.band.highest_kx + 1),
           stride_((m + 7) / 8 * 8 + 8),
-          row_stride_((m + 2 + 15) / 16 * 16 + 16) {
+          row_stride_((m + 2 + kLanes - 1) / kLanes * kLanes) {
         store_ = allocate(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(stride_));
         rows_ = allocate(static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(row_stride_) / 2);
         heights_ = allocate(static_cast<std::size_t>(m_) * static_cast<std::size_t>(row_stride_) / 2);
+        std::fill_n(heights_.get(), m_ * row_stride_ / 2, Complex());
         line_ = allocate(static_cast<std::size_t>(row_stride_) / 2);
         const auto lock = fftw_planning();
-        auto* const c = reinterpret_cast<fftwf_complex*>(store_.get());
-        auto* const rc = reinterpret_cast<fftwf_complex*>(rows_.get());
-        up_.reset(fftwf_plan_dft_1d(m, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
-        down_.reset(fftwf_plan_dft_1d(m, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
-        to_heights_.reset(fftwf_plan_dft_c2r_1d(m, rc, reinterpret_cast<float*>(heights_.get()), FFTW_ESTIMATE));
-        to_modes_.reset(fftwf_plan_dft_r2c_1d(m, reinterpret_cast<float*>(line_.get()), rc, FFTW_ESTIMATE));
-        if (!up_ || !down_ || !to_heights_ || !to_modes_)
-            throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
+        static std::map<int, Plans> known;  // planning takes longer than the transforms of a small surface
+        Plans& p = known[m];
+        if (!p.to_modes) {
+            auto *const c = fftw(store_.get()), *const row = fftw(rows_.get());
+            p.up.reset(fftwf_plan_dft_1d(m, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
+            p.down.reset(fftwf_plan_dft_1d(m, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
+            p.to_heights.reset(fftwf_plan_dft_c2r_1d(m, row, numbers(heights_), FFTW_ESTIMATE));
+            p.to_modes.reset(fftwf_plan_dft_r2c_1d(m, numbers(line_), row, FFTW_ESTIMATE));
+            if (!p.up || !p.down || !p.to_heights || !p.to_modes)
+                throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
+        }
+        plans_ = &p;
     }
 
-    // From a Gaussian surface, or towards a measured distribution, heights are replaced by rank in a distribution and the amplitudes of the
-    // modes are restored. Newton's method then brings both moments to the wish. The best phases are stored in the caller's columns.
-    HeightShape run(HeightShape wish, const HeightDistribution* measured, bool gaussian, int rounds) {
-        take();
-        HeightShape now = heights(), best = now;
-        double nearest = HUGE_VAL;
-        const double near_enough = measured || gaussian ? 0.3 : 1;
-        const bool replaced = measured || gaussian;
+    // The heights of the caller's modes, and their moments.
+    HeightShape take() {
+        double square = 0;
+        std::size_t modes = 0;
+        modes_.runs([&](int, int, int count, const std::complex<double>* c) {
+            for (int i = 0; i < count; ++i) square += std::norm(c[i]);
+            modes += static_cast<std::size_t>(count);
+        });
+        const double scale = square > 0 ? 1 / std::sqrt(2 * square) : 1;
+        mode_.assign((modes + kBatch - 1) / kBatch * kBatch, Complex());
+        std::size_t k = 0;
+        modes_.runs([&](int, int, int count, const std::complex<double>* c) {
+            for (int i = 0; i < count; ++i, ++k)
+                mode_[k] = {static_cast<float>(scale * c[i].real()), static_cast<float>(scale * c[i].imag())};
+        });
+        inverse_.resize(mode_.size());
+        for (std::size_t i = 0; i < mode_.size(); ++i) {
+            const float square = std::norm(mode_[i]);
+            inverse_[i] = square > 1e-30f ? 1 / square : 0;
+        }
+        return now_ = heights();
+    }
+
+    // Newton's method brings both moments to the wish, after heights are replaced by rank in a distribution, if there is one, and the
+    // amplitudes of the modes are restored. It ends also when a round leaves more than the share `still` of the distance. The best phases
+    // are stored in the caller's columns.
+    HeightShape run(HeightShape wish, const HeightDistribution* by, double near_enough, int rounds, double still) {
+        HeightShape best = now_;
+        double nearest = HUGE_VAL, before = HUGE_VAL;
         for (int round = 0;; ++round) {
-            const double off = distance(now, wish);
-            if ((round > 0 || !replaced) && off < nearest) nearest = off, best = now, kept_ = unit_;
-            if (round >= rounds || nearest <= near_enough) break;
-            if (round > 0 || !replaced)
-                step(wish, now);
-            else if (measured)
-                replace(*measured);
-            else  // shares of the changes that remain after the amplitudes are restored
-                replace(of_shape(
-                    usable({now.skewness + (wish.skewness - now.skewness) / 0.42, now.kurtosis + (wish.kurtosis - now.kurtosis) / 0.3})));
-            now = heights();
+            const double off = distance(now_, wish);
+            if ((round > 0 || !by) && off < nearest) nearest = off, best = now_, kept_ = mode_;
+            if (round >= rounds || nearest <= near_enough || (round > 2 && off > still * before)) break;
+            before = off;
+            if (round > 0 || !by)
+                step(wish);
+            else
+                replace(*by);
+            now_ = heights();
         }
         give();
         return best;
@@ -103,141 +127,153 @@ private:
     static Memory allocate(std::size_t n) {
         return Memory(reinterpret_cast<Complex*>(allocate_doubles(n, "a surface whose heights are not Gaussian")));
     }
+    static fftwf_complex* fftw(Complex* p) { return reinterpret_cast<fftwf_complex*>(p); }
+    static float* numbers(const Memory& p) { return reinterpret_cast<float*>(p.get()); }
+    struct Plans {
+        FftwfPlan up, down, to_heights, to_modes;
+    };
     static constexpr int kBlock = 16;  // rows at a time
+    static constexpr int kLanes = 16;  // of sums, so that loops vectorise
+    static constexpr std::size_t kBatch = 64;
     static constexpr int kBins = 1024;
-    static constexpr double kLongest = 0.4;
+    static constexpr double kLongest = 0.5;
 
-    Complex* place(int kx, int ky) const { return store_.get() + kx * stride_ + (ky < 0 ? ky + m_ : ky); }
     void transform(const FftwfPlan& plan) {
         for (int kx = 0; kx < columns_; ++kx) {
-            auto* const c = reinterpret_cast<fftwf_complex*>(store_.get() + kx * stride_);
+            auto* const c = fftw(store_.get() + kx * stride_);
             fftwf_execute_dft(plan.get(), c, c);
         }
     }
-    void take() {
-        double square = 0;
-        modes_.runs([&](int, int, int count, const std::complex<double>* c) {
-            for (int i = 0; i < count; ++i) square += std::norm(c[i]);
-        });
-        const double scale = square > 0 ? 1 / std::sqrt(2 * square) : 1;
-        amplitude_.clear(), unit_.clear();
-        modes_.runs([&](int, int, int count, const std::complex<double>* c) {
-            for (int i = 0; i < count; ++i) {
-                const double re = scale * c[i].real(), im = scale * c[i].imag();
-                amplitude_.push_back(static_cast<float>(std::sqrt(re * re + im * im)));
-                unit_.emplace_back();
-                direct(unit_.size() - 1, static_cast<float>(re), static_cast<float>(im));
-            }
+
+    // Calls visit(k, place of the modes in the columns, count) for runs of modes k, k + 1, ...
+    template <class Visit>
+    void each(Visit visit) const {
+        std::size_t k = 0;
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
+            visit(k, store_.get() + kx * stride_ + (ky < 0 ? ky + m_ : ky), static_cast<std::size_t>(count));
+            k += static_cast<std::size_t>(count);
         });
     }
 
-    // The heights of the phases unit_, and their moments.
+    // The heights of the modes, and their moments.
     HeightShape heights() {
-        std::size_t k = 0;
         std::fill_n(store_.get(), columns_ * stride_, Complex());
-        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
-            Complex* const to = place(kx, ky);
-            for (int i = 0; i < count; ++i) to[i] = {unit_[k + i].real() * amplitude_[k + i], unit_[k + i].imag() * amplitude_[k + i]};
-            k += static_cast<std::size_t>(count);
-        });
-        for (int ky = 1; 2 * ky < m_; ++ky) *place(0, -ky) = std::conj(*place(0, ky));  // the column contains its own mirror image
-        transform(up_);
-        Sums sums;
-        auto* const all = reinterpret_cast<float*>(heights_.get());
-        auto* const data = reinterpret_cast<float*>(rows_.get());
+        each([&](std::size_t k, Complex* to, std::size_t count) { std::copy_n(mode_.data() + k, count, to); });
+        for (int ky = 1; 2 * ky < m_; ++ky) store_[m_ - ky] = std::conj(store_[ky]);  // kx = 0 contains its own mirror image
+        transform(plans_->up);
+        double m2 = 0, m3 = 0, m4 = 0;
         for (int j = 0; j < m_; j += kBlock) {
             const int count = std::min(kBlock, m_ - j);
             for (int kx = 0; kx < columns_; ++kx) {
                 const Complex* const from = store_.get() + kx * stride_ + j;
-                for (int r = 0; r < count; ++r) {
-                    data[r * row_stride_ + 2 * kx] = from[r].real();
-                    data[r * row_stride_ + 2 * kx + 1] = from[r].imag();
-                }
+                for (int r = 0; r < count; ++r) rows_[r * row_stride_ / 2 + kx] = from[r];
             }
             for (int r = 0; r < count; ++r) {
-                float *const row = data + r * row_stride_, *const to = all + (j + r) * row_stride_;
-                std::fill(row + 2 * columns_, row + m_ + 2, 0.0f);
-                fftwf_execute_dft_c2r(to_heights_.get(), reinterpret_cast<fftwf_complex*>(row), to);
-                sums.add(to, m_);
+                Complex* const row = rows_.get() + r * row_stride_ / 2;
+                float* const z = numbers(heights_) + (j + r) * row_stride_;
+                std::fill(row + columns_, row + m_ / 2 + 1, Complex());
+                fftwf_execute_dft_c2r(plans_->to_heights.get(), fftw(row), z);
+                float s2[kLanes] = {}, s3[kLanes] = {}, s4[kLanes] = {};
+                for (int i = 0; i < row_stride_; i += kLanes)  // zeros at the end of a row add nothing
+                    for (int l = 0; l < kLanes; ++l) {
+                        const float square = z[i + l] * z[i + l];
+                        s2[l] += square, s3[l] += z[i + l] * square, s4[l] += square * square;
+                    }
+                m2 += sum(s2), m3 += sum(s3), m4 += sum(s4);
             }
         }
-        return sums.shape();
+        const double points = static_cast<double>(m_) * m_, variance = m2 / points;
+        return {m3 / points / (variance * std::sqrt(variance)), m4 / points / (variance * variance)};  // the mean is 0: no mode (0, 0)
     }
 
     // Fourier coefficients of a function of the heights, by column.
     template <class Function>
     void coefficients(Function of) {
-        const auto* const all = reinterpret_cast<const float*>(heights_.get());
-        auto *const data = reinterpret_cast<float*>(rows_.get()), *const line = reinterpret_cast<float*>(line_.get());
+        float* const line = numbers(line_);
         for (int j = 0; j < m_; j += kBlock) {
             const int count = std::min(kBlock, m_ - j);
             for (int r = 0; r < count; ++r) {
-                float* const row = data + r * row_stride_;
-                const float* const from = all + (j + r) * row_stride_;
+                const float* const from = numbers(heights_) + (j + r) * row_stride_;
                 for (int i = 0; i < m_; ++i) line[i] = of(from[i]);
-                fftwf_execute_dft_r2c(to_modes_.get(), line, reinterpret_cast<fftwf_complex*>(row));
+                fftwf_execute_dft_r2c(plans_->to_modes.get(), line, fftw(rows_.get() + r * row_stride_ / 2));
             }
             for (int kx = 0; kx < columns_; ++kx) {
                 Complex* const to = store_.get() + kx * stride_ + j;
-                for (int r = 0; r < count; ++r) to[r] = {data[r * row_stride_ + 2 * kx], data[r * row_stride_ + 2 * kx + 1]};
+                for (int r = 0; r < count; ++r) to[r] = rows_[r * row_stride_ / 2 + kx];
             }
         }
-        transform(down_);
+        transform(plans_->down);
     }
 
-    // Calls visit(k, coefficient) for the modes k = 0, 1, ...
-    template <class Visit>
-    void each(Visit visit) const {
-        std::size_t k = 0;
-        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
-            const Complex* const from = place(kx, ky);
-            for (int i = 0; i < count; ++i) visit(k++, from[i]);
+    // Parts of a change of heights along and across the modes, times their amplitude.
+    struct Parts {
+        std::vector<float> along, across;
+    };
+    template <class Function>
+    void parts(Function of, Parts& to) {
+        coefficients(of);
+        to.along.resize(mode_.size()), to.across.resize(mode_.size());
+        const float scale = 1 / (static_cast<float>(m_) * static_cast<float>(m_));
+        each([&](std::size_t first, const Complex* change, std::size_t count) {
+            const Complex* const mode = mode_.data() + first;
+            for (std::size_t i = 0; i < count; ++i) {
+                const float x = scale * mode[i].real(), y = scale * mode[i].imag();
+                to.along[first + i] = x * change[i].real() + y * change[i].imag();
+                to.across[first + i] = x * change[i].imag() - y * change[i].real();
+            }
         });
     }
 
-    void direct(std::size_t k, float re, float im) {
-        const float square = re * re + im * im, inverse = 1 / std::sqrt(square);
-        unit_[k] = square > 1e-30f ? Complex(re * inverse, im * inverse) : Complex(1, 0);
+    // Tangents and cosines of the angles by which p z^2 + q z^3 rotates a batch of modes.
+    void angles(std::size_t k, float p, float q, float* tangent, float* cosine) const {
+        const float *const x = &second_.across[k], *const y = &third_.across[k], *const inverse = &inverse_[k];
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            tangent[i] = (p * x[i] + q * y[i]) * inverse[i];
+            cosine[i] = 1 + tangent[i] * tangent[i];
+        }
+        vector_math::square_roots(cosine, kBatch);
+        for (std::size_t i = 0; i < kBatch; ++i) cosine[i] = 1 / cosine[i];
     }
 
     // Newton's method for both moments with the smallest change of heights that phases allow: p z^2 + q z^3 without the parts along the modes.
     // The rotation of a mode, and the loss along its old direction, are not linearised, because modes of small amplitude rotate far.
-    void step(HeightShape wish, HeightShape now) {
-        const float scale = 1 / (static_cast<float>(m_) * static_cast<float>(m_));
-        const auto relative = [&](std::vector<Complex>& to) {  // the part across a mode is the imaginary one
-            to.resize(unit_.size());
-            each([&](std::size_t k, Complex c) {
-                const float x = unit_[k].real(), y = unit_[k].imag();
-                to[k] = {scale * (x * c.real() + y * c.imag()), scale * (x * c.imag() - y * c.real())};
-            });
-        };
-        coefficients([](float z) { return z * z; });
-        relative(second_);
-        coefficients([](float z) { return z * z * z; });
-        relative(third_);
-        // skewness = <z^3>, kurtosis = <z^4>; every mode counts twice.
-        const double s = (wish.skewness - now.skewness) / 6, t = (wish.kurtosis - now.kurtosis) / 8;
+    void step(HeightShape wish) {
+        parts([](float z) { return z * z; }, second_);
+        parts([](float z) { return z * z * z; }, third_);
+        // skewness = <z^3>, kurtosis = <z^4>; every mode counts twice. A change of the skewness by p z^2 alone raises the kurtosis of Gaussian
+        // heights by 4/3 of its square.
+        const double change = wish.skewness - now_.skewness, s = change / 6,
+                     t = (wish.kurtosis - now_.kurtosis - 4.0 / 3 * change * change) / 8;
+        alignas(64) float tangent[kBatch], cosine[kBatch];
         float p = 0, q = 0;
         for (int i = 0; i < kSteps; ++i) {
-            Lanes sums[5];
-            for (std::size_t k = 0; k < unit_.size(); ++k) {
-                const float x = second_[k].imag(), y = third_[k].imag(), along = amplitude_[k], across = p * x + q * y;
-                const float length = std::sqrt(along * along + across * across), cosine = length > 0 ? along / length : 1;
-                const float lost = along * (1 - cosine),
-                            values[5] = {cosine * x * x, cosine * x * y, cosine * y * y, lost * second_[k].real(), lost * third_[k].real()};
-                for (int l = 0; l < 5; ++l) sums[l].v[k % 8] += values[l];
+            double a = 0, b = 0, c = 0, s1 = s, t1 = t;
+            for (std::size_t k = 0; k < mode_.size(); k += kBatch) {
+                angles(k, p, q, tangent, cosine);
+                const float *const x = &second_.across[k], *const y = &third_.across[k], *const inverse = &inverse_[k];
+                const float *const u = &second_.along[k], *const v = &third_.along[k];
+                float sums[5][kLanes] = {};
+                for (std::size_t j = 0; j < kBatch; j += kLanes)
+                    for (std::size_t l = 0; l < kLanes; ++l) {
+                        const std::size_t m = j + l;
+                        const float weight = cosine[m] * inverse[m], wx = weight * x[m], wy = weight * y[m], lost = 1 - cosine[m];
+                        sums[0][l] += wx * x[m], sums[1][l] += wx * y[m], sums[2][l] += wy * y[m];
+                        sums[3][l] += lost * u[m], sums[4][l] += lost * v[m];
+                    }
+                a += sum(sums[0]), b += sum(sums[1]), c += sum(sums[2]), s1 += sum(sums[3]), t1 += sum(sums[4]);
             }
-            const double a = sums[0].sum(), b = sums[1].sum(), c = sums[2].sum(), determinant = a * c - b * b;
+            const double determinant = a * c - b * b;
             if (!(determinant > 0)) return;
-            const double s1 = s + sums[3].sum(), t1 = t + sums[4].sum();
             p = static_cast<float>((c * s1 - b * t1) / determinant), q = static_cast<float>((a * t1 - b * s1) / determinant);
             const double size = std::sqrt(2 * (p * p * a + 2 * p * q * b + q * q * c));
             if (const float most = static_cast<float>(kLongest / size); most < 1) p *= most, q *= most;
         }
-        for (std::size_t k = 0; k < unit_.size(); ++k) {
-            const float across = p * second_[k].imag() + q * third_[k].imag(), along = amplitude_[k], x = unit_[k].real(),
-                        y = unit_[k].imag();
-            direct(k, along * x - across * y, along * y + across * x);
+        for (std::size_t k = 0; k < mode_.size(); k += kBatch) {
+            angles(k, p, q, tangent, cosine);
+            for (std::size_t i = 0; i < kBatch; ++i) {
+                const float x = cosine[i] * mode_[k + i].real(), y = cosine[i] * mode_[k + i].imag();
+                mode_[k + i] = {x - tangent[i] * y, y + tangent[i] * x};
+            }
         }
     }
 
@@ -245,41 +281,16 @@ private:
         std::size_t k = 0;
         modes_.runs([&](int, int, int count, std::complex<double>* c) {
             for (int i = 0; i < count; ++i, ++k) {
-                const double re = kept_[k].real(), im = kept_[k].imag();
-                const double size = std::sqrt(std::norm(c[i]) / (re * re + im * im));
+                const double re = kept_[k].real(), im = kept_[k].imag(), square = re * re + im * im;
+                if (!(square > 0)) continue;
+                const double size = std::sqrt(std::norm(c[i]) / square);
                 c[i] = {size * re, size * im};
             }
         });
     }
 
-    struct Lanes {
-        double v[8] = {};
-        double sum() const { return std::accumulate(v, v + 8, 0.0); }
-    };
-    static constexpr int kSteps = 4;
-    struct Sums {
-        static constexpr int kLanes = 8;
-        double m2[kLanes] = {}, m3[kLanes] = {}, m4[kLanes] = {};
-        void add(const float* row, int n) {
-            for (int i = 0; i + kLanes <= n; i += kLanes)
-                for (int l = 0; l < kLanes; ++l) {
-                    const double z = row[i + l], z2 = z * z;
-                    m2[l] += z2, m3[l] += z * z2, m4[l] += z2 * z2;
-                }
-            for (int i = n - n % kLanes; i < n; ++i) {
-                const double z = row[i], z2 = z * z;
-                m2[0] += z2, m3[0] += z * z2, m4[0] += z2 * z2;
-            }
-            count += n;
-        }
-        HeightShape shape() const {  // the mean is 0, because there is no mode (0, 0)
-            double s2 = 0, s3 = 0, s4 = 0;
-            for (int l = 0; l < kLanes; ++l) s2 += m2[l], s3 += m3[l], s4 += m4[l];
-            const double variance = s2 / count;
-            return {s3 / count / (variance * std::sqrt(variance)), s4 / count / (variance * variance)};
-        }
-        double count = 0;
-    };
+    static double sum(const float* lanes) { return std::accumulate(lanes, lanes + kLanes, 0.0f); }
+    static constexpr int kSteps = 3;
 
     // Bins over +-kRange rms heights; the outermost include all larger heights.
     static constexpr float kRange = 12, kPerUnit = kBins / (2 * kRange);
@@ -289,10 +300,9 @@ private:
 
     // Heights replaced by rank.
     void replace(const HeightDistribution& by) {
-        const auto* const all = reinterpret_cast<const float*>(heights_.get());
         long bin[kBins] = {};
         for (int j = 0; j < m_; j += std::max(1, m_ / 128))  // enough rows
-            for (int i = 0; i < m_; ++i) ++bin[place_of(all[j * row_stride_ + i])];
+            for (int i = 0; i < m_; ++i) ++bin[place_of(numbers(heights_)[j * row_stride_ + i])];
         double total = 0, below = 0;
         for (const long count : bin) total += static_cast<double>(count);
         float value[kBins + 1];
@@ -307,23 +317,28 @@ private:
             const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(at), kBins - 1);
             return value[k] + (value[k + 1] - value[k]) * (at - static_cast<float>(k));
         });
-        each([&](std::size_t k, Complex c) { direct(k, c.real(), c.imag()); });
+        each([&](std::size_t k, const Complex* c, std::size_t count) {
+            for (std::size_t i = 0; i < count; ++i)
+                if (const float square = std::norm(c[i]); square > 1e-30f)
+                    mode_[k + i] = c[i] * std::sqrt(std::norm(mode_[k + i]) / square);
+        });
     }
 
     const Modes& modes_;
     int m_, columns_;
     std::ptrdiff_t stride_, row_stride_;  // strides of columns (complex numbers) and rows (real numbers)
     Memory store_, rows_, heights_, line_;
-    FftwfPlan up_, down_, to_heights_, to_modes_;
-    std::vector<float> amplitude_;  // amplitudes of the modes for an rms height of 1
-    std::vector<Complex> unit_, kept_;
-    std::vector<Complex> second_, third_;
+    const Plans* plans_;
+    HeightShape now_;
+    std::vector<Complex> mode_, kept_;  // for an rms height of 1; kept_: those nearest to the wish
+    std::vector<float> inverse_;        // of the squared amplitudes; 0 for a mode that is none
+    Parts second_, third_;
 };
 
-// Number of points: enough for fourth powers if there are few modes; with many modes more are not required.
+// Number of points, fast to transform: enough for fourth powers if there are few modes; with many modes more are not required.
 int points(const Band& band) {
     const double highest = std::max({band.highest_kx, band.highest_ky, 16});
-    return fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 160.0)));
+    return 8 * fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 64.0)) / 8);
 }
 
 Band ellipse(const Band& whole, const Stretch& stretched, double q2) {
@@ -387,35 +402,27 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
     }
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
     // At first only the long waves are changed. The short ones remain Gaussian and uncorrelated with them, so the skewness and excess
-    // kurtosis of the sum are those of the long waves times powers of their share. Close to the bound of the kurtosis and for long tails
-    // the share must be nearly 1.
-    constexpr double least_room = 0.9, longest_tail = 8, most_of_it = 0.9, nearly_all = 0.97;
-    HeightShape ask;
-    Band band;
-    double share = 0;
-    std::tie(band, share) = long_waves(all, most_of_it);
-    const auto of_long_waves = [&](HeightShape change) {
-        return HeightShape{change.skewness / (share * std::sqrt(share)), change.kurtosis / (share * share)};
+    // kurtosis of the sum are those of the long waves times powers of their share.
+    const auto [band, share] = long_waves(all, 0.92);
+    const auto of_long_waves = [s = share](double skewness, double kurtosis) {
+        return HeightShape{skewness / (s * std::sqrt(s)), kurtosis / (s * s)};
     };
-    const auto asked = [&] {
-        ask = of_long_waves({wish.skewness, wish.kurtosis - 3});
-        ask.kurtosis += 3;
-        return ask.kurtosis < longest_tail && ask.kurtosis - 1 - ask.skewness * ask.skewness > least_room;
-    };
-    if (!asked()) std::tie(band, share) = long_waves(all, nearly_all), asked();
+    HeightShape ask = of_long_waves(wish.skewness, wish.kurtosis - 3), got;
+    ask.kurtosis += 3;
     const Modes longest{whole, band, columns, stride, n};
-    constexpr int coarse_rounds = 4, corrections = 3, fine_rounds = 20;
     Field coarse(longest, points(band)), fine(all, points(all.band));
-    HeightShape got;
-    bool near = false;
-    for (int i = 0; i < corrections && !near; ++i) {
-        coarse.run(usable(ask), nullptr, i == 0, coarse_rounds);
-        got = fine.run(wish, nullptr, false, 0);
-        near = distance(got, wish) <= 1;
-        const HeightShape more = of_long_waves({wish.skewness - got.skewness, wish.kurtosis - got.kurtosis});
+    constexpr int coarse_rounds = 10, corrections = 3, fine_rounds = 20;
+    constexpr double far = 4;  // beyond, all waves are changed at once
+    coarse.take();
+    double off = 0;
+    for (int i = 0; i < corrections && (i == 0 || (off > 1 && off < far)); ++i) {
+        coarse.run(usable(ask), nullptr, i == 0 ? 0.6 : 1, coarse_rounds, 0.75);
+        got = fine.take();
+        off = distance(got, wish);
+        const HeightShape more = of_long_waves(wish.skewness - got.skewness, wish.kurtosis - got.kurtosis);
         ask.skewness += more.skewness, ask.kurtosis += more.kurtosis;
     }
-    if (!near || spectrum.heights) got = fine.run(wish, spectrum.heights.get(), false, fine_rounds);
+    if (off > 1 || spectrum.heights) got = fine.run(wish, spectrum.heights.get(), spectrum.heights ? 0.3 : 1, fine_rounds, HUGE_VAL);
     for (int ky = 1; ky <= whole.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0
     return got;
 }

@@ -180,6 +180,20 @@ void require_modes(const Spectrum& s, const std::string& otherwise) {
     refuse(otherwise, s.L_lambda_s);
 }
 
+void require_distribution(HeightShape shape) {
+    constexpr double most = 100, near = 1.05;
+    const double least = shape.skewness * shape.skewness + 1;
+    const auto no = [&](const std::string& bound) {
+        throw Error(Failure::bad_input, "surface: kurtosis = " + text_of(shape.kurtosis) + " with skewness = " + text_of(shape.skewness) +
+                                            ": no height distribution has these values; " + bound);
+    };
+    const std::string value = "skewness^2 + 1 = " + text_of(least);
+    if (!(shape.kurtosis > least)) no("the kurtosis must be greater than " + value);
+    if (!(shape.kurtosis <= most)) no("the kurtosis must be at most " + text_of(most));
+    if (!(shape.kurtosis > near * least))
+        no("the kurtosis is too close to its bound " + value);  // nearly all heights have one of two values
+}
+
 }  // namespace
 
 void validate(const Spectrum& s) {
@@ -189,10 +203,7 @@ void validate(const Spectrum& s) {
     if (!std::isfinite(s.direction)) refuse("direction must be finite", s.direction);
     if (!(shortest_wave(s) <= kMostModes))
         refuse("the shortest wave across the direction, as L/lambda, must be at most 46340", shortest_wave(s));
-    // Whether a distribution exists is in doubt only close to the bounds; there it is searched for.
-    const bool usual =
-        std::abs(s.shape.skewness) < 6 && s.shape.kurtosis <= 90 && s.shape.kurtosis > s.shape.skewness * s.shape.skewness + 2;
-    if (!s.gaussian() && !s.heights && !usual) HeightDistribution::of_moments(s.shape.skewness, s.shape.kurtosis);
+    if (!s.gaussian() && !s.heights) require_distribution(s.shape);
     if (s.tabulated()) {
         if (!(s.L_lambda_s <= kMostModes))
             refuse("L times the largest wavenumber of the spectrum over 2 pi must be at most 46340", s.L_lambda_s);
