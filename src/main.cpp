@@ -89,6 +89,13 @@ void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
 #endif
 }
 
+// With MPI signals are caught already.
+void catch_signals_early() {
+#ifndef RSC_MPI
+    rsc::catch_signals();
+#endif
+}
+
 int run_program(int argc, char** argv, Job& job) {
     const rsc::Options options = rsc::parse_options(argc, argv);
     if (options.help) {
@@ -121,9 +128,7 @@ int run_program(int argc, char** argv, Job& job) {
     // A result file can also be given as a case.
     const std::optional<rsc::ResultHead> inside = rsc::head_of_result(options.case_path);
     const rsc::ReadCase read = inside ? rsc::read_case_text(inside->case_text, options.case_path, options) : rsc::read_case(options);
-#ifndef RSC_MPI            // with MPI signals are caught already
-    rsc::catch_signals();  // not earlier, so that a signal ends the wait for standard input
-#endif
+    catch_signals_early();  // not earlier, so that a signal ends the wait for standard input
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
         if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");
