@@ -134,6 +134,12 @@ double AdhesivePath::near(int position) const {
     return std::max(kTouching * scale(position), kNearTouching * width);
 }
 
+// Distance from the point of detachment at which an asperity is detached. It must be small beside the difference of the penetrations at
+// attachment and detachment, or the asperity would attach again at once.
+double AdhesivePath::fold(int position) const {
+    return std::max(kShortest * scale(position), kFold * (sticking.touches() + scale(position)));
+}
+
 // Computes the derivatives of the last state with respect to Z.
 void AdhesivePath::complete(Point& point) { point.change = solver.change(rate, point.exact ? kRates : kRatesOnTheWay); }
 
@@ -360,7 +366,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
                 if (g < 0.3 * g_before) share = kNearWay;
             }
             const double end = std::min(own, left), most = proved_share(end);
-            if (end < kFold * scale(active[k])) {
+            if (end < fold(active[k])) {
                 if (end < way) way = end, weakest = k;
                 continue;
             }

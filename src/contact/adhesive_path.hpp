@@ -108,6 +108,7 @@ struct AdhesivePath : ContactBodies {
     bool find_force(const Point& a, const Point& b, double wanted);
     double scale(int position) const { return -sticking.lets_go(set.asperity[static_cast<std::size_t>(position)]); }
     double near(int position) const;
+    double fold(int position) const;
     Past past() const;
 };
 

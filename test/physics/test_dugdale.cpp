@@ -60,6 +60,27 @@ void test_one() {
     }
 }
 
+// A weak attraction of long range: an asperity attaches and lets go at almost the same penetration. It does so once each in a cycle, and the
+// loss does not depend on the number of levels. (The distance to the detachment point at which an asperity lets go was once larger than that
+// difference: it attached again at once, a thousand times.)
+void test_narrow_loop() {
+    const Maugis weak{0.7, 0.01, 0.04};
+    const Asperities a = of({0.5}, {0.5}, weak.r);
+    const double range = weak.range();
+    std::vector<double> lost;
+    for (const int levels : {1, 7, 200}) {
+        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(weak.w, range));
+        int jumps = 0;
+        Level level;
+        for (int k = -levels; k <= levels; ++k)
+            level = contact->at_separation(range * (3.0 * std::abs(k) / levels - 1)), jumps += level.jumps;
+        CHECK(jumps == 2 && level.force == 0 && level.energy_lost > 0);
+        lost.push_back(level.energy_lost);
+    }
+    CHECK_RELATIVE(lost[0], lost[2], 1e-6);
+    CHECK_RELATIVE(lost[1], lost[2], 1e-6);
+}
+
 // With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of them.
 void test_limit() {
     std::mt19937 generator(3);
@@ -94,5 +115,6 @@ void test_limit() {
 
 TESTS {
     test_one();
+    test_narrow_loop();
     test_limit();
 }
