@@ -166,6 +166,7 @@ bool AdhesivePath::settle(double Z, Vector s) {
             const double lowest = std::min(Z, covered + margin);
             margin = more;
             cover(lowest);
+            hold_more(Z);
             s = here.s;
             continue;
         }
@@ -195,6 +196,24 @@ void AdhesivePath::hold() {
         held_before.push_back({set.asperity[at(active[k])], here.states[k], solver.residuals()[k]});
     for (std::size_t p = 0; p < here.u.size(); ++p)
         free_before[at(set.asperity[at(products->passive()[p])])] = here.u[p] + sticking.touches();
+}
+
+// The same for asperities that have come into the set during the jump.
+void AdhesivePath::hold_more(double Z) {
+    std::vector<std::pair<int, double>> before;
+    double force = 0;
+    for (const Held& held : held_before) before.emplace_back(place[at(held.asperity)], held.state.f), force += held.state.f;
+    std::sort(before.begin(), before.end());
+    std::vector<int> positions;
+    Vector f, phi(at(set.size()), 0.0);
+    for (const auto& [position, own] : before) positions.push_back(position), f.push_back(own);
+    if (!f.empty()) {
+        products->set_active(positions);
+        products->full(f.data(), phi.data());
+        products->set_active(active);
+    }
+    set_gaps(Z);
+    for (std::size_t p = 0; p < phi.size(); ++p) free_before[at(set.asperity[p])] = set.g0[p] - phi[p] + kernel->shift() * force;
 }
 
 // Energy after a jump minus energy before it at the same separation. Because B is symmetric and the penetrations change by -B times the change
@@ -265,8 +284,11 @@ void AdhesivePath::detach(std::size_t k, Vector& s) {
 void AdhesivePath::jump(Vector s, double ahead, double bend) {
     const double power = here.power, rate_of_power = bend * here.change.power;
     now.least_force = std::min(now.least_force, here.force);
-    if (!settle(here.Z, std::move(s))) lost_way = true;
     ++jumps;
+    if (!settle(here.Z, std::move(s))) {
+        lost_way = true;
+        return held_before.clear();
+    }
     now.lost += ahead * (here.power - power + 0.5 * ahead * (here.change.power - rate_of_power)) - energy_gained();
     now.least_force = std::min(now.least_force, here.force);
     held_before.clear();
@@ -278,7 +300,7 @@ bool AdhesivePath::begin(double target) {
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;
-    active.clear();
+    active.clear(), held_before.clear();
     here = {};
     const double highest = ranking.highest() - sticking.touches();
     if (now.asperity.empty()) {

@@ -89,6 +89,7 @@ struct AdhesivePath : ContactBodies {
     double raised() const;
     void read_solution(Point& point);
     void hold();
+    void hold_more(double Z);
     double energy_gained() const;
     bool settle(double Z, Vector s);
     void attach_one(int position, double ahead);
