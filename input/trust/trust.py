@@ -6,7 +6,7 @@
     python3 input/trust/trust.py asperities  solves the same levels by the three laws (likewise)
     python3 input/trust/trust.py fit         fits the bounds to the first surfaces, prints how often the others are within them, by
                                              group, and writes src/contact/expected_error_table.hpp
-    python3 input/trust/trust.py slopes      N and A over those of elements by slope_ratio and law (the table in test/README)
+    python3 input/trust/trust.py slopes      N and A over those of elements by slope_ratio and law
 
 Options: --maps DIR  height maps measured by the reader or published, in any format that rsc reads: surfaces 600 and above, four for each map (with a
 small and a large sphere, as read and filtered), for the factor of the bound of heights from files;  --rsc ./rsc  the program;  --out DIR  folder of the results (output/trust);  --surfaces N  their number (500; 540 with the broad spectra, 564 with few contacts on smooth surfaces);  --first K.

@@ -24,12 +24,12 @@ double rounded_product(double a, double b) {
 
 }  // namespace
 
-std::int32_t nearest_level(const std::vector<Level>& levels, double separation) {
+std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
     std::int32_t best = -1;
-    for (std::size_t s = 0; s < levels.size(); ++s)
-        if (best < 0 ||
-            std::abs(levels[s].separation - separation) < std::abs(levels[static_cast<std::size_t>(best)].separation - separation))
-            best = static_cast<std::int32_t>(s);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        if (const double distance = std::abs(levels[k] - wanted); best < 0 || distance < least - 1e-9 * (least + std::abs(wanted)))
+            best = static_cast<std::int32_t>(k), least = distance;
     return best;
 }
 
@@ -47,8 +47,10 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
         record.levels.push_back(row);
         record.maps.push_back(row.status == LevelStatus::not_converged ? MapLevel{} : std::move(map));
     }
+    std::vector<double> separations;
+    for (const Level& level : levels) separations.push_back(level.separation);
     for (double wanted : options.pdf_levels) {
-        const std::int32_t step = nearest_level(levels, wanted);
+        const std::int32_t step = nearest_level(separations, wanted);
         if (step < 0) continue;
         const Level& level = levels[static_cast<std::size_t>(step)];
         Level no_contacts;

@@ -52,8 +52,9 @@ struct RealizationRecord {
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
                           const std::vector<Level>& levels);
 
-// Index of the level with the separation nearest to the given one, the first of two equally near; -1 if there are no levels.
-std::int32_t nearest_level(const std::vector<Level>& levels, double separation);
+// Index of the level (its separation, force or pressure) nearest to the wanted one, the first of those that are equally near but for rounding;
+// -1 if there are no levels.
+std::int32_t nearest_level(const std::vector<double>& levels, double wanted);
 
 struct Observations;
 

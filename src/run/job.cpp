@@ -85,11 +85,7 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
     std::vector<std::int32_t> steps;
-    for (const double wanted : keys.field_levels) {
-        const auto miss = [&](double level) { return std::abs(level - wanted * job.level_unit); };
-        const auto nearest = std::min_element(job.levels.begin(), job.levels.end(), [&](double a, double b) { return miss(a) < miss(b); });
-        steps.push_back(static_cast<std::int32_t>(nearest - job.levels.begin()));
-    }
+    for (const double wanted : keys.field_levels) steps.push_back(nearest_level(job.levels, wanted * job.level_unit));
     if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
     return steps;
 }

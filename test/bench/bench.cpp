@@ -238,8 +238,6 @@ const Part kParts[] = {
     {"layers", bench::layers},
     {"coated_levels", bench::coated_levels, true},
     {"elements", bench::elements},
-    {"elements_growth", bench::elements_growth},
-    {"elements_finest", bench::elements_finest, true},
     {"element_flats", bench::element_flats, true},
     {"observe", bench::observe},
     {"flats", bench::flats},

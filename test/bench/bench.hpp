@@ -60,8 +60,6 @@ rsc::Asperities lattice(int n);
 void threads();
 // bench_elements.cpp
 void elements();
-void elements_finest();
-void elements_growth();
 void element_flats();
 // bench_made.cpp
 void made();

@@ -1,4 +1,4 @@
-// What elements cost: a level cold, a series of levels, and how the cost grows with the pixels in contact.
+// What elements cost: a level cold, a series of levels, between flats.
 #include "bench.hpp"
 #include "contact/element_contact.hpp"
 #include "rough/synthesis.hpp"
@@ -37,33 +37,6 @@ void print_cold(const char* what, const HeightMap& map, double wanted) {
         level.status == LevelStatus::not_converged ? ", NOT CONVERGED" : "", time, wanted);
 }
 
-// pi a^2 pixels under a smooth sphere, a = 0.05.
-void smooth(double pixels, std::vector<double>& number, std::vector<double>& times) {
-    constexpr double a = 0.05, R = 2.5;
-    const double cells = std::sqrt(pixels / 3.14159265358979), h = a / cells;
-    const int n = static_cast<int>(2.9 * cells) + 2;
-    HeightMap map;
-    map.allocate(n, n, n);
-    map.dx = map.dy = h;
-    std::fill_n(map.data.get(), static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
-    double time = 0;
-    const Level level = cold(map, {kGold.E_star, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, -a * a / R, pixels < 1e5 ? 5 : 1, time);
-    std::printf("  smooth sphere: %7zu pixels in contact, %3ld products, %.3f s, %.1f us a pixel\n", level.pixels.index.size(),
-                static_cast<long>(level.products), time, 1e6 * time / static_cast<double>(level.pixels.index.size()));
-    number.push_back(static_cast<double>(level.pixels.index.size()));
-    times.push_back(time);
-}
-
-void rough(const HeightMap& map, double Z0_sigma, int runs, std::vector<double>& number, std::vector<double>& times) {
-    double time = 0;
-    const Level level = cold(map, kGold, 0.01 * Z0_sigma, runs, time);
-    std::printf("  rough, Z0 = %4g sigma: %7zu pixels in contact of %d with g0 > 0, %3ld products, %.3f s, %.1f us a pixel\n", Z0_sigma,
-                level.pixels.index.size(), level.candidates, static_cast<long>(level.products), time,
-                1e6 * time / static_cast<double>(level.pixels.index.size()));
-    number.push_back(static_cast<double>(level.pixels.index.size()));
-    times.push_back(time);
-}
-
 }  // namespace
 
 void elements() {
@@ -81,25 +54,6 @@ void elements() {
     std::printf("  4096^2: heights made in %.2f s; 100 levels from 4 to 1 sigma, N = %.2f N at the last: %.2f s (wanted: 40)\n", make,
                 force, series);
     std::printf("  peak memory so far %.0f MB (wanted: 1000)\n", peak_memory_mb());
-}
-
-void elements_finest() {
-    std::printf("\nelements_finest: default surface, 16 points in the shortest wave, 8192^2, tolerance 1e-6, one thread\n");
-    HeightMap map;
-    std::printf("  heights made in %.1f s\n", shortest(1, [&] { map = surface(8192, 512); }));
-    print_cold("8192^2, L/lambda_s = 512", map, 30);
-    std::printf("  peak memory so far %.0f MB\n", peak_memory_mb());
-}
-
-void elements_growth() {
-    std::printf("\nelements_growth: one level cold, tolerance 1e-6, one thread\n");
-    std::vector<double> number, times;
-    for (const double pixels : {1e3, 1e4, 1e5, 1e6}) smooth(pixels, number, times);
-    std::printf("  time ~ (pixels in contact)^%.2f (wanted: 1.2)\n", exponent(number, times));
-    number.clear(), times.clear();
-    const HeightMap map = surface(2048, 256);
-    for (const double Z0_sigma : {2.0, 1.0, 0.0, -3.0, -10.0}) rough(map, Z0_sigma, Z0_sigma < 0 ? 1 : 3, number, times);
-    std::printf("  time ~ (pixels in contact)^%.2f (wanted: 1.2); peak memory so far %.0f MB\n", exponent(number, times), peak_memory_mb());
 }
 
 void element_flats() {

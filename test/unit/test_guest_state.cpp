@@ -65,6 +65,20 @@ void test_kept(const std::string& keys, const std::string& memory) {
     }
 }
 
+// A copy made between levels, when the tip has moved and time has gone on, knows the stiffness of the last level and continues like the original.
+void test_copied_between_levels(const std::string& keys) {
+    Made made(kSurface + keys + " / &compare levels='none' /");
+    at(made.contact, 0, 0.01);
+    const double stiffness = value(made.contact, "stiffness");
+    at(made.contact, 1, 0.0098), at(made.contact, 1, 0.01);
+    OK(rsc_contact_move_tip(made.contact, 0.53, 0.47));
+    OK(rsc_contact_set_time(made.contact, 10));
+    ContactHandle copy;
+    OK(rsc_contact_copy(&copy, made.contact));
+    if (keys.empty()) CHECK_RELATIVE(value(copy, "stiffness"), stiffness, 1e-6);
+    CHECK_RELATIVE(force_at(copy, 0.009), force_at(made.contact, 0.009), kTolerance);
+}
+
 // Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
 void test_time() {
     const std::string body = "relaxation_share=0.4,0.3 relaxation_time=1,20";
@@ -167,6 +181,8 @@ TESTS {
     }
     for (const std::string& range : {std::string(), std::string("adhesion_range=2e-4"), "adhesion_range=0.02" + elements})
         test_kept("adhesion=0.5 " + range, "energy_lost");
+    test_copied_between_levels("");
+    test_copied_between_levels(relaxing + tight);
     test_time();
     test_rolling();
     test_watched(Folder());

@@ -29,6 +29,15 @@ void test_two_bodies() {
     CHECK_THROWS(equivalent_radius({0.0, 1.0}), Error);
 }
 
+// The nearest level, the first of two that are equally near: rounding does not decide.
+void test_nearest_level() {
+    for (const double rounding : {-1e-14, 0.0, 1e-14}) {
+        CHECK(nearest_level({4, 3 + rounding, 2 - rounding, 1}, 2.5) == 1);
+        CHECK(nearest_level({1, 2 - rounding, 3 + rounding, 2, 1}, 2.5) == 1 && nearest_level({3, 1 + rounding, 1}, 1) == 1);
+    }
+    CHECK(nearest_level({3, 2, 1}, 2.4) == 1 && nearest_level({3, 2, 1}, 2.6) == 0 && nearest_level({}, 1) == -1);
+}
+
 // n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
 Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
     Level level;
@@ -201,6 +210,7 @@ void test_exact_sums() {
 
 TESTS {
     test_two_bodies();
+    test_nearest_level();
     test_scale_fits();
     test_gamma_fit();
     test_gamma_information();
