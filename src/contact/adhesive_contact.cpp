@@ -11,108 +11,126 @@ constexpr std::size_t kBefore = 6;  // numbers in memory() before the pairs
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-}  // namespace
+class AdhesiveContact final : public Contact {
+public:
+    AdhesiveContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search)
+        : path_(std::make_unique<AdhesivePath>(asperities, indenter, options, std::move(search))) {}
 
-struct AdhesiveContact::Impl : AdhesivePath {
-    using AdhesivePath::AdhesivePath;
-    double slope = 0, energy = 0;  // of the last level
+    double stiffness() override { return slope_; }
+    double energy() const override { return energy_; }
+    void move_tip(double x0, double y0) override;
+    double first_touch() const override { return path_->ranking.highest(); }
+    const Indenter& indenter() const override { return path_->indenter; }
+    const Asperities* asperities() const override { return &path_->asperities; }
+    bool path_dependent() const override { return true; }
+    bool pulls() const override { return true; }
+    // Position of the tip, separation, dissipated energy, smallest force, jumps, and pairs of an attached asperity and its state.
+    std::vector<double> memory() const override;
+    void recall(const std::vector<double>& memory, const Level* level) override;
+
+protected:
+    void forget_levels() override {
+        const AdhesivePath& my = *path_;
+        path_ = std::make_unique<AdhesivePath>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
+        slope_ = energy_ = 0;
+    }
+    Level solve(double Z0) override;
+    // Follows the path to the first state with the force, towards the surface if it is larger than the present force, otherwise away. If no
+    // state has the force, the level is that of the smallest force, with Fallback::held.
+    std::optional<Level> solve_under(double N) override;
+    void accept(Level&) override { path_->accepted = path_->now, path_->accepted.jumps = 0; }
+    double tolerance() const override { return path_->options.tolerance; }
+    double force_at_most(double) override { return 0; }
+
+private:
     Level report();
+
+    std::unique_ptr<AdhesivePath> path_;
+    double slope_ = 0, energy_ = 0;  // of the last level
 };
 
-Level AdhesiveContact::Impl::report() {
+Level AdhesiveContact::report() {
+    AdhesivePath& my = *path_;
     Level l;
-    l.separation = here.Z;
-    if (lost_way) {  // there is no state to report: the values become not-a-number (Contact::finish)
-        now = accepted;
+    l.separation = my.here.Z;
+    if (my.lost_way) {  // there is no state to report: the values become not-a-number (Contact::finish)
+        my.now = my.accepted;
         l.status = LevelStatus::not_converged;
         l.residual = 1;
-        l.candidates = set.size(), l.iterations = steps;
-        slope = energy = kNotComputed;
+        l.candidates = my.set.size(), l.iterations = my.steps;
+        slope_ = energy_ = kNotComputed;
         return l;
     }
-    now = past();
-    l.candidates = std::max(set.size(), static_cast<int>(active.size()));
-    l.residual = here.residual;
-    l.iterations = steps;
-    l.products = direct->count() + (mesh ? mesh->count() : 0) - products_before;
-    l.method = products == mesh.get() && mesh ? Method::mesh : Method::direct;
+    my.now = my.past();
+    l.candidates = std::max(my.set.size(), static_cast<int>(my.active.size()));
+    l.residual = my.here.residual;
+    l.iterations = my.steps;
+    l.products = my.direct->count() + (my.mesh ? my.mesh->count() : 0) - my.products_before;
+    l.method = my.products == my.mesh.get() && my.mesh ? Method::mesh : Method::direct;
     double cohesive = 0;
-    for (std::size_t k = 0; k < now.asperity.size(); ++k) {
-        const int i = now.asperity[k];
-        const Sticking::State state = sticking.at(i, now.s[k]);
+    for (std::size_t k = 0; k < my.now.asperity.size(); ++k) {
+        const int i = my.now.asperity[k];
+        const Sticking::State state = my.sticking.at(i, my.now.s[k]);
         if (state.area > 0)
-            l.add_contact(i, asperities.x[at(i)], asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
-        l.tractions.x.push_back(asperities.x[at(i)]), l.tractions.y.push_back(asperities.y[at(i)]);
+            l.add_contact(i, my.asperities.x[at(i)], my.asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
+        l.tractions.x.push_back(my.asperities.x[at(i)]), l.tractions.y.push_back(my.asperities.y[at(i)]);
         l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi)),
             l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
         l.tractions.pressed.push_back(state.pressed), l.tractions.pulled.push_back(state.f - state.pressed);
         cohesive += state.outer - state.area;
         l.force += state.f;
         l.area += state.area;
-        l.beyond_law += state.beyond || law->beyond(i, now.s[k]);
+        l.beyond_law += state.beyond || my.law->beyond(i, my.now.s[k]);
     }
-    judge_asperities(l, *law, *this);
-    if (options.adhesion.range > 0) l.cohesive_area = cohesive;
+    judge_asperities(l, *my.law, my);
+    if (my.options.adhesion.range > 0) l.cohesive_area = cohesive;
     // Where the zones that attract around the summits overlap, they would count twice.
     if (cohesive + l.area >
-            static_cast<double>(now.asperity.size()) * 0.25 * std::numbers::pi * options.mean_spacing * options.mean_spacing &&
-        options.adhesion.range > 0 && options.mean_spacing > 0)
+            static_cast<double>(my.now.asperity.size()) * 0.25 * std::numbers::pi * my.options.mean_spacing * my.options.mean_spacing &&
+        my.options.adhesion.range > 0 && my.options.mean_spacing > 0)
         l.status = graver(l.status, LevelStatus::out_of_validity);
-    l.jumps = jumps + accepted.jumps;
-    l.energy_lost = now.lost;
-    l.least_force = now.least_force;
-    slope = active.empty() ? 0.0 : here.change.force;
-    energy = active.empty() ? 0.0 : here.energy;
+    l.jumps = my.jumps + my.accepted.jumps;
+    l.energy_lost = my.now.lost;
+    l.least_force = my.now.least_force;
+    slope_ = my.active.empty() ? 0.0 : my.here.change.force;
+    energy_ = my.active.empty() ? 0.0 : my.here.energy;
     return l;
 }
 
-AdhesiveContact::AdhesiveContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search)
-    : impl_(std::make_unique<Impl>(asperities, indenter, options, std::move(search))) {}
-AdhesiveContact::~AdhesiveContact() = default;
-
 Level AdhesiveContact::solve(double Z0) {
-    Impl& my = *impl_;
+    AdhesivePath& my = *path_;
     if (my.begin(Z0) && !my.lost_way) my.go(Z0, std::nullopt);
     my.here.Z = Z0;
-    return my.report();
+    return report();
 }
 
 std::optional<Level> AdhesiveContact::solve_under(double N) {
-    Impl& my = *impl_;
+    AdhesivePath& my = *path_;
     const bool anything = my.begin(-kInfinity);
-    if (my.lost_way) return my.report();
+    if (my.lost_way) return report();
     if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
         const bool down = my.here.force < N && !(my.active.empty() && N < 0);
         if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
-            if (my.lost_way) return my.report();
+            if (my.lost_way) return report();
             // No state has this force: returns to the state with the smallest force.
             const double least = my.now.least_force;
             for (const double above : {1e-7, 1e-5, 1e-3}) {
                 my.begin(-kInfinity);
                 if (my.active.empty() || (my.go(1e300, least * (1 - above)) && !my.lost_way)) break;
             }
-            if (my.lost_way) return my.report();
-            Level level = my.report();
+            if (my.lost_way) return report();
+            Level level = report();
             level.fallback = Fallback::held;
             level.status = LevelStatus::not_converged;
             return level;
         }
     }
-    return my.report();
+    return report();
 }
-
-void AdhesiveContact::accept(Level&) { impl_->accepted = impl_->now, impl_->accepted.jumps = 0; }
-
-double AdhesiveContact::stiffness() { return impl_->slope; }
-double AdhesiveContact::energy() const { return impl_->energy; }
-double AdhesiveContact::tolerance() const { return impl_->options.tolerance; }
-double AdhesiveContact::first_touch() const { return impl_->ranking.highest(); }
-const Indenter& AdhesiveContact::indenter() const { return impl_->indenter; }
-const Asperities* AdhesiveContact::asperities() const { return &impl_->asperities; }
 
 void AdhesiveContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
-    Impl& my = *impl_;
+    AdhesivePath& my = *path_;
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
     if (!my.accepted.asperity.empty()) {
         if (!my.move(x0, y0))
@@ -123,18 +141,13 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     const AdhesivePath::Past past = my.accepted;
     my.indenter.move(x0, y0);
     forget_levels();
-    impl_->accepted = past;
-}
-
-void AdhesiveContact::forget_levels() {
-    const Impl& my = *impl_;
-    impl_ = std::make_unique<Impl>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
+    path_->accepted = past;
 }
 
 std::vector<double> AdhesiveContact::memory() const {
-    const AdhesivePath::Past& past = impl_->accepted;
+    const AdhesivePath::Past& past = path_->accepted;
     if (past.separation == kInfinity) return {};
-    const Indenter& tip = impl_->indenter;
+    const Indenter& tip = path_->indenter;
     std::vector<double> numbers = {tip.x0, tip.y0, past.separation, past.lost, past.least_force, static_cast<double>(past.jumps)};
     for (std::size_t k = 0; k < past.asperity.size(); ++k)
         numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
@@ -142,7 +155,7 @@ std::vector<double> AdhesiveContact::memory() const {
 }
 
 void AdhesiveContact::recall(const std::vector<double>& memory, const Level* last) {
-    Impl& my = *impl_;
+    AdhesivePath& my = *path_;
     my.accepted = {};
     if (!memory.empty()) {
         AdhesivePath::Past& past = my.accepted;
@@ -164,6 +177,13 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
         }
     }
     if (last) (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);
+}
+
+}  // namespace
+
+std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                                               SummitSearch search) {
+    return std::make_unique<AdhesiveContact>(asperities, indenter, options, std::move(search));
 }
 
 }  // namespace rsc

@@ -395,7 +395,7 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.rough_stiffness() / impl_->scale(); }
+double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.stiffness(1e-3) / impl_->scale(); }
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
@@ -435,7 +435,7 @@ const Asperities* AsperityContact::asperities() const { return &impl_->asperitie
 
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                SummitSearch search) {
-    if (options.adhesion.work > 0) return std::make_unique<AdhesiveContact>(asperities, indenter, options, std::move(search));
+    if (options.adhesion.work > 0) return make_adhesive_contact(asperities, indenter, options, std::move(search));
     return std::make_unique<AsperityContact>(asperities, indenter, options, std::move(search));
 }
 

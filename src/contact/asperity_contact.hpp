@@ -58,7 +58,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Creates an AsperityContact, or with adhesion an AdhesiveContact (adhesive_contact.hpp).
+// Creates an AsperityContact, or with adhesion the contact of adhesive_contact.hpp.
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                SummitSearch search = {});
 

@@ -25,7 +25,6 @@ struct FoundSummits {
     Asperities summits;
     std::shared_ptr<const HeightMap> map;  // null if the heights are not kept
     double points_per_wave = 0;            // of the map, in its shortest wave; 0: unknown
-    double shift_x = 0, shift_y = 0;       // position of the summits minus that in the map [length]
     int threads = 1;                       // for work on the heights
 };
 

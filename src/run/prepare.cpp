@@ -262,7 +262,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
                         waves = surface.points_per_wave, measured, breaks](const Indenter& indenter) {
             const Face face(indenter);
             SummitCount unused;
-            FoundSummits found{{}, kept, waves, 0, 0, threads};
+            FoundSummits found{{}, kept, waves, threads};
             found.summits = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
             if (measured) drop_near_filled(found.summits, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
@@ -316,7 +316,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
         model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
                         law = settings.asperities.law, threads](const Indenter& indenter) {
             const Face face(indenter);
-            FoundSummits found{{}, nullptr, 0, 0, 0, threads};
+            FoundSummits found{{}, nullptr, 0, threads};
             const int n = summit_points(spectrum, keys.n);
             if (traits(law).needs_heights && n <= kMostPointsKept) {  // the same summits, with the heights
                 auto map = std::make_shared<HeightMap>(synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads));

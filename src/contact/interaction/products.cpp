@@ -42,11 +42,9 @@ public:
         passive_phi_.resize(passive_.size());
     }
 
-    void set_precise(bool precise) override { precise_ = precise; }
-
     void inner(const double* f, double* phi) override {
         ++count_;
-        const bool single = !precise_ && sums_.has_single();
+        const bool single = sums_.has_single();
         if (stored_)
             matrix_->among(single, f, phi);
         else if (single)
@@ -55,7 +53,7 @@ public:
             sums_.apply(f, phi);
     }
 
-    void inner_passive(const double* f, double* phi) override { onto_passive(!precise_ && sums_.has_single(), f, phi); }
+    void inner_passive(const double* f, double* phi) override { onto_passive(sums_.has_single(), f, phi); }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
         const auto count = static_cast<std::size_t>(n);
@@ -110,7 +108,6 @@ private:
         for (std::size_t k = 0; k < which.size(); ++k) to[k] = all_[static_cast<std::size_t>(which[k])];
     }
 
-    bool precise_ = false;
     bool fresh_ = true;    // true until set_active() is called for the current points
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
@@ -189,26 +186,21 @@ public:
         if (by_pairs_) by_pairs().set_active(active);
     }
 
-    void set_precise(bool precise) override {
-        precise_ = precise;
-        if (pair_products_) pair_products_->set_precise(precise);
-    }
-
     void inner(const double* f, double* phi) override {
         if (by_pairs_) return ++count_, by_pairs().inner(f, phi);
         constexpr double few = 0.8;  // share of active points below which a separate mesh is faster
-        if (!precise_ && static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
+        if (static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
             ++count_;
             among().apply(f, phi);
             return;
         }
-        everywhere(f, precise_);
+        everywhere(f, false);
         for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = phi_[static_cast<std::size_t>(active_[k])];
     }
 
     void inner_passive(const double* f, double* phi) override {
         if (by_pairs_) return by_pairs().inner_passive(f, phi);
-        everywhere(f, precise_);
+        everywhere(f, false);
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[k] = phi_[static_cast<std::size_t>(passive_[k])];
     }
 
@@ -231,7 +223,7 @@ public:
             ya.insert(ya.end(), y, y + n);
             std::vector<double> force(f, f + sources), all(xa.size());
             force.resize(xa.size());
-            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_, &far_).apply(force.data(), all.data());
+            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_).apply(force.data(), all.data());
             std::copy(all.begin() + static_cast<std::ptrdiff_t>(sources), all.end(), phi);
         }
     }
@@ -253,15 +245,12 @@ private:
     static constexpr double kElsewhere = 1e-5;
 
     Products& by_pairs() {
-        if (!pair_products_) {
-            pair_products_ = make_direct_products(kernel_);
-            pair_products_->set_precise(precise_);
-        }
+        if (!pair_products_) pair_products_ = make_direct_products(kernel_);
         return *pair_products_;
     }
 
     const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
-        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
+        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_);
         return *mesh;
     }
 
@@ -285,17 +274,16 @@ private:
                 xa.push_back(x_[static_cast<std::size_t>(k)]);
                 ya.push_back(y_[static_cast<std::size_t>(k)]);
             }
-            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_, &far_);
+            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_);
             among_active_ = active_;
         }
         return *among_;
     }
 
     double full_error_, inner_error_;
-    bool precise_ = false, by_pairs_ = false;
+    bool by_pairs_ = false;
     std::unique_ptr<Products> pair_products_;
     std::vector<double> x_, y_, f_, phi_;
-    FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;
     std::vector<int> among_active_;  // active points for which among_ was created
     PairSums pairs_;

@@ -15,8 +15,6 @@ public:
     virtual void set_points(int n, const double* x, const double* y) = 0;
     // Sets the positions in the working set that carry force, in increasing order. Valid until the next set_points().
     virtual void set_active(const std::vector<int>& active) = 0;
-    // With `precise`, inner products are as accurate as full ones.
-    virtual void set_precise(bool precise) = 0;
 
     // phi = B f at the active points; f, phi in the order of the active list.
     virtual void inner(const double* f, double* phi) = 0;

@@ -3,14 +3,9 @@
 namespace rsc {
 namespace {
 
-template <class T>
-struct Values {
-    T radius, load, work;
-};
-
 // The functions of t by their definitions.
 template <class T>
-Values<T> defined(T t) {
+BesselProfile::Values<T> defined(T t) {
     const T root = std::sqrt(std::abs(t));
     const T half = t > 0 ? std::asin(std::min(root, T(1))) : std::asinh(root);  // |q| a/2
     const T G = root > T(1e-6) ? half / root : 1 + t / 6;
@@ -81,32 +76,14 @@ BesselProfile::BesselProfile() {
     }
 }
 
-BesselProfile::Place BesselProfile::place(double t) const {
+BesselProfile::Shape BesselProfile::at(double t) const {
+    if (!(t >= kFirst)) return defined<double>(t);
     const bool of_t = t < kMiddle;
     const double along = kCellsPerUnit * (of_t ? t - kFirst : std::sqrt(std::max(1 - t, 0.0)));
-    const int cell = std::min(static_cast<int>(along), of_t ? kCellsOfT - 1 : kCells - kCellsOfT - 1);
-    return {&cells_[static_cast<std::size_t>(of_t ? cell : kCellsOfT + cell)], 2 * (along - cell) - 1};
-}
-
-BesselProfile::Shape BesselProfile::at(double t) const {
-    if (!(t >= kFirst)) {
-        const auto value = defined<double>(t);
-        return {value.radius, value.load, value.work};
-    }
-    const auto [cell, s] = place(t);
-    return {evaluate(cell->radius, s), evaluate(cell->load, s), evaluate(cell->work, s)};
-}
-
-double BesselProfile::load(double t) const {
-    if (!(t >= kFirst)) return defined<double>(t).load;
-    const auto [cell, s] = place(t);
-    return evaluate(cell->load, s);
-}
-
-double BesselProfile::radius(double t) const {
-    if (!(t >= kFirst)) return defined<double>(t).radius;
-    const auto [cell, s] = place(t);
-    return evaluate(cell->radius, s);
+    const int number = std::min(static_cast<int>(along), of_t ? kCellsOfT - 1 : kCells - kCellsOfT - 1);
+    const Cell& cell = cells_[static_cast<std::size_t>(of_t ? number : kCellsOfT + number)];
+    const double s = 2 * (along - number) - 1;
+    return {evaluate(cell.radius, s), evaluate(cell.load, s), evaluate(cell.work, s)};
 }
 
 const BesselProfile& BesselProfile::table() {

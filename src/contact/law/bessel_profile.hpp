@@ -11,17 +11,17 @@ namespace rsc {
 
 class BesselProfile {
 public:
-    struct Shape {
-        double radius;  // a/sqrt(delta/kappa)
-        double load;    // P/[(4/3) E* delta^(3/2)/sqrt(kappa)]
-        double work;    // int P ddelta/[(8/15) E* delta^(5/2)/sqrt(kappa)]
+    template <class T>
+    struct Values {
+        T radius;  // a/sqrt(delta/kappa)
+        T load;    // P/[(4/3) E* delta^(3/2)/sqrt(kappa)]
+        T work;    // int P ddelta/[(8/15) E* delta^(5/2)/sqrt(kappa)]
     };
+    using Shape = Values<double>;
 
     // Functions for t <= 1, with relative errors below 3e-14. They are tabulated in the usual range, because they are the innermost loop of
     // the solver.
     Shape at(double t) const;
-    double load(double t) const;
-    double radius(double t) const;
 
     static const BesselProfile& table();
 
@@ -36,11 +36,6 @@ private:
     struct Cell {
         Polynomial radius, load, work;
     };
-    struct Place {
-        const Cell* cell;
-        double s;  // -1 to 1
-    };
-    Place place(double t) const;
     std::array<Cell, kCells> cells_;
 };
 

@@ -9,11 +9,6 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Force, slope and work at a penetration.
-struct Response {
-    double force = 0, slope = 0, work = 0;
-};
-
 // Convex force with given values and slopes at nodes, the first of which is the origin. Between two of them the slope is S_k + (S_k+1 - S_k)
 // x^q, 0 < x < 1, with the q that gives the right difference of forces: 1/2 for a paraboloid in the first interval. It is not negative if
 // the slope of the chord lies between those at the nodes.
@@ -153,23 +148,10 @@ public:
     void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
         for (int k = 0; k < n; ++k) {
             const Table& table = table_[at(asperity[k])];
-            if (state_[at(asperity[k])] == State::covered) {
-                force[k] = slope[k] = work[k] = 0;
-                continue;
-            }
-            if (table.empty()) {
-                other_->respond(1, asperity + k, u + k, force + k, slope + k, work + k);
-                continue;
-            }
-            const Response r = table.at(u[k]);
+            Response r;
+            if (state_[at(asperity[k])] != State::covered) r = table.empty() ? other_->response(asperity[k], u[k]) : table.at(u[k]);
             force[k] = r.force, slope[k] = r.slope, work[k] = r.work;
         }
-    }
-
-    double force(int asperity, double u) const override {
-        const Table& table = table_[at(asperity)];
-        if (state_[at(asperity)] == State::covered) return 0;
-        return table.empty() ? other_->force(asperity, u) : table.at(u).force;
     }
 
     double area(int asperity, double u) const override {

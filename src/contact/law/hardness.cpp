@@ -25,12 +25,12 @@ public:
             Summit s;
             s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
             s.yield = elastic_->yield_penetration(i, s.H);
-            const double force = elastic_->force(i, s.yield), area = elastic_->area(i, s.yield);
+            const double area = elastic_->area(i, s.yield);
+            const Response first = elastic_->response(i, s.yield);
             s.start = {s.yield, area, std::sqrt(area / pi), elastic_->spread(i, s.yield)};
-            s.modulus = 3 * force / (4 * s.start.radius * s.yield);
+            s.modulus = 3 * first.force / (4 * s.start.radius * s.yield);
             s.sink = sinks_ ? 4 * s.H / (pi * s.modulus) : 0.0;
-            double f, D;
-            elastic_->respond(1, &i, &s.yield, &f, &D, &s.work);
+            s.work = first.work;
             summits_.push_back(s);
         }
     }
@@ -60,12 +60,6 @@ public:
         }
     }
 
-    double force(int asperity, double u) const override {
-        const Summit& s = summit(asperity);
-        if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? back(s, u - s.rest) : 0.0;
-        return u > s.yield ? s.H * flat(asperity, u).area : elastic_->force(asperity, u);
-    }
-
     double area(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         if (s.deepest > 0 && u <= s.deepest) return u > s.rest ? s.end.area * ((u - s.rest) / (s.deepest - s.rest)) : 0.0;
@@ -74,16 +68,11 @@ public:
 
     double axes(int asperity) const override { return elastic_->axes(asperity); }
     bool beyond(int asperity, double u) const override { return elastic_->beyond(asperity, u); }
-    Spread spread(int asperity, double u) const override { return elastic_->spread(asperity, u); }
     double yield_penetration(int asperity, double pressure) const override { return elastic_->yield_penetration(asperity, pressure); }
 
     double steepest(int asperity, double high) const override {
         const Summit& s = summit(asperity);
-        const auto slope = [&](double u) {
-            double f, D, W;
-            respond(1, &asperity, &u, &f, &D, &W);
-            return D;
-        };
+        const auto slope = [&](double u) { return response(asperity, u).slope; };
         if (high <= (s.deepest > 0 ? s.deepest : s.yield)) return slope(high);
         // The largest of the slope at the end of the elastic branch and a bound on the plastic growth, which increases with the radius and
         // is monotonic in the slope of the spread.

@@ -27,7 +27,6 @@ public:
         }
     }
 
-    double force(int asperity, double u) const override { return u > 0 ? c_[at(asperity)] * u * std::sqrt(u) : 0.0; }
     double area(int asperity, double u) const override { return u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0; }
     double axes(int) const override { return 1; }
     bool beyond(int, double) const override { return false; }
@@ -89,18 +88,10 @@ public:
         }
     }
 
-    double force(int asperity, double u) const override {
-        if (!(u > 0)) return 0;
-        const Summit& s = summit(asperity);
-        const double smooth = std::min(u, s.last), t = s.t * smooth, paraboloid = s.e * std::sqrt(s.r * smooth);
-        const double P = 4.0 / 3 * paraboloid * smooth * profile_.load(t);
-        return u > smooth ? P + 2 * paraboloid * profile_.at(t).radius * (u - smooth) : P;
-    }
-
     double area(int asperity, double u) const override {
         if (!(u > 0)) return 0;
         const Summit& s = summit(asperity);
-        const double smooth = std::min(u, s.last), radius = profile_.radius(s.t * smooth);
+        const double smooth = std::min(u, s.last), radius = profile_.at(s.t * smooth).radius;
         return s.spot * s.r * smooth * radius * radius;
     }
 
@@ -110,14 +101,14 @@ public:
     double widening(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         const double t = s.t * u;
-        return t < 1 && u <= s.last ? 0.5 / (u * profile_.radius(t) * std::sqrt(1 - t)) : 0.0;
+        return t < 1 && u <= s.last ? 0.5 / (u * profile_.at(t).radius * std::sqrt(1 - t)) : 0.0;
     }
 
     // Up to t = kFlattest, A(u) = spot r u R(t)^2 with t R(t)^2 = asin^2(sqrt(t)).
     Spread spread(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         const double end = s.t > 0 ? std::min(u, kFlattest / s.t) : u, t = s.t * end, past = u - end;
-        const double R = profile_.radius(t), root = std::sqrt(1 - t), scale = s.spot * s.r;
+        const double R = profile_.at(t).radius, root = std::sqrt(1 - t), scale = s.spot * s.r;
         Spread result;
         result.area = scale * end * R * R;
         result.slope = scale * R / root;
@@ -137,9 +128,9 @@ public:
         // Bracketed Newton's method in logarithms: d ln p/d ln u = u f'/f - u A'/A, which is 1/2 for a paraboloid.
         double u = high;
         for (int i = 0; i < 200; ++i) {
-            double f, D, W;
-            respond(1, &asperity, &u, &f, &D, &W);
-            const double A = area(asperity, u), mean = f / A, rise = u * (D / f - (u < s.last ? spread(asperity, u).slope / A : 0.0));
+            const Response now = response(asperity, u);
+            const double A = area(asperity, u), mean = now.force / A,
+                         rise = u * (now.slope / now.force - (u < s.last ? spread(asperity, u).slope / A : 0.0));
             (mean >= pressure ? high : low) = u;
             double next = u * std::exp(std::log(pressure / mean) / rise);
             if (std::abs(next - u) <= 4 * std::numeric_limits<double>::epsilon() * u) break;

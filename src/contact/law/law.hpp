@@ -24,6 +24,11 @@ struct Spread {
     double area = 0, slope = 0, integral = 0;  // [length^2], [length], [length^3]
 };
 
+// Force, slope df/du and work at a penetration.
+struct Response {
+    double force = 0, slope = 0, work = 0;
+};
+
 // Forces increase with the penetration u > 0; force and slope are 0 for u <= 0. Asperities are identified by their index in the Asperities
 // from which the law was made, which must outlive it.
 //
@@ -47,7 +52,12 @@ public:
     // 0.
     virtual void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const = 0;
 
-    virtual double force(int asperity, double u) const = 0;
+    Response response(int asperity, double u) const {  // of one asperity
+        Response r;
+        respond(1, &asperity, &u, &r.force, &r.slope, &r.work);
+        return r;
+    }
+    virtual double force(int asperity, double u) const { return response(asperity, u).force; }
     virtual double area(int asperity, double u) const = 0;  // contact area [length^2]; 0 for u <= 0
     virtual double axes(int asperity) const = 0;            // b/a <= 1 of the contact ellipse
     virtual bool beyond(int asperity, double u) const = 0;  // true beyond the range of validity of the law

@@ -141,7 +141,7 @@ HeightsAround::HeightsAround(const FoundSummits& found, const Stencil& stencil, 
     const HeightMap& map = *found.map;
     const int reach = stencil.reach();
     // Coarse points of the window, counted from the map's first point.
-    const double x = (x0 - found.shift_x - map.x0) / map.dx, y = (y0 - found.shift_y - map.y0) / map.dy;
+    const double x = (x0 - map.x0) / map.dx, y = (y0 - map.y0) / map.dy;
     int i0 = static_cast<int>(std::floor(x - half_width / map.dx)), i1 = static_cast<int>(std::ceil(x + half_width / map.dx));
     int j0 = static_cast<int>(std::floor(y - half_width / map.dy)), j1 = static_cast<int>(std::ceil(y + half_width / map.dy));
     if (!map.periodic) {

@@ -69,16 +69,9 @@ public:
             }
         }
     }
-    double force(int asperity, double u) const override {
-        double f, D, W;
-        respond(1, &asperity, &u, &f, &D, &W);
-        return f;
-    }
     double area(int asperity, double u) const override { return elastic_->area(asperity, edge_of(asperity, u)); }
     double axes(int asperity) const override { return elastic_->axes(asperity); }
     bool beyond(int asperity, double u) const override { return elastic_->beyond(asperity, edge_of(asperity, u)); }
-    Spread spread(int asperity, double u) const override { return elastic_->spread(asperity, edge_of(asperity, u)); }
-    double yield_penetration(int asperity, double pressure) const override { return elastic_->yield_penetration(asperity, pressure); }
     double residual_depth(int asperity) const override {
         const Summit* s = summit(asperity);
         return s ? s->nodes[0].release : 0.0;
@@ -176,10 +169,8 @@ private:
         return place < 0 ? nullptr : &summits_[at(place)];
     }
     Node node(int asperity, double s, double w, std::vector<double> d) const {
-        Node made{s, w, std::move(d)};
-        double slope;
-        elastic_->respond(1, &asperity, &s, &made.F, &slope, &made.W);
-        return made;
+        const Response elastic = elastic_->response(asperity, s);
+        return {s, w, std::move(d), elastic.force, elastic.work};
     }
     static std::size_t node_below(const Summit& s, double u) {
         const auto above = std::upper_bound(s.nodes.begin(), s.nodes.end(), u, [](double x, const Node& node) { return x < node.release; });

@@ -23,9 +23,7 @@ double border(double yes, double no, Property&& holds) {
 }  // namespace
 
 double Sticking::spreading(int asperity, double s) const {
-    double f, D, W;
-    law_.respond(1, &asperity, &s, &f, &D, &W);
-    return law_.widening(asperity, s) * std::sqrt(w_ * law_.area(asperity, s) / D);
+    return law_.widening(asperity, s) * std::sqrt(w_ * law_.area(asperity, s) / law_.response(asperity, s).slope);
 }
 
 void Sticking::prepare(std::span<const int> asperities) {
@@ -37,10 +35,8 @@ void Sticking::prepare(std::span<const int> asperities) {
         if (place >= 0) continue;
         place = static_cast<int>(limits_.size());
         if (z0_ > 0) {
-            double u = z0_, f, D, W;
-            law_.respond(1, &i, &u, &f, &D, &W);
-            const double a = std::sqrt(law_.area(i, u) / std::numbers::pi);
-            Limits limits{0, 0, kInfinity, D / (2 * a), a * a / u};
+            const double a = std::sqrt(law_.area(i, z0_) / std::numbers::pi);
+            Limits limits{0, 0, kInfinity, law_.response(i, z0_).slope / (2 * a), a * a / z0_};
             const auto stands = [&](double at) { return attracting(limits, at).du >= 0; };
             double high = z0_;
             while (!stands(high)) high *= 2;
@@ -82,8 +78,7 @@ void Sticking::prepare(std::span<const int> asperities) {
 
 Sticking::State Sticking::bare(int asperity, double s) const {
     State state;
-    double f0, D, W0;
-    law_.respond(1, &asperity, &s, &f0, &D, &W0);
+    const auto [f0, D, W0] = law_.response(asperity, s);
     const double A = law_.area(asperity, s), h = std::sqrt(w_ * A / D), lh = law_.widening(asperity, s) * h;
     state.u = s - 2 * h;
     state.f = f0 - 2 * h * D;

@@ -309,28 +309,17 @@ void Newton::potential_at(std::size_t n, const double* x, const double* y, doubl
     products_->elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
 }
 
-double Newton::rough_stiffness() {
-    constexpr double enough = 1e-2;  // relative residual; the error is of second order
-    products_->set_active(now_.active);
-    scale_active(now_);
-    Vector b(root_.size()), w;
-    for (std::size_t k = 0; k < b.size(); ++k) b[k] = -root_[k];
-    Step ignored;
-    steihaug(b, enough, std::numeric_limits<double>::infinity(), w, ignored);
-    return -dot(b, w);
-}
-
 // Solves with inner products and corrects with accurate ones: with r = b - A w, b'A^-1 b = b'w + w'r + r'A^-1 r, where the last term is
 // neglected.
 double Newton::stiffness(double tolerance) {
     products_->set_active(now_.active);
     scale_active(now_);
     const std::size_t n = root_.size();
-    Vector b(n), r, w(n, 0.0), more, image(n);
+    Vector b(n), r, w(n, 0.0), more, all(now_.phi.size());
     for (std::size_t k = 0; k < n; ++k) b[k] = -root_[k];
     r = b;
     const double goal = std::sqrt(tolerance * dot(b, b));
-    const double forcing = std::clamp(products_->inner_error(), std::sqrt(tolerance), 1e-2);
+    const double forcing = std::min(std::max(products_->inner_error(), std::sqrt(tolerance)), 1e-2);
     constexpr int most = 6;
     double left = 0;
     for (int pass = 0; pass < most; ++pass) {
@@ -338,10 +327,10 @@ double Newton::stiffness(double tolerance) {
         Step ignored;
         steihaug(Vector(r), forcing, std::numeric_limits<double>::infinity(), more, ignored);
         for (std::size_t k = 0; k < n; ++k) w[k] += more[k];
-        products_->set_precise(true);
-        multiply(w, image);
-        products_->set_precise(false);
-        for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - image[k];
+        if (products_->inner_error() <= tolerance) return -dot(b, w);
+        for (std::size_t k = 0; k < n; ++k) force_[k] = root_[k] * w[k];
+        products_->full(force_.data(), all.data());
+        for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - w[k] - root_[k] * all[at(now_.active[k])];
         left = std::sqrt(dot(r, r));
         if (left <= goal || !(left < 0.5 * before)) break;
     }

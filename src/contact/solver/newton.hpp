@@ -59,8 +59,6 @@ public:
 
     // dN/dZ0 = sum D dv at the solution, where (I + B D) dv = -1 on the active set, to the tolerance or the accuracy of full products.
     double stiffness(double tolerance);
-    // dN/dZ0 with an error of some 1e-3.
-    double rough_stiffness();
 
 private:
     struct State {
