@@ -17,12 +17,6 @@ bool is_line_end(int c) { return c == '\n' || c == '\r'; }
 // Characters that end a value; '!' begins a comment.
 bool is_separator(int c) { return is_blank(c) || is_line_end(c) || c == ',' || c == ';' || c == '/' || c == '!' || c == kEnd; }
 
-bool is_infinity_or_nan(std::string_view word) {
-    std::string w = lower_case(word);
-    if (!w.empty() && (w[0] == '+' || w[0] == '-')) w.erase(0, 1);
-    return w == "inf" || w == "infinity" || w == "nan" || (w.starts_with("nan(") && w.ends_with(')'));
-}
-
 class Parser {
 public:
     Parser(std::string_view text, const std::vector<std::string_view>& known) : text_(text), known_(known) {
@@ -68,7 +62,7 @@ private:
     // --- characters -------------------------------------------------------------------------------------------------------
     // at_eol_: the last character read, even if put back, ended a line. The separators below depend on it.
     int next() {
-        const int c = at_ < text_.size() ? static_cast<unsigned char>(text_[at_]) : kEnd;
+        const int c = peek();
         if (c != kEnd) ++at_;
         at_eol_ = is_line_end(c) || c == kEnd;
         return c;
@@ -76,7 +70,8 @@ private:
     void back(int c) {
         if (c != kEnd) --at_;
     }
-    int peek() const { return at_ < text_.size() ? static_cast<unsigned char>(text_[at_]) : kEnd; }
+    int at(std::size_t offset) const { return offset < text_.size() ? static_cast<unsigned char>(text_[offset]) : kEnd; }
+    int peek() const { return at(at_); }
     int skip_blanks() {
         int c = next();
         while (is_blank(c)) c = next();
@@ -383,7 +378,8 @@ private:
             item.text = std::string(text_.substr(word, at_ - word));
             item.commented = peek() == '!';
             // After Infinity or NaN gfortran searches, also on later lines, for the '=' of a key with that name.
-            if (is_infinity_or_nan(item.text) && (peek() == ' ' || is_line_end(peek())))
+            const bool named = item.text.find_first_of("iInN") != std::string::npos && to_real(item.text);
+            if (named && (peek() == ' ' || is_line_end(peek())))
                 while (peek() == ' ' || is_line_end(peek())) ++at_;
         }
         add(a, std::move(item));
@@ -393,19 +389,16 @@ private:
 
     void repeat_count(Item& item) {
         std::size_t i = at_;
-        long count = 0;
-        bool too_large = false;
-        for (; i < text_.size() && is_digit(text_[i]); ++i) {
-            if (!too_large) count = 10 * count + (text_[i] - '0');
-            too_large = too_large || count > kLargestRepeat;
-        }
-        if (i == at_ || i >= text_.size() || text_[i] != '*') return;
-        if (too_large)
+        while (is_digit(at(i))) ++i;
+        if (i == at_ || at(i) != '*') return;
+        const auto count = to_integer(text_.substr(at_, i - at_));  // empty if larger than 64 bits
+        if (!count || *count > kLargestRepeat)
             fault(at_, "the repeat count is larger than " + std::to_string(kLargestRepeat));
-        else if (count == 0)
+        else if (*count == 0)
             fault(at_, "the repeat count is zero");
+        else
+            item.repeat = *count;
         item.counted = true;
-        item.repeat = too_large || count == 0 ? 1 : count;
         at_ = i + 1;
     }
 
@@ -426,19 +419,18 @@ private:
     // True if a key, with or without a subscript, and '=' follow.
     bool key_follows() const {
         std::size_t i = at_;
-        const auto look = [&](std::size_t k) { return k < text_.size() ? static_cast<int>(static_cast<unsigned char>(text_[k])) : kEnd; };
-        if (!is_letter(look(i)) && look(i) != '_') return false;
-        while (is_name(look(i))) ++i;
-        if (look(i) == '(') {
+        if (!is_letter(at(i)) && at(i) != '_') return false;
+        while (is_name(at(i))) ++i;
+        if (at(i) == '(') {
             const std::size_t longest = i + 200;
-            while (i < longest && look(i) != ')' && look(i) != '\n' && look(i) != kEnd) ++i;
-            if (look(i) != ')') return false;
+            while (i < longest && at(i) != ')' && at(i) != '\n' && at(i) != kEnd) ++i;
+            if (at(i) != ')') return false;
             ++i;
         }
         for (;; ++i) {
-            if (look(i) == '!')
-                while (look(i) != '\n' && look(i) != kEnd) ++i;
-            if (!is_blank(look(i)) && !is_line_end(look(i))) return look(i) == '=' && look(i + 1) != '?';
+            if (at(i) == '!')
+                while (at(i) != '\n' && at(i) != kEnd) ++i;
+            if (!is_blank(at(i)) && !is_line_end(at(i))) return at(i) == '=' && at(i + 1) != '?';
         }
     }
 

@@ -5,13 +5,6 @@
 namespace rsc::namelist {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::size_t skip_digits(std::string_view word, std::size_t i) {
-    while (i < word.size() && is_digit(word[i])) ++i;
-    return i;
-}
-
 // Infinity or zero, for a number too large or too small for a double.
 double out_of_range(std::string_view plain) {
     long double wide = 0;
@@ -33,43 +26,19 @@ std::optional<std::int64_t> to_integer(std::string_view word) {
 }
 
 std::optional<double> to_real(std::string_view word) {
-    bool negative = false;
-    if (!word.empty() && (word[0] == '+' || word[0] == '-')) {
-        negative = word[0] == '-';
-        word.remove_prefix(1);
-    }
-    const double sign = negative ? -1.0 : 1.0;
-    const std::string w = lower_case(word);
-    if (w == "inf" || w == "infinity") return sign * std::numeric_limits<double>::infinity();
-    if (w == "nan" || (w.starts_with("nan(") && w.find(')') == w.size() - 1)) return std::numeric_limits<double>::quiet_NaN();
-
-    std::size_t i = skip_digits(w, 0);
-    std::size_t mantissa_digits = i;
-    if (i < w.size() && w[i] == '.') {
-        const std::size_t fraction = i + 1;
-        i = skip_digits(w, fraction);
-        mantissa_digits += i - fraction;
-    }
-    if (mantissa_digits == 0) return {};
-    std::string plain = w.substr(0, i);
-    if (i < w.size()) {
-        const bool lettered = w[i] == 'e' || w[i] == 'd' || w[i] == 'q';
-        if (lettered) ++i;
-        std::string exponent_sign;
-        if (i < w.size() && (w[i] == '+' || w[i] == '-'))
-            exponent_sign = w[i++];
-        else if (!lettered)
-            return {};
-        if (i == w.size() || skip_digits(w, i) != w.size()) return {};
-        plain += "e" + exponent_sign + w.substr(i);
-    }
+    std::string plain = lower_case(word);
+    if (plain.starts_with('+') && !plain.starts_with("+-")) plain.erase(0, 1);
+    if (const std::size_t open = plain.find("nan("); open <= plain.starts_with('-') && plain.find(')') == plain.size() - 1)
+        return std::numeric_limits<double>::quiet_NaN();
+    // An exponent begins with any of e, d and q, or only with its sign.
+    if (const std::size_t letter = plain.find_first_of("dq"); letter != std::string::npos)
+        plain[letter] = 'e';
+    else if (const std::size_t sign = plain.find_first_of("+-", 1); sign != std::string::npos && plain[sign - 1] != 'e')
+        plain.insert(sign, "e");
     double value = 0;
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-    if (error == std::errc::result_out_of_range)
-        value = out_of_range(plain);
-    else if (error != std::errc{} || end != plain.data() + plain.size())
-        return {};
-    return negative ? -value : value;
+    if (end != plain.data() + plain.size() || error == std::errc::invalid_argument) return {};
+    return error == std::errc{} ? value : std::copysign(out_of_range(plain), plain[0] == '-' ? -1.0 : 1.0);
 }
 
 std::optional<bool> to_logical(std::string_view word) {

@@ -116,18 +116,16 @@ void ResultTable::distributions() {
             "the exact value is the sum of the two parts, in powers of the units of length and force; for rsc --merge and --resume, which add realizations without rounding"));
 }
 
-void ResultTable::counts(const std::string& name, const std::string& axis, const std::string& long_name,
-                         CountHistogram Distributions::*which) {
-    std::vector<double> values;
-    std::vector<double> overflow;
+void ResultTable::histogram(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
+                            Histogram Distributions::*which, const std::string& note) {
+    std::vector<double> values, overflow;
     for (const FittedDistributions& f : o_.distributions) {
-        for (std::int64_t n : (f.sum.*which).count) values.push_back(static_cast<double>(n));
-        overflow.push_back(static_cast<double>((f.sum.*which).overflow));
+        const Histogram& h = f.sum.*which;
+        values.insert(values.end(), h.weight.begin(), h.weight.end());
+        overflow.push_back(h.overflow);
     }
-    add(name, {"pdf_level", "bin"}, "1", long_name, values,
-        {{"coordinates", axis},
-         {"overflow", overflow},
-         {"comment", "integers; overflow: contacts beyond the last bin, one value for each pdf_level"}});
+    add(name, {"pdf_level", "bin"}, units, long_name, values,
+        {{"coordinates", axis}, {"overflow", overflow}, {"comment", note + " beyond the last bin, one value for each pdf_level"}});
 }
 
 void ResultTable::density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
@@ -143,7 +141,8 @@ void ResultTable::density(const std::string& name, const std::string& axis, cons
 
 void ResultTable::mean_pressure() {
     const auto& fits = o_.distributions;
-    counts("pressure_mean_count", "pressure_mean_bin", "contacts by mean pressure, all realizations", &Distributions::mean_pressure);
+    histogram("pressure_mean_count", "pressure_mean_bin", "1", "contacts by mean pressure, all realizations", &Distributions::mean_pressure,
+              "integers; overflow: contacts");
     NetcdfAttributes a{{"rayleigh_scale", of_fits(fits, [](const auto& f) { return f.rayleigh.scale; })},
                        {"rayleigh_scale_error", of_fits(fits, [](const auto& f) { return f.rayleigh.scale_error; })},
                        {"ks_distance", of_fits(fits, [](const auto& f) { return f.rayleigh.ks_distance; })}};
@@ -155,16 +154,11 @@ void ResultTable::mean_pressure() {
 
 void ResultTable::pressure() {
     const auto& fits = o_.distributions;
-    std::vector<double> values, overflow, equal;
-    for (const FittedDistributions& f : fits) {
-        values.insert(values.end(), f.sum.pressure.area.begin(), f.sum.pressure.area.end());
-        overflow.push_back(f.sum.pressure.overflow);
-        equal.push_back(f.sum.pressure.squares > 0 ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares : 0);
-    }
-    add("pressure_area", {"pdf_level", "bin"}, unit(2), "contact area by pressure, summed over realizations", values,
-        {{"coordinates", "pressure_bin"},
-         {"overflow", overflow},
-         {"comment", "overflow: area beyond the last bin, one value for each pdf_level"}});
+    const std::vector<double> equal = of_fits(fits, [](const auto& f) {
+        return f.sum.pressure.squares > 0 ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares : 0;
+    });
+    histogram("pressure_area", "pressure_bin", unit(2), "contact area by pressure, summed over realizations", &Distributions::pressure,
+              "overflow: area");
     const auto parameter = [&](const std::string& name, double GammaFit::*p) {
         return std::pair<std::string, NetcdfAttribute>{name, of_fits(fits, [p](const auto& f) { return f.gamma.*p; })};
     };
@@ -188,7 +182,8 @@ void ResultTable::pressure() {
 
 void ResultTable::spot_area() {
     const auto& fits = o_.distributions;
-    counts("spot_area_count", "spot_area_bin", "contacts by area, all realizations", &Distributions::spot_area);
+    histogram("spot_area_count", "spot_area_bin", "1", "contacts by area, all realizations", &Distributions::spot_area,
+              "integers; overflow: contacts");
     NetcdfAttributes a{{"exponential_scale", of_fits(fits, [](const auto& f) { return f.exponential.scale; })},
                        {"exponential_scale_error", of_fits(fits, [](const auto& f) { return f.exponential.scale_error; })},
                        {"ks_distance", of_fits(fits, [](const auto& f) { return f.exponential.ks_distance; })}};

@@ -73,7 +73,8 @@ private:
     void radial();
     void distributions();
     void bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width);
-    void counts(const std::string& name, const std::string& axis, const std::string& long_name, CountHistogram Distributions::*which);
+    void histogram(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
+                   Histogram Distributions::*which, const std::string& note);
     void density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
                  std::vector<double> FittedDistributions::*which, NetcdfAttributes attributes, const std::string& note);
     void mean_pressure();

@@ -5,23 +5,20 @@
 namespace rsc {
 namespace {
 
-void count_value(CountHistogram& h, double value, double width) {
+void add_value(Histogram& h, double value, double weight, double width) {
     const double position = value / width;
-    if (position < static_cast<double>(h.count.size()))
-        ++h.count[static_cast<std::size_t>(position)];
-    else
-        ++h.overflow;
-    double power = 1;
+    (position < static_cast<double>(h.weight.size()) ? h.weight[static_cast<std::size_t>(position)] : h.overflow) += weight;
+    double power = weight;
     for (double& sum : h.power) sum += power *= value;
 }
 
 // Adds `area` distributed with the density 2 p / p0^2 on [0, p0], whose cumulative distribution is (p/p0)^2.
-void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
+void spread_pressure(Histogram& h, double p0, double area, double width) {
     double below = 0;
-    for (std::size_t b = 0; b < h.area.size() && below < 1; ++b) {
+    for (std::size_t b = 0; b < h.weight.size() && below < 1; ++b) {
         const double edge = width * static_cast<double>(b + 1) / p0;
         const double cumulative = edge < 1 ? edge * edge : 1;
-        h.area[b] += area * (cumulative - below);
+        h.weight[b] += area * (cumulative - below);
         below = cumulative;
     }
     h.overflow += area * (1 - below);
@@ -34,25 +31,14 @@ void spread_pressure(AreaHistogram& h, double p0, double area, double width) {
     }
 }
 
-// Adds `area` under the uniform pressure p.
-void add_uniform(AreaHistogram& h, double p, double area, double width) {
-    const double position = p / width;
-    if (position < static_cast<double>(h.area.size()))
-        h.area[static_cast<std::size_t>(position)] += area;
-    else
-        h.overflow += area;
-    h.total += area;
-    double power = area;
-    for (double& sum : h.power) sum += power *= p;
-}
-
 // Adds the pressures of pixels, each with its area. The number of contacts is the number of independent observations.
-void add_pixels(AreaHistogram& h, const Level& level, double width) {
+void add_pixels(Histogram& h, const Level& level, double width) {
     const LevelPixels& pixels = level.pixels;
     const double area = pixels.dx * pixels.dy;
     std::vector<double> of_contact(level.a.size(), 0.0);
     for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-        add_uniform(h, pixels.pressure[k], area, width);
+        add_value(h, pixels.pressure[k], area, width);
+        h.total += area;
         of_contact[static_cast<std::size_t>(pixels.contact[k])] += area;
     }
     if (!pixels.index.empty())
@@ -62,16 +48,8 @@ void add_pixels(AreaHistogram& h, const Level& level, double width) {
 Distributions no_contacts(const PdfBins& bins) {
     const auto n = static_cast<std::size_t>(bins.bins);
     Distributions d;
-    d.mean_pressure.count.assign(n, 0);
-    d.pressure.area.assign(n, 0.0);
-    d.spot_area.count.assign(n, 0);
+    for (Histogram* h : {&d.mean_pressure, &d.pressure, &d.spot_area}) h->weight.assign(n, 0.0);
     return d;
-}
-
-Binned binned(const CountHistogram& h, double width) {
-    Binned out{width, {}, static_cast<double>(h.overflow)};
-    for (std::int64_t n : h.count) out.weight.push_back(static_cast<double>(n));
-    return out;
 }
 
 std::vector<double> density(const Binned& binned) {
@@ -92,12 +70,6 @@ PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, dou
     return {bins, std::min(1.2 * pressure, hardest), 10 * area};
 }
 
-std::int64_t CountHistogram::total() const {
-    std::int64_t sum = overflow;
-    for (std::int64_t n : count) sum += n;
-    return sum;
-}
-
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step) {
     Distributions d = no_contacts(bins);
     d.separation = level.separation;
@@ -107,13 +79,13 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         const double area = std::numbers::pi * level.a[k] * level.a[k];
         if (!(area > 0)) continue;
         const double p = level.f[k] / area;
-        count_value(d.spot_area, area, bins.area_width());
-        if (!(p < 0)) count_value(d.mean_pressure, p, bins.mean_pressure_width());
+        add_value(d.spot_area, area, 1, bins.area_width());
+        if (!(p < 0)) add_value(d.mean_pressure, p, 1, bins.mean_pressure_width());
         if (!std::isnan(level.least_force)) continue;  // with adhesion the pressure within a spot is not Hertzian
         if (!level.pixels.index.empty()) continue;
         if (k < level.yields.size() && level.yields[k]) {
-            add_uniform(d.pressure, p, area, bins.pressure_width());
-            d.pressure.squares += area * area;
+            add_value(d.pressure, p, area, bins.pressure_width());
+            d.pressure.total += area, d.pressure.squares += area * area;
         } else {
             spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
         }
@@ -127,9 +99,8 @@ constexpr int kSumBits = 84;
 
 void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one) {
     DistributionSums term{one.step, {}};
-    for_each_number(one, bins, [&term](const auto& number, double scale) {
-        term.numbers.push_back(exact_term(static_cast<double>(number), quantum_of(scale, kSumBits)));
-    });
+    for_each_number(one, bins,
+                    [&term](double number, double scale) { term.numbers.push_back(exact_term(number, quantum_of(scale, kSumBits))); });
     add(sums, term);
 }
 
@@ -147,9 +118,7 @@ Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::in
     d.levels = sums.numbers.empty() ? 0 : realizations;
     d.step = sums.step;
     auto next = sums.numbers.begin();
-    if (!sums.numbers.empty())
-        for_each_number(d, bins,
-                        [&next](auto& number, double) { number = static_cast<std::remove_reference_t<decltype(number)>>((next++)->high); });
+    if (!sums.numbers.empty()) for_each_number(d, bins, [&next](double& number, double) { number = (next++)->high; });
     return d;
 }
 
@@ -170,10 +139,10 @@ DistributionMoments moments_of(double count, const std::array<double, 4>& power)
 FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& sum) {
     FittedDistributions out;
     out.sum = sum;
-    const Binned mean_pressure = binned(sum.mean_pressure, bins.mean_pressure_width());
-    const Binned spot_area = binned(sum.spot_area, bins.area_width());
-    const Binned pressure{bins.pressure_width(), sum.pressure.area, sum.pressure.overflow};
-    const auto contacts = static_cast<double>(sum.mean_pressure.total());
+    const Binned mean_pressure{bins.mean_pressure_width(), sum.mean_pressure.weight, sum.mean_pressure.overflow};
+    const Binned spot_area{bins.area_width(), sum.spot_area.weight, sum.spot_area.overflow};
+    const Binned pressure{bins.pressure_width(), sum.pressure.weight, sum.pressure.overflow};
+    const double contacts = mean_pressure.total();
 
     out.mean_pressure_pdf = density(mean_pressure);
     out.mean_pressure_moments = moments_of(contacts, sum.mean_pressure.power);

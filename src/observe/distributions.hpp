@@ -54,31 +54,21 @@ struct PdfBins {
 // (Infinity: no limit). Throws Error(bad_input) unless all other arguments are positive and finite.
 PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest);
 
-// Histogram with one count per contact, and sums of the powers 1 to 4 of the values.
-struct CountHistogram {
-    std::vector<std::int64_t> count;
-    std::int64_t overflow = 0;
-    std::array<double, 4> power{};
-    std::int64_t total() const;
-};
-
-// Histogram weighted by area: the pressure at a random point of the contact area.
-struct AreaHistogram {
-    std::vector<double> area;       // [length^2]
-    double overflow = 0;            // [length^2]
-    double total = 0;               // sum of pi a^2
-    double squares = 0;             // sum of (pi a^2)^2; total^2/squares is the effective number of contacts
-    std::array<double, 4> power{};  // sums of area times the powers 1 to 4 of the pressure
+// Histogram of values by weight: the number of contacts, or the area on which the pressure has the value [length^2].
+struct Histogram {
+    std::vector<double> weight;     // of each bin
+    double overflow = 0;            // weight beyond the last bin
+    double total = 0, squares = 0;  // of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective number of contacts
+    std::array<double, 4> power{};  // sums of weight times the powers 1 to 4 of the value
 };
 
 // Three distributions of one level, of one realization or summed over realizations.
 struct Distributions {
-    double separation = 0;    // Z0 of the level, summed over realizations [length]
-    std::int64_t levels = 0;  // number of realizations
-    std::int32_t step = 0;    // index of the level, from 0; -1 if realizations differ
-    CountHistogram mean_pressure;
-    AreaHistogram pressure;
-    CountHistogram spot_area;
+    double separation = 0;               // Z0 of the level, summed over realizations [length]
+    std::int64_t levels = 0;             // number of realizations
+    std::int32_t step = 0;               // index of the level, from 0; -1 if realizations differ
+    Histogram mean_pressure, spot_area;  // one count per contact
+    Histogram pressure;                  // at a random point of the contact area
 };
 
 // Distributions of one level. The mean pressure of a contact is f/(pi a^2). Each contact contributes the Hertzian density 2 p/p0^2 of its
@@ -92,13 +82,13 @@ template <class D, class Visit>
 void for_each_number(D& d, const PdfBins& bins, Visit visit) {
     const double p = bins.pressure_max, area = bins.area_max;
     visit(d.separation, std::sqrt(area));
-    for (auto& count : d.mean_pressure.count) visit(count, 0.0);
+    for (auto& count : d.mean_pressure.weight) visit(count, 0.0);
     visit(d.mean_pressure.overflow, 0.0);
-    for (auto& value : d.pressure.area) visit(value, area);
+    for (auto& value : d.pressure.weight) visit(value, area);
     visit(d.pressure.overflow, area);
     visit(d.pressure.total, area);
     visit(d.pressure.squares, area * area);
-    for (auto& count : d.spot_area.count) visit(count, 0.0);
+    for (auto& count : d.spot_area.weight) visit(count, 0.0);
     visit(d.spot_area.overflow, 0.0);
     double p_power = 1, area_power = 1;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -33,11 +33,12 @@ struct FieldLevel {
     ResidualProfile lowered;
 };
 
-// Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot (the ellipses of Level::spots), uniform if
-// it yields, with the tension of adhesion (contact/deflection.hpp), on the points within the spot (or the nearest point), scaled to the force of the spot. The gap is that between the indenter
-// and the surface deformed by these pressures; for asperities, which do not follow every point of the surface, it is 0 where the surface
-// would penetrate the indenter. Without a window the fields cover the contact of all levels with a margin, or the whole surface of periodic
-// flats. Throws Error(bad_input) if the window contains no points, Error(no_memory).
+// Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot (the
+// ellipses of Level::spots), uniform if it yields, with the tension of adhesion (contact/deflection.hpp), on the points within the spot (or
+// the nearest point), scaled to the force of the spot. The gap is that between the indenter and the surface deformed by these pressures;
+// for asperities, which do not follow every point of the surface, it is 0 where the surface would penetrate the indenter. Without a window
+// the fields cover the contact of all levels with a margin, or the whole surface of periodic flats. Throws Error(bad_input) if the window
+// contains no points, Error(no_memory).
 Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction, const std::vector<FieldLevel>& levels,
                  const FieldsAsked& asked);
 

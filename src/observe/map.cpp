@@ -137,16 +137,10 @@ void for_each_weight(const MapGrid& grid, double px, double py, Use use) {
 
 }  // namespace
 
-double interpolate(const MapGrid& grid, const std::vector<double>& values, double px, double py) {
-    double sum = 0;
-    for_each_weight(grid, px, py, [&](std::size_t cell, double weight) { sum += weight * values[cell]; });
-    return sum;
-}
-
 RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
     const double largest = std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly() - y0});
     if (!(largest > 0) || bins < 1) return;
-    ring_width_ = largest / bins;
+    const double ring_width = largest / bins;
     const auto cells = static_cast<std::size_t>(grid.cells());
     std::vector<double> row(cells);
     struct Part {
@@ -158,7 +152,7 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
     std::vector<std::size_t> touched;  // cells of the circle
     for (int b = 0; b < bins; ++b) {
         stopping_point();
-        const double r = (b + 0.5) * ring_width_;
+        const double r = (b + 0.5) * ring_width;
         radii_.push_back(r);
         // A multiple of 4 preserves the symmetry of a square with the tip at its centre.
         const int angles = 4 * std::max(16, static_cast<int>(std::ceil(4 * std::numbers::pi * r / grid.side)));

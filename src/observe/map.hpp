@@ -58,9 +58,6 @@ struct BezierWeights {
 };
 BezierWeights bezier_weights(int n, double s);
 
-// Value of a map at a point: tensor product of the interpolations along x and y. `values` has grid.cells() entries.
-double interpolate(const MapGrid& grid, const std::vector<double>& values, double px, double py);
-
 // Means over circles about a point, for many maps of one grid. They are linear in the map: their weights are computed once, and the mean of
 // radial means over realizations is the radial mean of the mean map.
 class RadialMean {
@@ -70,14 +67,12 @@ public:
     RadialMean(const MapGrid& grid, double x0, double y0, int bins);
 
     const std::vector<double>& radii() const { return radii_; }  // middle of the rings [length]
-    double ring_width() const { return ring_width_; }            // [length]
     // Mean of a map (grid.cells() values) over each circle, at equispaced angles (at least 64, and at least 8 per cell side), exact for
     // parabolic maps. Cells are summed in order; empty cells are skipped.
     std::vector<double> operator()(const double* values) const;
 
 private:
     std::vector<double> radii_;
-    double ring_width_ = 0;
     // A cell contributes weight_[k] times its value to the mean over circle circle_[k], for k in [start_[cell], start_[cell+1]).
     std::vector<std::size_t> start_;
     std::vector<int> circle_;

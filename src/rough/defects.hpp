@@ -1,4 +1,4 @@
-// Defects of measured maps: missing points and rounded heights.
+// Defects of measured maps: missing points, outliers and rounded heights.
 #pragma once
 
 #include "rough/detection.hpp"
@@ -8,6 +8,16 @@ namespace rsc {
 
 // Number of points whose height is NaN.
 long count_missing(const HeightMap& map);
+
+// Outliers are single points or small groups of points far from their neighbours, caused by dust or lost light.
+struct Outliers {
+    long count = 0;
+    double threshold = 0;  // [length]
+};
+
+// Sets outliers to NaN. An outlier differs from the median of the 5 x 5 points around it by more than `times` the standard deviation of
+// these differences, estimated robustly as 1.4826 times their median. Missing points and neighbours are ignored.
+Outliers remove_outliers(HeightMap& map, double times);
 
 // Fills missing points with the discrete harmonic function of the heights around them: every filled point is the mean of its neighbours
 // (four inside the map, fewer at its edges), weighted by 1/dx^2 and 1/dy^2. Solved by conjugate gradients to 1e-12. Returns a mask of the
@@ -26,9 +36,9 @@ double height_step(const HeightMap& map);
 // noise of variance step^2/12. Waves of little more power are damped; the first ring without more power and all shorter waves are removed.
 void smooth_rounded(HeightMap& map, double step);
 
-// Transforms a map without missing points to its waves, lets `damp` multiply them by their gains times `scale`, and transforms back. The waves are nx x ny numbers, row by
-// row: the cosine series of the map, number (i, j) with i and j half waves along its sides, or with `periodic` those of FFTW's half-complex format.
-// Throws Error(no_memory) with the purpose.
+// Transforms a map without missing points to its waves, lets `damp` multiply them by their gains times `scale`, and transforms back. The
+// waves are nx x ny numbers, row by row: the cosine series of the map, number (i, j) with i and j half waves along its sides, or with
+// `periodic` those of FFTW's half-complex format. Throws Error(no_memory) with the purpose.
 void damp_waves(HeightMap& map, bool periodic, const char* purpose, const std::function<void(double* waves, double scale)>& damp);
 
 }  // namespace rsc

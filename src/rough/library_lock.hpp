@@ -32,23 +32,18 @@ inline std::unique_lock<LibraryLock> fftw_planning() {
     return lock;
 }
 
-struct FftwPlanDestroyer {
-    void operator()(fftw_plan plan) const noexcept {
+struct FftwDestroyer {
+    void operator()(auto* plan) const noexcept {
         const std::lock_guard lock(library_lock());
-        fftw_destroy_plan(plan);
+        if constexpr (std::is_same_v<decltype(plan), fftw_plan>)
+            fftw_destroy_plan(plan);
+        else
+            fftwf_destroy_plan(plan);
     }
 };
 
-// Owns a plan. Several threads may execute it at once, each on its own arrays (fftw_execute_dft and similar).
-using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwPlanDestroyer>;
-
-// Owns a single-precision plan.
-struct FftwfPlanDestroyer {
-    void operator()(fftwf_plan plan) const noexcept {
-        const std::lock_guard lock(library_lock());
-        fftwf_destroy_plan(plan);
-    }
-};
-using FftwfPlan = std::unique_ptr<std::remove_pointer_t<fftwf_plan>, FftwfPlanDestroyer>;
+// Own a plan in double and single precision. Several threads may execute it at once, each on its own arrays (fftw_execute_dft, ...).
+using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FftwDestroyer>;
+using FftwfPlan = std::unique_ptr<std::remove_pointer_t<fftwf_plan>, FftwDestroyer>;
 
 }  // namespace rsc

@@ -2,7 +2,6 @@
 
 #include "error.hpp"
 #include "format.hpp"
-#include "rough/defects.hpp"
 
 namespace rsc {
 namespace {

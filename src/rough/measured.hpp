@@ -2,9 +2,9 @@
 #pragma once
 
 #include "rough/breaks.hpp"
+#include "rough/defects.hpp"
 #include "rough/form.hpp"
 #include "rough/measured_spectrum.hpp"
-#include "rough/outliers.hpp"
 #include "rough/surface.hpp"
 #include "rough/texture.hpp"
 

@@ -60,19 +60,7 @@ public:
         heights_ = allocate(static_cast<std::size_t>(m_) * static_cast<std::size_t>(row_stride_) / 2);
         std::fill_n(heights_.get(), m_ * row_stride_ / 2, Complex());
         line_ = allocate(static_cast<std::size_t>(row_stride_) / 2);
-        const auto lock = fftw_planning();
-        static std::map<int, Plans> known;  // planning takes longer than the transforms of a small surface
-        Plans& p = known[m];
-        if (!p.to_modes) {
-            auto *const c = fftw(store_.get()), *const row = fftw(rows_.get());
-            p.up.reset(fftwf_plan_dft_1d(m, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
-            p.down.reset(fftwf_plan_dft_1d(m, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
-            p.to_heights.reset(fftwf_plan_dft_c2r_1d(m, row, numbers(heights_), FFTW_ESTIMATE));
-            p.to_modes.reset(fftwf_plan_dft_r2c_1d(m, numbers(line_), row, FFTW_ESTIMATE));
-            if (!p.up || !p.down || !p.to_heights || !p.to_modes)
-                throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
-        }
-        plans_ = &p;
+        plans_ = plans();
     }
 
     // The heights of the caller's modes, and their moments.
@@ -132,6 +120,25 @@ private:
     struct Plans {
         FftwfPlan up, down, to_heights, to_modes;
     };
+    // Planning takes longer than the transforms of a small surface: the plans of the last sizes are kept for the next surfaces.
+    std::shared_ptr<const Plans> plans() const {
+        constexpr std::size_t most = 4;
+        static std::deque<std::pair<int, std::shared_ptr<const Plans>>> kept;
+        const auto lock = fftw_planning();
+        for (const auto& [points, p] : kept)
+            if (points == m_) return p;
+        const auto p = std::make_shared<Plans>();
+        auto *const c = fftw(store_.get()), *const row = fftw(rows_.get());
+        p->up.reset(fftwf_plan_dft_1d(m_, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
+        p->down.reset(fftwf_plan_dft_1d(m_, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
+        p->to_heights.reset(fftwf_plan_dft_c2r_1d(m_, row, numbers(heights_), FFTW_ESTIMATE));
+        p->to_modes.reset(fftwf_plan_dft_r2c_1d(m_, numbers(line_), row, FFTW_ESTIMATE));
+        if (!p->up || !p->down || !p->to_heights || !p->to_modes)
+            throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
+        kept.emplace_front(m_, p);
+        if (kept.size() > most) kept.pop_back();
+        return p;
+    }
     static constexpr int kBlock = 16;  // rows at a time
     static constexpr int kLanes = 16;  // of sums, so that loops vectorise
     static constexpr std::size_t kBatch = 64;
@@ -328,7 +335,7 @@ private:
     int m_, columns_;
     std::ptrdiff_t stride_, row_stride_;  // strides of columns (complex numbers) and rows (real numbers)
     Memory store_, rows_, heights_, line_;
-    const Plans* plans_;
+    std::shared_ptr<const Plans> plans_;
     HeightShape now_;
     std::vector<Complex> mode_, kept_;  // for an rms height of 1; kept_: those nearest to the wish
     std::vector<float> inverse_;        // of the squared amplitudes; 0 for a mode that is none

@@ -276,10 +276,8 @@ void transfer_each(Archive& a, T& vector) {
 template <class Archive, class T>
 void transfer(Archive& a, T& x) {
     using Type = std::remove_const_t<T>;
-    if constexpr (std::is_same_v<Type, CountHistogram>) {
-        a(x.count), a(x.overflow), a(x.power);
-    } else if constexpr (std::is_same_v<Type, AreaHistogram>) {
-        a(x.area), a(x.overflow), a(x.total), a(x.squares), a(x.power);
+    if constexpr (std::is_same_v<Type, Histogram>) {
+        a(x.weight), a(x.overflow), a(x.total), a(x.squares), a(x.power);
     } else if constexpr (std::is_same_v<Type, Distributions>) {
         a(x.separation), a(x.levels), a(x.step);
         transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area);

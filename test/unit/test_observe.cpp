@@ -66,8 +66,7 @@ void test_scale_fits() {
     CHECK_RELATIVE(exponential.exponential.scale_error, 0.6 / std::sqrt(n), 1e-4);
     CHECK(exponential.exponential.ks_distance < 1e-4);
     // The distance sees a wrong law: exponential values against Rayleigh (0.2 or so).
-    Binned wrong{8.0 / 60, {}, 0};
-    for (std::int64_t c : quantiles(bins, n, false, 0.6).spot_area.count) wrong.weight.push_back(static_cast<double>(c));
+    const Binned wrong{8.0 / 60, quantiles(bins, n, false, 0.6).spot_area.weight, 0};
     CHECK(fit_rayleigh(n, 2 * 0.36 * n, wrong).ks_distance > 0.1);
     // No contacts: absent, not zero.
     const FittedDistributions none = fit_distributions(bins, distributions_of(bins, Level{}, 0));
