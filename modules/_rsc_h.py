@@ -65,6 +65,7 @@ rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const dou
 rsc_contact_save(rsc_contact* contact, const char* path)
 rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path)
 rsc_stiffness_ratio(const double* E, const double* nu, double* ratio)
+rsc_tangential_ratio(const double* E, const double* nu, double* ratio)
 rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio)
 rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case)
 rsc_friction_copy(rsc_friction** friction, const rsc_friction* original)
@@ -163,6 +164,7 @@ BRIEF = {
     "rsc_contact_save": 'Saves a contact in a file: tip, options, the last level, the loading history (solids%hardness, solids%adhesion) and the committed state, but neither the asperities nor the surface of elements.',
     "rsc_contact_restore": 'Reads a contact from a file of rsc_contact_save.',
     "rsc_stiffness_ratio": 'm = 4 G star / E star, 1/G star = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)): the ratio of tangential to normal stiffness of any contact of two bodies; 2 (1 - nu)/(2 - nu) for equal materials.',
+    "rsc_tangential_ratio": 'The former name of rsc_stiffness_ratio.',
     "rsc_friction_create": 'Friction for the asperities, sphere, tip and options of a contact, with an empty path.',
     "rsc_friction_create_from_case": 'As rsc_friction_create, with mu = solids%friction and the ratio from solids%E and solids%nu.',
     "rsc_friction_copy": 'A copy that is independent of the original, with its path.',

@@ -161,9 +161,10 @@ def interface(functions, constants):
     with open(os.path.join(HERE, "rsc.f90"), encoding="utf-8") as file:
         own = set(re.findall(r"^ *function (rsc_\w+)\(", file.read(), flags=re.M))  # procedures of rsc.f90 with the name of a C function
     for f in functions:
-        name, bound = (f"c_{f.short}", f", name='{f.name}'") if f.name in own else (f.name, "")
+        if f.name in own:
+            continue
         body = declarations([interface_type(a) for a in f.arguments])
-        lines += [wrapped(f"function {name}({', '.join(a.name for a in f.arguments)}) bind(c{bound}) result(code)", 4),
+        lines += [wrapped(f"function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c) result(code)", 4),
                   "      import :: " + ", ".join(k for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr") if k == "c_int32_t" or re.search(rf"\b{k}\b", "\n".join(body))),
                   *["  " + line for line in body], "      integer(c_int32_t) :: code", "    end function"]
     return lines + ["  end interface"]

@@ -879,7 +879,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: ratio
     ratio = 0
-    call finish(c_stiffness_ratio(E, nu, ratio), stat, errmsg)
+    call finish(rsc_tangential_ratio(E, nu, ratio), stat, errmsg)
   end function
 
   !> Tangential stiffness for a further slide in the present direction of slip: k(i, j) = dQ_i/dx_j.

@@ -482,6 +482,9 @@ RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities*
  * positive (Infinity: rigid), or two rigid bodies; -2 null, or outside [-1, 0.5]; -3 null. */
 RSC_API int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio);
 
+/* The former name of rsc_stiffness_ratio. */
+RSC_API int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio);
+
 /* Friction for the asperities, sphere, tip and options of a contact, with an empty path.
  * friction (out): the handle; contact: copied, may be destroyed at once; mu: coefficient of friction >= 0, finite; ratio: m > 0, finite
  * (rsc_stiffness_ratio). Errors: -1, -2 null; -2 not elastic; -3, -4 out of range; RSC_NO_MEMORY. */

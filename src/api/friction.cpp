@@ -66,6 +66,8 @@ void with_levels(rsc_friction& friction, Ask&& ask) {
 
 using namespace rsc::api;
 
+int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) { return rsc_stiffness_ratio(E, nu, ratio); }
+
 int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
     return on(E, "E", 1, [&] {
         require(nu, 2, "nu");

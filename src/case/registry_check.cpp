@@ -127,7 +127,7 @@ private:
             {adhesion && relaxes, "solids%adhesion", "solids%relaxation_share", ""},
             {adhesion && range && !elements_ && fourth_order, "solids%adhesion", "asperities%law",
              "with adhesion_range > 0 law = 'fourth_order' is for elements; give 'hertz' or 'elliptic'"},
-            {adhesion && !range && elements_, "solids%adhesion", "solids%adhesion_range", "elements need adhesion_range > 0"},
+            {adhesion && !range && elements_, "solids%adhesion", "solver%model", "elements need adhesion_range > 0"},
             {adhesion && !range && compare, "solids%adhesion", "compare%levels", "elements need adhesion_range > 0"},
             {adhesion && dgesv, "solids%adhesion", "solver%method", "'dgesv' has no tensile forces"},
             {adhesion && paper, "solids%adhesion", "indentation%selection", "asperities beyond the circle of 'paper' attract, too"},

@@ -105,9 +105,10 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
         ++lines;
         std::replace(line.begin(), line.end(), '=', ' ');
         std::istringstream words(line);
-        std::string value;
+        std::string value, more;
         word.clear();
-        words >> word >> value;
+        words >> word >> value >> more;
+        if (!more.empty() && more[0] != ';') value += ' ' + more;  // no unit may follow a number
         header[namelist::lower_case(word)] = {value, lines + 1};
     } while (word[0] != '*');
     const auto number = [&](const char* name, auto& value) {
@@ -120,8 +121,10 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
             else
                 return namelist::to_integer(text);
         }();
-        if (!read) bad_input(path + ":" + std::to_string(at) + ": " + name + ": a number was expected, not " + shown(text));
-        value = static_cast<std::remove_reference_t<decltype(value)>>(*read);
+        using Value = std::remove_reference_t<decltype(value)>;
+        if (!read || (std::is_integral_v<Value> && (*read < 0 || !std::in_range<std::uint32_t>(static_cast<std::int64_t>(*read)))))
+            bad_input(path + ":" + std::to_string(at) + ": " + name + ": a number was expected, not " + shown(text));
+        value = static_cast<Value>(*read);
     };
     Header h;
     number("NumPoints", h.nx), number("NumProfiles", h.ny);

@@ -209,7 +209,7 @@ def by_python(calls, arrays):
     def call(name, f, v):
         """What the language gives back, as {output: value} or values in the order of the outputs."""
         if not f.kind:
-            return {"version": rsc.version, "contacts_press": rsc.press_all, "contacts_indent": rsc.indent_all}.get(name, getattr(rsc, name, None))(*v)
+            return {"version": rsc.version, "tangential_ratio": rsc.stiffness_ratio, "contacts_press": rsc.press_all, "contacts_indent": rsc.indent_all}.get(name, getattr(rsc, name, None))(*v)
         one, verb, rest = v[0], name.split("_", 1)[1], v[1:]
         if name == "contact_result":
             return [one.separation, one.force, one.area, one.contacts]
@@ -323,7 +323,7 @@ def program(name, head, arrays, used, before, body, tail):
     return "\n".join(" &\n      &".join(re.findall(r".{1,110}(?:$|(?<=[ ,(]))|.{1,110}", line)) if len(line) > 120 else line for line in "\n".join(lines).splitlines()) + "\n"
 
 
-FREE = {"version": "rsc_library_version", "stiffness_ratio": "rsc_stiffness_ratio", "contacts_press": "rsc_press_all", "contacts_indent": "rsc_indent_all"}
+FREE = {"version": "rsc_library_version", "tangential_ratio": "rsc_stiffness_ratio", "stiffness_ratio": "rsc_stiffness_ratio", "contacts_press": "rsc_press_all", "contacts_indent": "rsc_indent_all"}
 
 
 def signatures():

@@ -196,6 +196,11 @@ void sdf() {
     words.resize(25, "0");
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "'0' after the last of 6 x 4 heights");
     words.resize(24);
+    for (const auto& [from, to, place] :
+         {std::tuple{"NumPoints = 6", "NumPoints = -6", "t.sdf:6: NumPoints"}, {"\r\nYscale", " mm\r\nYscale", "t.sdf:8: Xscale"}}) {
+        std::string odd = sdf_text(map, 1e-9, words);
+        REFUSED(in_micrometres(write("t.sdf", odd.replace(odd.find(from), std::strlen(from), to))), place);
+    }
     // Cut anywhere, and absurd headers.
     const std::string binary = sdf_binary(map, 5, 1e-9, i16);
     for (std::size_t size = 8; size < binary.size(); ++size) REFUSED(in_micrometres(write("t.sdf", binary.substr(0, size))), "at byte ");
