@@ -251,6 +251,21 @@ void test_cutting() {
     }
 }
 
+// So strong an attraction that a jump reaches asperities which were too low to be considered at the level before: the loss by one long level and
+// by twelve. (Their penetrations before the jump have to be found during it.)
+void test_far_jumps() {
+    for (unsigned seed : {51u, 53u}) {
+        const RandomAsperities system = random_asperities(60, seed, 0.06);
+        std::vector<double> lost;
+        for (int cuts : {1, 12}) {
+            const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(3e-3));
+            for (int k = 1; k < cuts; ++k) (void)contact->at_separation(0.03 - 0.018 * k / cuts);
+            lost.push_back(contact->at_separation(0.012).energy_lost);
+        }
+        CHECK_RELATIVE(lost[1], lost[0], 1e-6);
+    }
+}
+
 // The work of a closed cycle is the energy lost.
 void test_work() {
     for (unsigned seed : {31u, 32u}) {
@@ -431,4 +446,5 @@ TESTS {
     test_groups();
     test_minimiser();
     test_cutting();
+    test_far_jumps();
 }
