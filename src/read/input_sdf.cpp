@@ -114,7 +114,8 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     const auto number = [&](const char* name, auto& value) {
         const auto found = header.find(namelist::lower_case(name));
         if (found == header.end()) bad_input(path + ": the header has no " + std::string(name));
-        const auto& [text, at] = found->second;
+        const std::string& text = found->second.first;
+        const long at = found->second.second;
         const auto read = [&] {
             if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(value)>>)
                 return namelist::to_real(text);
