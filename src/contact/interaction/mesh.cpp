@@ -21,6 +21,7 @@ constexpr double kSecondsPerMeshPoint = 11e-9;
 double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
 
 // Largest memory of far fields stored for later points.
+constexpr std::size_t kKeptBytes = std::size_t{100} << 20;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -144,7 +145,7 @@ struct MeshPotential::Parts {
     void give_back(std::unique_ptr<Scratch> scratch) const;
     void make_strips(const double* px, const double* py, double x0, double y0, double length_y);
     void near_strip(std::size_t s, const double* f, double* phi) const;
-    void repeat(std::size_t n, const double* px, const double* py, double relative_error);
+    void repeat(std::size_t n, const double* px, const double* py, double relative_error, FarFields* kept);
     void spread(const double* f, double* mesh) const;
     void near_field(const double* f, double* phi) const;
 };
@@ -155,7 +156,8 @@ void MeshPotential::Parts::sum_directly(const double* px, const double* py) {
     choice.cost = 1e-9 * choice.pairs;
 }
 
-MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel)
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel,
+                             FarFields* kept)
     : parts_(std::make_unique<Parts>(kernel ? std::move(kernel) : unit_kernel())) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
         throw Error(Failure::bad_input, "mesh product: relative error " + text_of(relative_error) + " is outside the range 1e-10 to 1e-2");
@@ -175,7 +177,7 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         return;
     }
     if (p.lattice) {
-        p.repeat(n, x, y, relative_error);
+        p.repeat(n, x, y, relative_error, kept);
         return;
     }
     p.design = &mesh_design(relative_error);
@@ -273,7 +275,7 @@ void MeshPotential::Parts::give_back(std::unique_ptr<Scratch> scratch) const {
 }
 
 // Maps the points into the cell and sets up a periodic mesh.
-void MeshPotential::Parts::repeat(std::size_t count, const double* px, const double* py, double relative_error) {
+void MeshPotential::Parts::repeat(std::size_t count, const double* px, const double* py, double relative_error, FarFields* kept) {
     const Period& period = lattice->period();
     std::vector<double> inside_x(count), inside_y(count);
     const auto inside = [](double value, double side) {
@@ -288,7 +290,18 @@ void MeshPotential::Parts::repeat(std::size_t count, const double* px, const dou
     const double cutoff = design->cutoff * choice.spacing;
     near_part = near_kernel(*design, cutoff * scale);
     window = mesh_window(*design);
-    far = std::make_shared<FarField>(*design, *lattice, choice.spacing, cutoff);
+    const std::pair<const MeshDesign*, double> key{design, choice.spacing};
+    if (kept && kept->contains(key)) {
+        far = kept->at(key);
+    } else {
+        far = std::make_shared<FarField>(*design, *lattice, choice.spacing, cutoff);
+        if (kept) {
+            std::size_t held = far->bytes();
+            for (const auto& [other, field] : *kept) held += field->bytes();
+            if (held > kKeptBytes) kept->clear();
+            kept->emplace(key, far);
+        }
+    }
     make_strips(inside_x.data(), inside_y.data(), 0, 0, period.y);
 }
 

@@ -14,13 +14,21 @@
 
 namespace rsc {
 
+class FarField;
+struct MeshDesign;
+
+// Far fields of periodic meshes by design and spacing; for one lattice they do not depend on the points. Not thread-safe.
+using FarFields = std::map<std::pair<const MeshDesign*, double>, std::shared_ptr<const FarField>>;
+
 class MeshPotential {
 public:
     // n points with finite coordinates [length]. relative_error, from 1e-10 to 1e-2, is the bound of |phi - exact| / |phi| in the 2-norm
     // for forces of any sign (smaller for forces of one sign). Any positions are allowed, including coinciding points; clusters cost more.
     // Throws Error(bad_input) for coordinates that are not finite or an error out of range. A point acts on itself through periodic images
-    // and a smooth part. Without a kernel: 1/d.
-    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr);
+    // and a smooth part. Without a kernel: 1/d. `kept`: stored far fields of the lattice of this kernel; missing ones are added, and all
+    // are removed when they take too much memory.
+    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr,
+                  FarFields* kept = nullptr);
     ~MeshPotential();
     MeshPotential(MeshPotential&&) noexcept;
     MeshPotential& operator=(MeshPotential&&) noexcept;

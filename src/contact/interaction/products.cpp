@@ -223,7 +223,7 @@ public:
             ya.insert(ya.end(), y, y + n);
             std::vector<double> force(f, f + sources), all(xa.size());
             force.resize(xa.size());
-            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_).apply(force.data(), all.data());
+            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_, &far_).apply(force.data(), all.data());
             std::copy(all.begin() + static_cast<std::ptrdiff_t>(sources), all.end(), phi);
         }
     }
@@ -250,7 +250,7 @@ private:
     }
 
     const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
-        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_);
+        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
         return *mesh;
     }
 
@@ -274,7 +274,7 @@ private:
                 xa.push_back(x_[static_cast<std::size_t>(k)]);
                 ya.push_back(y_[static_cast<std::size_t>(k)]);
             }
-            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_);
+            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_, &far_);
             among_active_ = active_;
         }
         return *among_;
@@ -284,6 +284,7 @@ private:
     bool by_pairs_ = false;
     std::unique_ptr<Products> pair_products_;
     std::vector<double> x_, y_, f_, phi_;
+    FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;
     std::vector<int> among_active_;  // active points for which among_ was created
     PairSums pairs_;
