@@ -116,11 +116,13 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     if (traits(options.law).elliptic_spots) {
         const std::vector<Spot> own = spots_of(level, law, asperities);
         const std::vector<std::size_t> whole = wholes_of(own, level, law);
+        std::vector<Spot> distinct = own;
         level.spots = own;
-        for (std::size_t k = 0; k < own.size(); ++k)
-            if (whole[k] != k) level.spots[k].major = level.spots[k].minor = 0;  // a part does not overlap its whole
-        level.area = union_area(level.spots, &level.overlapping_pairs, indenter.period, &level.own_area);
-        for (std::size_t k = 0; k < own.size(); ++k) level.spots[k] = own[whole[k]];
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            if (whole[k] != k) distinct[k].major = distinct[k].minor = 0;  // a part does not overlap its whole
+            level.spots[k] = own[whole[k]];
+        }
+        level.area = union_area(distinct, &level.overlapping_pairs, indenter.period, &level.own_area);
     } else {
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     }

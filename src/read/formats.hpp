@@ -34,6 +34,10 @@ struct TextTable {
 // separator, files without rows, and UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
 
+// A number as Fortran reads it. Empty for other words, and for an exponent without a letter: in a file "12-3" is rather two numbers that have
+// lost their separator.
+std::optional<double> number_in_file(std::string_view word);
+
 // A word of a file for a message, in quotes.
 inline std::string shown(std::string_view word) { return "'" + printable(word, 40) + (word.size() > 40 ? "...'" : "'"); }
 

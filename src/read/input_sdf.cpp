@@ -118,7 +118,7 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
         const long at = found->second.second;
         const auto read = [&] {
             if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(value)>>)
-                return namelist::to_real(text);
+                return number_in_file(text);
             else
                 return namelist::to_integer(text);
         }();
@@ -150,7 +150,7 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     };
     for (std::size_t k = 0; k < points; ++k) {
         if (!(in >> word) || word[0] == '*') refuse(std::to_string(k) + " heights where " + size + " were expected; is the file complete?");
-        const auto value = namelist::lower_case(word) == "bad" ? std::nan("") : namelist::to_real(word);
+        const auto value = namelist::lower_case(word) == "bad" ? std::nan("") : number_in_file(word);
         if (!value) refuse(shown(word) + " is not a number");
         map.data[k] = *value == missing ? std::nan("") : factor * *value;
     }

@@ -40,7 +40,7 @@ double number(std::string_view word, const std::string& path, long line, std::si
             }
         }
     }
-    const auto value = namelist::to_real(text);
+    const auto value = number_in_file(text);
     if (!value) refuse(path, line, place + " is not a number");
     if (!std::isfinite(*value))
         refuse(path, line, place + " is not finite: every value must be known (missing points of a map: surface%missing)");
@@ -91,6 +91,12 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
 }
 
 }  // namespace
+
+std::optional<double> number_in_file(std::string_view word) {
+    const std::size_t sign = word.find_first_of("+-", 1);
+    if (sign != std::string_view::npos && word[sign - 1] < 'A') return {};
+    return namelist::to_real(word);
+}
 
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     std::ifstream file(path, std::ios::binary);

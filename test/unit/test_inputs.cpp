@@ -82,6 +82,7 @@ void heights_from_text() {
     REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0), "t:2: 2 values where 3 as in line 1 were expected");
     REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0), "t:3: 4 values where 3 as in line 2 were expected");
     REFUSED(read_heights(write("t", "1 2 3\n4 abc 6\n"), 1.0), "t:2: 'abc' in column 2 is not a number");
+    REFUSED(read_heights(write("t", "1 2 3\n4 12-3 6\n"), 1.0), "t:2: '12-3'");  // two numbers, though Fortran reads 0.012
     REFUSED(read_heights(write("t", "1 2 3\n4 5.0.0 6\n"), 1.0), "'5.0.0' in column 2");
     REFUSED(read_heights(write("t", "1 2 3\n4 +-5 6\n"), 1.0), "'+-5' in column 2");
     REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0), "t:2: 'nan' in column 3 is not finite: every");

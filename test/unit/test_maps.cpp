@@ -188,8 +188,10 @@ void sdf() {
     CHECK_RELATIVE(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 7)))(4, 2), -2147483.648, 1e-12);  // a number like others
     words[6 + 4] = "NaN";
     check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 6)), "", Missing::fill), 4);
-    words[6 + 4] = "1O4";
-    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "t.sdf:17: '1O4' is not a number");
+    for (const std::string word : {"1O4", "10-4"}) {
+        words[6 + 4] = word;
+        REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), "t.sdf:17: '" + word + "' is not a number");
+    }
     words.pop_back();
     words[6 + 4] = "104";
     REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), ": 23 heights where 6 x 4 were expected; is the file complete?");
