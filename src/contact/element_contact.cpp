@@ -119,7 +119,7 @@ private:
         }
         pixels_.resize(kept), p_.resize(kept), g0_.resize(kept);
     }
-    Level report(double Z0, const ElementsOutcome& outcome) const;
+    Level report(double Z0, const ElementsOutcome& outcome);
 
     Substrate body_;
     std::unique_ptr<PixelProducts> products_;
@@ -142,14 +142,15 @@ private:
 };
 
 void ElementContact::find_top() {
-    top_ = -kInfinity;
+    double top = -kInfinity;
     for (int bj = 0; bj < blocks_y_; ++bj)
         for (int bi = 0; bi < blocks_x_; ++bi) {
-            if (!(bound(bi, bj) > top_)) continue;
+            if (!(bound(bi, bj) > top)) continue;
             for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights_.ny); ++j)
                 for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights_.nx); ++i)
-                    top_ = std::max(top_, clearance(pixel_x(i), pixel_y(j)));
+                    top = std::max(top, clearance(pixel_x(i), pixel_y(j)));
         }
+    set_top(top);
 }
 
 // Selects the pixels with g0 > 0; no others can touch, because K > 0 only lowers the surface.
@@ -229,7 +230,7 @@ void ElementContact::predict(double Z0) {
     for (double& v : p_) v = std::max(v, 0.0);
 }
 
-Level ElementContact::report(double Z0, const ElementsOutcome& outcome) const {
+Level ElementContact::report(double Z0, const ElementsOutcome& outcome) {
     std::vector<Pixel> touching;
     std::vector<double> pressure;
     for (std::size_t k = 0; k < pixels_.size(); ++k)

@@ -72,8 +72,9 @@ private:
                 if (!lowered_.empty()) z -= lowered_[static_cast<std::size_t>(place({i, j}))];
             }
         if (changed_.data) solver_.heights_changed();
-        top_ = -std::numeric_limits<double>::infinity();
-        for (int j = 0; j < heights_.ny; ++j) top_ = std::max(top_, *std::max_element(present().row(j), present().row(j) + heights_.nx));
+        double top = -std::numeric_limits<double>::infinity();
+        for (int j = 0; j < heights_.ny; ++j) top = std::max(top, *std::max_element(present().row(j), present().row(j) + heights_.nx));
+        set_top(top);
     }
     Level report(double Z0, const ElementsOutcome& outcome) {
         touches_ = Z0 < top_, accepted_ = false;

@@ -97,8 +97,36 @@ void PixelContact::accept(Level& level) {
     }
 }
 
+// Highest point of the surface under the indenter on the parabolas through neighbouring points of the map: where the bodies touch first if
+// that is between points.
+double PixelContact::top_between_points() {
+    if (between_) return *between_;
+    between_ = top_;
+    std::vector<double> above, middle(static_cast<std::size_t>(heights_.nx)), below = middle;
+    const auto fill = [&](std::vector<double>& row_of, int j) {
+        for (int i = 0; i < heights_.nx; ++i)
+            row_of[static_cast<std::size_t>(i)] = indenter_.clearance(x(i), y(j), height(column(i), row(j)));
+    };
+    // Height of the parabola's vertex over the middle of three points, of which it is the highest.
+    const auto rise = [](double a, double b, double c) {
+        const double bend = 2 * b - a - c;
+        return bend > 0 ? (c - a) * (c - a) / (8 * bend) : 0.0;
+    };
+    for (int j = 0; j < heights_.ny; ++j) {
+        std::swap(above, middle), std::swap(middle, below);
+        if (j == 0) fill(middle, 0);
+        if (j + 1 < heights_.ny) below.resize(middle.size()), fill(below, j + 1);
+        for (std::size_t i = 1; i + 1 < middle.size() && j > 0 && j + 1 < heights_.ny; ++i) {
+            const double z = middle[i], left = middle[i - 1], right = middle[i + 1];
+            if (z >= std::max({left, right, above[i], below[i]}))
+                between_ = std::max(*between_, z + rise(left, z, right) + rise(above[i], z, below[i]));
+        }
+    }
+    return *between_;
+}
+
 Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates, const std::vector<Pixel>& touching,
-                           std::vector<double> pressure) const {
+                           std::vector<double> pressure) {
     Level level;
     level.separation = Z0;
     level.candidates = static_cast<std::int32_t>(candidates);
@@ -114,6 +142,10 @@ Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_
         level.nominal_area = heights_.Lx() * heights_.Ly();
     else
         judge_edges(level, indenter_, options_);
+    // Farther from the surface than its rms height nothing touches between points either.
+    const bool recovers = loads_ && !loads_->places().empty();  // the surface is lower than the map
+    if (touching.empty() && !recovers && Z0 - top_ < options_.sigma && Z0 < top_between_points())
+        level.status = graver(level.status, LevelStatus::out_of_validity);
     return level;
 }
 

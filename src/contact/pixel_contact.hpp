@@ -43,9 +43,11 @@ protected:
         return heights_(column, row) - (!lowered_.empty() && lowered_[static_cast<std::size_t>(k)] ? residual_.at(k) : 0.0);
     }
     std::vector<Pixel> loaded_pixels() const;
+    // The tip, the residual or the load memory has changed, and with them the highest point.
+    void set_top(double top) { top_ = top, between_.reset(); }
     // Level with these pixels under pressures scale() times the true ones.
     Level report(double Z0, const ElementsOutcome& outcome, std::size_t candidates, const std::vector<Pixel>& touching,
-                 std::vector<double> pressure) const;
+                 std::vector<double> pressure);
 
     const HeightMap& heights_;
     Indenter indenter_;
@@ -57,11 +59,14 @@ protected:
 private:
     std::vector<std::pair<std::int32_t, double>> residual() const;  // row by row
 
+    double top_between_points();
+
     using Depths = std::unordered_map<std::int32_t, double>;
     void set_residual(Depths depths);
 
-    Depths residual_;            // depths by the index of the point on the map [length]
-    std::vector<bool> lowered_;  // whether a point has a residual, which is looked up often; empty: none has
+    Depths residual_;                // depths by the index of the point on the map [length]
+    std::optional<double> between_;  // top_between_points(), once it was needed
+    std::vector<bool> lowered_;      // whether a point has a residual, which is looked up often; empty: none has
 };
 
 // Two rough flats: contact with periodic boundaries.

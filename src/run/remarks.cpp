@@ -49,6 +49,8 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
              format("a finer grid may change N by more than 1 %%, in nine of ten cases by less than %s (force_error_expected); ",
                     percent(worst).c_str()) +
                  remedy);
+        tell(count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
+             "the bodies touch between the points of the grid, so that N is not 0; " + remedy);
     }
     if (!elements) {
         tell(count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),

@@ -117,8 +117,32 @@ void tolerances() {
 
 }  // namespace
 
+// A sphere whose top lies between points touches above the highest of them: there N = 0 is not converged.
+void between_points() {
+    const double R = 10, h = 0.01;
+    const int n = 40;
+    for (const bool repeats : {false, true}) {
+        const double x = (0.5 * n + 0.31) * h, y = (0.5 * n - 0.17) * h;
+        const HeightMap map = height_map(n, n, h, h, [&](int i, int j) {
+            return -(std::pow(i * h - x, 2) + std::pow(j * h - y, 2)) / (2 * R);  // its top is at 0
+        });
+        Indenter flat{kE, std::numeric_limits<double>::infinity()};
+        if (repeats) flat.period = {n * h, n * h};
+        SolverOptions o = options(1e-8);
+        o.sigma = h * h / R;
+        const auto contact = make_element_contact(map, flat, o);
+        CHECK(contact->first_touch() < 0);
+        CHECK(contact->at_separation(1e-9 * o.sigma).status == LevelStatus::converged);
+        const Level level = contact->at_separation(-1e-3 * o.sigma);
+        CHECK(level.contacts == 0);
+        CHECK(level.status == LevelStatus::out_of_validity);
+        CHECK(contact->at_separation(2 * contact->first_touch()).contacts > 0);
+    }
+}
+
 TESTS {
     hertz();
+    between_points();
     selection();
     tolerances();
 }
