@@ -69,8 +69,8 @@ def parse(words):
 
 
 def open_results(paths):
-    """The results of all files, with studies replaced by their members, and the beginning of the names of the pictures."""
-    opened, stems = [], []
+    """The results of all files, each once, with studies replaced by their members, and the beginning of the names of the pictures."""
+    opened, stems = {}, []  # results by their real path
     for path in paths:
         members = members_of_manifest(path)
         if members is None:
@@ -80,12 +80,13 @@ def open_results(paths):
                 sys.exit(f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file of rsc (NetCDF) is expected")
             if not getattr(result.file, "source", "").startswith("rsc"):
                 sys.exit(f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is of another program")
-            opened.append(result)
+            opened.setdefault(os.path.realpath(path), result)
             stems.append(os.path.splitext(os.path.basename(path))[0])
         else:
-            opened += [Result(member, in_si=True) for member in members]
+            for member in members:
+                opened.setdefault(os.path.realpath(member), Result(member, in_si=True))
             stems.append(os.path.splitext(os.path.basename(path))[0].removesuffix("_manifest"))
-    return opened, stems[0] if len(stems) == 1 else f"{stems[0]}_to_{stems[-1]}"
+    return list(opened.values()), stems[0] if len(stems) == 1 else f"{stems[0]}_to_{stems[-1]}"
 
 
 def main(words=None):

@@ -106,6 +106,7 @@ struct SolverOptions {
     double delta_cut = 5.0;      // the paper's method divides delta by this each iteration (the paper: 2 to 10)
     double mean_spacing = 0;     // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
+    double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
     double rms_slope = 0;        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
     Rectangle surface;           // the free surface, for counting contacts near its border; not counted if unknown
     bool measured = false;       // heights of either body from a file or a caller, for which expected errors are larger

@@ -22,10 +22,16 @@ std::string itself(double error) { return std::isnan(error) ? " (error unknown)"
 
 void print(std::ostream& out, const Job& job, const ComparedLevel& c, const LevelValues& asperities, bool by_force) {
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    if (std::isnan(c.force)) {
+        out << format("level %d: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n", c.step + 1);
+        return;
+    }
     out << format("level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d contacts; asperities ", c.step + 1,
                   c.separation / job.sigma, c.columns, c.rows, c.force, f, by_force ? "" : itself(c.force_error_expected).c_str(), c.area,
                   l, itself(c.area_error_expected).c_str(), c.contacts);
-    if (std::isnan(c.area_error) && c.contacts > 0)
+    if (std::isnan(asperities.force))
+        out << "did not converge\n";
+    else if (std::isnan(c.area_error) && c.contacts > 0)
         out << "not compared: ELEMENTS DID NOT CONVERGE, raise solver%max_iterations\n";
     else if (c.contacts == 0)
         out << format("N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f, asperities.area, l, asperities.contacts);

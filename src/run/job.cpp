@@ -132,6 +132,7 @@ Job prepare(const Case& settings) {
             if (const std::string why = too_large_for_elements(settings, *job.spectrum); !why.empty()) bad_input(why);
         job.domain = synthetic_domain(*job.spectrum);
         job.domain.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
+        job.domain.step = job.spectrum->L / settings.surface.n;
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
     } else {

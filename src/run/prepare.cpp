@@ -284,6 +284,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.repeats = map.periodic;
     model.domain.sigma = surface.sigma;
     model.domain.points_per_wave = model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
+    model.domain.step = std::max(map.dx, map.dy);
     if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
     const Moments grid = grid_moments(map);
@@ -301,6 +302,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     SurfaceModel model;
     model.domain = synthetic_domain(spectrum);
     model.domain.points_per_wave = keys.n / spectrum.L_lambda_s;
+    model.domain.step = spectrum.L / keys.n;
     SummitCount count;
     Moments sampled, differences;
     model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,

@@ -48,6 +48,7 @@ struct SurfaceDomain : Domain {
     bool guessed = false;        // rectangle derived from the asperities of a list, because surface%L is not set
     double mean_spacing = 0;     // <d> of the asperities [length]; 0: not known (a single one)
     double points_per_wave = 0;  // of the grid of the summits, in the shortest wavelength; 0: not known
+    double step = 0;             // of that grid [length]; 0: not known
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
     double rms_slope = 0;                             // 0: not known (a list)

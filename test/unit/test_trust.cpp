@@ -168,6 +168,21 @@ void bounds() {
     options.measured = true;  // heights from a file
     expect_error(level, a, indenter, options);
     CHECK(level.force_error_expected > 1.5 * least);
+    // The highest grid point of a round summit anywhere between the points: the mean loss of Hertz's force, to first order in h^2.
+    SolverOptions coarse;
+    coarse.mean_spacing = 100, coarse.grid_step = 0.02;
+    double lost = 0;
+    constexpr int places = 20;
+    const auto from_middle = [](int i) { return (i + 0.5) / places - 0.5; };
+    for (int i = 0; i < places; ++i)
+        for (int j = 0; j < places; ++j) {
+            const double apart = coarse.grid_step * std::hypot(from_middle(i), from_middle(j));
+            lost += 1 - std::pow(1 - apart * apart / (2 * a.radius[0] * level.u[0]), 1.5);
+        }
+    Level grid = level;
+    grid.slope_ratio = kNotComputed;
+    expect_error(grid, a, indenter, coarse);
+    CHECK_RELATIVE(grid.force_error_expected, lost / (places * places), 0.05);
     Indenter coated = indenter;
     coated.layers.count = 1, coated.layers.layer[0] = {0.01, 1e3, 0.3};
     const double bare = level.force_error_expected;
