@@ -177,9 +177,13 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         const rsc::Vec2 place = place_of(*contact, x0, y0);
         const rsc::Indenter& now = contact->contact.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
-        // With adhesion the contact follows the tip at once: the stiffness of the last level is kept.
-        if (contact->contact.pulls() && contact->known.level) (void)stiffness_of(*contact);
+        // Contacts with a memory follow the tip at once: the stiffness of the last level is kept.
+        const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
+        if (remembers && contact->known.level) (void)stiffness_of(*contact);
+        const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
+        if (!remembers && contact->contact.asperities() != before)
+            contact->recalled = !contact->known.level;  // other summits, without a level
     });
 }
 

@@ -66,7 +66,8 @@ rsc_contact::State rsc_contact::state() const { return {contact.indenter().x0, c
 
 void rsc_contact::go_back(const State& state) {
     const bool path = contact.path_dependent();
-    if (contact.pulls()) contact.forget();  // attached contacts would follow the tip
+    const bool moves = contact.indenter().x0 != state.x0 || contact.indenter().y0 != state.y0;
+    if (contact.pulls() || (path && moves)) contact.forget();  // what is replaced below would follow the tip
     put_tip(*this, state.x0, state.y0);
     known = state.known;
     if (path)
@@ -79,6 +80,8 @@ void rsc_contact::recall(const std::vector<double>& memory) {
     const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
     if (known.level && !contact.pulls()) put_tip(*this, known.x0, known.y0);  // with adhesion the memory has the tip
     contact.recall(memory, known.level ? &*known.level : nullptr);
+    const bool moves = contact.indenter().x0 != x0 || contact.indenter().y0 != y0;
+    if (known.level && moves && std::isnan(known.level->stiffness)) known.level->stiffness = contact.stiffness();  // lost by the move
     put_tip(*this, x0, y0);
     recalled = true;
 }

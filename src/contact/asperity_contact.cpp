@@ -361,7 +361,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
 
 void AsperityContact::forget_levels() {
     const Impl& my = *impl_;
-    if (my.of_difference && !my.law->path_dependent() && (my.indenter.x0 != my.found_x || my.indenter.y0 != my.found_y)) {
+    if (my.of_difference && (my.law->path_dependent() || my.indenter.x0 != my.found_x || my.indenter.y0 != my.found_y)) {
         impl_ = std::make_unique<Impl>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
         return;
     }
@@ -415,16 +415,35 @@ double AsperityContact::energy() const {
 void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
+    if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(), {my.indenter.x0, my.indenter.y0}, {x0, y0});
     const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
     my.indenter.move(x0, y0);
-    if (my.of_difference && !my.law->path_dependent() &&
+    if (my.of_difference &&
         (opens || std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y)) >
                       summits_keep(my.of_surface, my.indenter, my.options))) {
         forget();
         return;
     }
     my.ranking.move(x0, y0);
+}
+
+// The summits of the difference are those of the new place. What the bodies keep of earlier loads is known by the number of the summit.
+void AsperityContact::move_with_memory(double x0, double y0) {
+    const Impl& my = *impl_;
+    const std::vector<double> kept = memory();
+    Indenter there = my.indenter;
+    there.move(x0, y0);
+    auto moved = std::make_unique<Impl>(my.of_surface, there, SolverOptions(my.options), my.search);
+    const bool nothing = kept.empty() || (relaxes() && my.relaxing->stored() == 0 && my.relaxing->lost() == 0);
+    if (!nothing && (my.of_difference->renumbered || !moved->of_difference || moved->of_difference->renumbered))
+        throw Error(Failure::bad_input,
+                    "the tip cannot move over bodies that yielded or were loaded for a time, where the indenter is steeper than the "
+                    "surface: use solver%model = 'elements' or asperities%law = 'hertz'");
+    impl_ = std::move(moved);
+    const double now = time();
+    if (!nothing) recall(kept, nullptr);
+    set_time(now);
 }
 
 double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }

@@ -26,7 +26,8 @@ public:
 
     // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are detected again, as in
     // a new contact, when the tip has moved by more than a tenth of the size of a summit and by a distance that tilts the indenter by more
-    // than a fiftieth of the rms slope. Path-dependent contacts keep their summits.
+    // than a fiftieth of the rms slope, or at all if the contact is path-dependent. Throws Error(bad_input) if such a contact was loaded
+    // where the indenter is so steep that the summits of the two places do not correspond.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
@@ -54,6 +55,8 @@ protected:
     std::size_t levels_since_move() const override;
 
 private:
+    void move_with_memory(double x0, double y0);
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

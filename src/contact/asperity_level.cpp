@@ -72,6 +72,7 @@ std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, 
     if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
         FoundSummits found = search(indenter);
         add_flanks(found.summits, asperities, kFlankSpacing * options.mean_spacing, indenter.around);
+        found.renumbered = true;
         return found;
     }
     FoundSummits moved;

@@ -26,6 +26,7 @@ struct FoundSummits {
     std::shared_ptr<const HeightMap> map;  // null if the heights are not kept
     double points_per_wave = 0;            // of the map, in its shortest wave; 0: unknown
     int threads = 1;                       // for work on the heights
+    bool renumbered = false;               // their number and order are not those of the surface
 };
 
 // Finds the summits of the surface minus the face of an indenter. Empty for asperities given as a list, without a surface.

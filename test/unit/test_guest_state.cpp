@@ -169,6 +169,28 @@ void test_watched(const Folder& folder) {
 
 }  // namespace
 
+// Where the indenter is steep, a contact that is moved before its first load is one made at that place, and a trial there is undone by a
+// rollback; the results of a level outlast a move; bodies with a memory refuse one.
+void test_steep(const std::string& memory) {
+    const std::string text = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=1e-4 / &solids R=Infinity,0.5 E=1e5,1e5 " + memory +
+                             " / &asperities law='elliptic' / ";
+    Made moved(text), there(text + "&indentation centre=0.45,0.52 /");
+    OK(rsc_contact_move_tip(moved.contact, 0.45, 0.52));
+    double touch = 0, touch_there = 0;
+    OK(rsc_contact_first_touch(moved.contact, &touch)), OK(rsc_contact_first_touch(there.contact, &touch_there));
+    CHECK(touch == touch_there);
+    CHECK_RELATIVE(force_at(moved.contact, touch - 1e-4), force_at(there.contact, touch - 1e-4), kTolerance);
+    const double stiffness = value(there.contact, "stiffness");
+    CHECK(stiffness < 0);
+    const std::int32_t status = rsc_contact_move_tip(moved.contact, 0.47, 0.52);
+    CHECK(status == (memory.empty() ? RSC_SUCCESS : -2));
+    CHECK_RELATIVE(value(moved.contact, "stiffness"), stiffness, 1e-3);
+    OK(rsc_contact_rollback(moved.contact));
+    double x0 = 0;
+    OK(rsc_contact_tip(moved.contact, &x0, nullptr));
+    CHECK(x0 == 0.5);
+}
+
 TESTS {
     const std::string elements = " / &elements points_per_wave=4 / &solver model='elements'",
                       layer = "layer_thickness=0.05 layer_E=4e5 layer_nu=0.2", relaxing = "relaxation_share=0.4,0.3 relaxation_time=1,20",
@@ -183,6 +205,7 @@ TESTS {
         test_kept("adhesion=0.5 " + range, "energy_lost");
     test_copied_between_levels("");
     test_copied_between_levels(relaxing + tight);
+    for (const char* memory : {"", "hardness=100", "relaxation_share=0.4 relaxation_time=1"}) test_steep(memory);
     test_time();
     test_rolling();
     test_watched(Folder());
