@@ -419,11 +419,13 @@ void AsperityContact::move_tip(double x0, double y0) {
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(), {my.indenter.x0, my.indenter.y0}, {x0, y0});
     const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
     my.indenter.move(x0, y0);
-    if (my.of_difference &&
-        (opens || std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y)) >
-                      summits_keep(my.of_surface, my.indenter, my.options))) {
-        forget();
-        return;
+    if (my.of_difference) {
+        const double moved = std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y));
+        // With the heights at hand the summits are those of the place of the tip, as in a new contact.
+        if (opens || moved > (my.of_difference->map ? 0 : summits_keep(my.of_surface, my.indenter, my.options))) {
+            forget();
+            return;
+        }
     }
     my.ranking.move(x0, y0);
 }

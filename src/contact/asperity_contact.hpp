@@ -24,10 +24,10 @@ public:
     // square of the residual.
     double energy() const override;
 
-    // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are detected again, as in
-    // a new contact, when the tip has moved by more than a tenth of the size of a summit and by a distance that tilts the indenter by more
-    // than a fiftieth of the rms slope, or at all if the contact is path-dependent. Throws Error(bad_input) if such a contact was loaded
-    // where the indenter is so steep that the summits of the two places do not correspond.
+    // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are those of a new contact
+    // at this place if the heights are kept or the contact is path-dependent; otherwise they are detected again when the tip has moved by more
+    // than a tenth of the size of a summit and by a distance that tilts the indenter by more than a fiftieth of the rms slope. Throws
+    // Error(bad_input) if bodies yielded or relax where the indenter is so steep that the summits of the two places do not correspond.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;

@@ -22,6 +22,22 @@ Detail detail_of(const Case& settings) { return traits(settings.asperities.law).
 // Largest number of points along a side of a synthetic surface whose heights are kept for the law.
 constexpr int kMostPointsKept = 4096;
 
+// Heights of a surface while a contact uses them, so that a tip that moves needs no new synthesis.
+class KeptHeights {
+public:
+    template <class Make>
+    std::shared_ptr<const HeightMap> get(Make&& make) {
+        const std::lock_guard lock(mutex_);
+        auto map = map_.lock();
+        if (!map) map_ = map = std::make_shared<const HeightMap>(make());
+        return map;
+    }
+
+private:
+    std::mutex mutex_;
+    std::weak_ptr<const HeightMap> map_;
+};
+
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;
     for (double v : values) mean += v;
@@ -316,15 +332,14 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     model.domain.rms_slope = std::sqrt(2 * s.m2);
     if (detail_of(settings) == Detail::subgrid)
         model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
-                        law = settings.asperities.law, threads](const Indenter& indenter) {
+                        law = settings.asperities.law, threads, kept = std::make_shared<KeptHeights>()](const Indenter& indenter) {
             const Face face(indenter);
             FoundSummits found{{}, nullptr, 0, threads};
             const int n = summit_points(spectrum, keys.n);
             if (traits(law).needs_heights && n <= kMostPointsKept) {  // the same summits, with the heights
-                auto map = std::make_shared<HeightMap>(synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads));
+                found.map = kept->get([&] { return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads); });
                 found.points_per_wave = n / shortest_wave(spectrum);
-                found.summits = find_asperities(*map, curvature, nullptr, threads, Detail::subgrid, found.points_per_wave, &face);
-                found.map = std::move(map);
+                found.summits = find_asperities(*found.map, curvature, nullptr, threads, Detail::subgrid, found.points_per_wave, &face);
             } else {
                 found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads,
                                                 Detail::subgrid, nullptr, &face);

@@ -73,7 +73,7 @@ TESTS {
     // A paraboloid of any ratio of curvatures and direction: Hertz's ellipse.
     for (const double ratio : {1.0, 2.21, 10.0})
         for (const double angle : {0.0, 0.6, -1.2}) {
-            constexpr double kForce = 5e-5, kArea = 1e-3;  // interpolation between penetrations in steps of a quarter
+            constexpr double kForce = 1e-5, kArea = 1e-3;  // interpolation between penetrations in steps of a twentieth
             const double k2 = 0.5, k1 = ratio * k2, c = std::cos(angle), s = std::sin(angle);
             const FoundSummits found = map_of(
                 [&](double x, double y) {

@@ -98,19 +98,21 @@ TESTS {
         for (std::size_t i = 0; i < moved.size(); ++i) CHECK(moved.z[i] <= model.asperities.z[i]);
     }
 
-    // A tip that moves on has the summits of its place, as a contact made there.
+    // A tip that moves on has the summits of its place, as a contact made there, also if it moves by much less than a summit.
     {
         const Case c = polished(1e-4, "asperities");
         const SurfaceModel model = make_surface_model(c, 1, 1);
         Indenter tip = indenter_of(c, model.domain);
         const SolverOptions options = solver_of(c, model.domain);
         AsperityContact moving(model.asperities, tip, options, model.search);
-        tip.x0 += 0.11, tip.y0 -= 0.07;
-        moving.move_tip(tip.x0, tip.y0);
-        AsperityContact there(model.asperities, tip, options, model.search);
-        CHECK(moving.first_touch() == there.first_touch() && moving.asperities()->size() == there.asperities()->size());
-        const double Z0 = there.first_touch() - 1e-4;
-        CHECK_RELATIVE(moving.at_separation(Z0).force, there.at_separation(Z0).force, 1e-9);
+        for (const double step : {0.11, 1e-4}) {
+            tip.move(tip.x0 + step, tip.y0 - 0.7 * step);
+            moving.move_tip(tip.x0, tip.y0);
+            AsperityContact there(model.asperities, tip, options, model.search);
+            CHECK(moving.first_touch() == there.first_touch() && moving.asperities()->size() == there.asperities()->size());
+            const double Z0 = there.first_touch() - 1e-4;
+            CHECK_RELATIVE(moving.at_separation(Z0).force, there.at_separation(Z0).force, 1e-9);
+        }
     }
 
     // Pits, grooves and a step beside summits: none is found above the points around it, and the load stays that of elements.

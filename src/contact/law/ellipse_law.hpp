@@ -9,7 +9,7 @@ namespace rsc {
 // Largest number of summits for which ellipses are determined; some milliseconds each.
 inline constexpr std::size_t kMostEllipses = 4000;
 
-// Force of a summit as the largest load of an elliptic spot on the heights around it (most_loaded.hpp), tabulated at some 25 penetrations.
+// Force of a summit as the largest load of an elliptic spot on the heights around it (most_loaded.hpp), tabulated at some 120 penetrations.
 // The table is extrapolated with constant stiffness beyond its end. Where the ellipse of a summit contains lower ones that have asperities of
 // their own, what these carry is subtracted, with the penetration that they leave, so that together they carry the load of the ellipse. The
 // force is convex in the penetration. Asperities without an ellipse of their own carry nothing if they lie in the spot of a higher summit, and

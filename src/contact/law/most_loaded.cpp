@@ -65,22 +65,29 @@ bool load_of(const HeightsAround& heights, double E_star, double Z, const Unknow
     return true;
 }
 
-// Local maximum of the load by the method of Broyden, Fletcher, Goldfarb and Shanno, in units of the ellipse's size.
-bool climb(const HeightsAround& heights, double E_star, double Z, Unknowns& e, Load& load) {
+using Matrix = std::array<Unknowns, kUnknowns>;
+
+Matrix first_inverse() {
+    Matrix inverse{};
+    for (std::size_t k = 0; k < kUnknowns; ++k) inverse[k][k] = 0.3;
+    return inverse;
+}
+
+// Local maximum of the load by the method of Broyden, Fletcher, Goldfarb and Shanno, in units of the ellipse's size. Steps are short, so
+// that the maximum is that of the hill on which they begin. `inverse`: of the negative second derivatives, approximately.
+bool climb(const HeightsAround& heights, double E_star, double Z, Unknowns& e, Matrix& inverse, Load& load) {
     constexpr int most = 60;
-    constexpr double longest = 0.4, accuracy = 1e-6;
+    constexpr double longest = 0.1, accuracy = 1e-6;
     const double unit = std::sqrt(e[2] * e[4] - e[3] * e[3]);
     if (!load_of(heights, E_star, Z, e, load) || !(load.force > 0)) return false;
     const double scale = 1 / load.force;
-    std::array<Unknowns, kUnknowns> inverse{};
-    for (std::size_t k = 0; k < kUnknowns; ++k) inverse[k][k] = 0.3;
     Unknowns gradient;
     for (std::size_t k = 0; k < kUnknowns; ++k) gradient[k] = load.gradient[k] * unit * scale;
     for (int i = 0; i < most && dot(gradient, gradient) > accuracy * accuracy; ++i) {
         Unknowns way;
         for (std::size_t k = 0; k < kUnknowns; ++k) way[k] = dot(inverse[k], gradient);
         double rate = dot(way, gradient);
-        if (!(rate > 0)) way = gradient, rate = dot(gradient, gradient);
+        if (!(rate > 0)) inverse = first_inverse(), way = gradient, rate = dot(gradient, gradient);
         double length = std::min(1.0, longest / std::sqrt(dot(way, way)));
         Load next;
         Unknowns to;
@@ -222,7 +229,7 @@ bool HeightsAround::at(double dx, double dy, double& height, double& hx, double&
 
 std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, double E_star, double curvature, double ratio, double angle,
                                                 double widest) {
-    constexpr double first = 0.05, step = 1.25, tolerance = 0.02;  // size of the first ellipse over the widest; ratio of penetrations
+    constexpr double first = 0.05, step = 1.05, tolerance = 0.02;  // size of the first ellipse over the widest; ratio of penetrations
     std::vector<LoadedEllipse> found;
     std::vector<double> missing;
     double top, zx, zy;
@@ -233,10 +240,11 @@ std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, do
     Unknowns e = {0, 0, major * c * c + minor * s * s, (major - minor) * c * s, major * s * s + minor * c * c};
     const double growth = std::pow(step, 0.45);
     double u = curvature * a * a;
-    for (int k = 0; k < 64; ++k, u *= step) {
+    Matrix inverse = first_inverse();
+    for (int k = 0; k < 280; ++k, u *= step) {
         for (std::size_t l = 2; l < kUnknowns && k > 0; ++l) e[l] *= growth;
         Load load;
-        if (!climb(heights, E_star, top - u, e, load)) break;
+        if (!climb(heights, E_star, top - u, e, inverse, load)) break;
         const double t = 0.5 * (e[2] + e[4]), d = std::hypot(0.5 * (e[2] - e[4]), e[3]);
         if (t + d > widest || load.highest > top + tolerance * u) break;
         missing.push_back(missing_share(heights, e, load.force / load.stiffness));
