@@ -164,9 +164,9 @@ def interface(functions, constants):
         if f.name in own:
             continue
         body = declarations([interface_type(a) for a in f.arguments])
-        lines += [wrapped(f"function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c) result(code)", 4),
+        lines += [wrapped(f"integer(c_int32_t) function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c)", 4),
                   "      import :: " + ", ".join(k for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr") if k == "c_int32_t" or re.search(rf"\b{k}\b", "\n".join(body))),
-                  *["  " + line for line in body], "      integer(c_int32_t) :: code", "    end function"]
+                  *["  " + line for line in body], "    end function"]
     return lines + ["  end interface"]
 
 

@@ -379,7 +379,7 @@ contains
   end subroutine
 
   !> A number in namelist syntax, exact to the last bit.
-  function of_real(value) result(text)
+  elemental function of_real(value) result(text)
     real(c_double), intent(in) :: value
     character(32) :: text
     write (text, '(es32.16e4)') value
@@ -387,7 +387,7 @@ contains
   end function
 
   !> The shortest decimal number that equals this one in single precision.
-  function of_single(value) result(text)
+  elemental function of_single(value) result(text)
     real(c_float), intent(in) :: value
     character(32) :: text, form
     real(c_float) :: back
@@ -399,6 +399,23 @@ contains
       if (problem == 0 .and. back >= value .and. back <= value) exit
     end do
     text = adjustl(text)
+  end function
+
+  elemental function of_integer(value) result(text)
+    integer(c_int64_t), intent(in) :: value
+    character(32) :: text
+    write (text, '(i0)') value
+  end function
+
+  !> A list of numbers in namelist syntax.
+  function listed(numbers) result(text)
+    character(*), intent(in) :: numbers(:)
+    character(:), allocatable :: text
+    integer :: i
+    text = ''
+    do i = 1, size(numbers)
+      text = text // ' ' // trim(numbers(i))
+    end do
   end function
 
   subroutine case_set_real(self, name, value, stat, errmsg)
@@ -425,13 +442,7 @@ contains
     real(c_double), intent(in) :: value(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    character(:), allocatable :: text
-    integer :: i
-    text = ''
-    do i = 1, size(value)
-      text = text // ' ' // trim(of_real(value(i)))
-    end do
-    call self%set_text(name, text, stat, errmsg)
+    call self%set_text(name, listed(of_real(value)), stat, errmsg)
   end subroutine
 
   subroutine case_set_singles(self, name, value, stat, errmsg)
@@ -440,13 +451,7 @@ contains
     real(c_float), intent(in) :: value(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    character(:), allocatable :: text
-    integer :: i
-    text = ''
-    do i = 1, size(value)
-      text = text // ' ' // trim(of_single(value(i)))
-    end do
-    call self%set_text(name, text, stat, errmsg)
+    call self%set_text(name, listed(of_single(value)), stat, errmsg)
   end subroutine
 
   subroutine case_set_integers(self, name, value, stat, errmsg)
@@ -455,15 +460,7 @@ contains
     integer, intent(in) :: value(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    character(:), allocatable :: text
-    character(40) :: one
-    integer :: i
-    text = ''
-    do i = 1, size(value)
-      write (one, '(i0)') value(i)
-      text = text // ' ' // trim(one)
-    end do
-    call self%set_text(name, text, stat, errmsg)
+    call self%set_text(name, listed(of_integer(int(value, c_int64_t))), stat, errmsg)
   end subroutine
 
   subroutine case_set_long(self, name, value, stat, errmsg)
@@ -472,9 +469,7 @@ contains
     integer(c_int64_t), intent(in) :: value
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    character(40) :: text
-    write (text, '(i0)') value
-    call self%set_text(name, trim(text), stat, errmsg)
+    call self%set_text(name, trim(of_integer(value)), stat, errmsg)
   end subroutine
 
   subroutine case_set_integer(self, name, value, stat, errmsg)
@@ -483,9 +478,7 @@ contains
     integer, intent(in) :: value
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    character(40) :: text
-    write (text, '(i0)') value
-    call self%set_text(name, trim(text), stat, errmsg)
+    call self%set_text(name, trim(of_integer(int(value, c_int64_t))), stat, errmsg)
   end subroutine
 
   subroutine case_set_logical(self, name, value, stat, errmsg)

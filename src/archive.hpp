@@ -5,13 +5,26 @@
 
 namespace rsc {
 
+// The bytes of one value, and back. Throws Error(internal) for bytes of another length.
+template <class T>
+std::string bytes_of(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+template <class T>
+T from_bytes(std::string_view bytes) {
+    T value{};
+    if (bytes.size() != sizeof value) throw Error(Failure::internal, "a message between processes has the wrong length");
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+}
+
 class ArchiveWriter {
 public:
     static constexpr bool writing = true;
     template <class T>
     void operator()(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        bytes += bytes_of(value);
     }
     template <class T>
     void operator()(const std::vector<T>& values) {

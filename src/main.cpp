@@ -82,9 +82,9 @@ void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"}) {
         const char* const size = std::getenv(name);
         if (size && std::atoi(size) > 1 && !options.member)
-            throw rsc::Error(rsc::Failure::bad_input, std::string("rsc: started ") + size +
-                                                          " times by an MPI launcher, but this program is built without MPI: use rsc_mpi "
-                                                          "(cmake -DRSC_MPI=ON, or make -f Makefile.legacy rsc_mpi), or rsc --member K");
+            rsc::bad_input(std::string("rsc: started ") + size +
+                           " times by an MPI launcher, but this program is built without MPI: use rsc_mpi "
+                           "(cmake -DRSC_MPI=ON, or make -f Makefile.legacy rsc_mpi), or rsc --member K");
     }
 #endif
 }
@@ -116,7 +116,7 @@ int run_program(int argc, char** argv, Job& job) {
     }
     if (options.show_case) {
         const std::optional<rsc::ResultHead> head = rsc::head_of_result(options.case_path);
-        if (!head) throw rsc::Error(rsc::Failure::bad_input, options.case_path + ": is no result of rsc, so there is no case to print");
+        if (!head) rsc::bad_input(options.case_path + ": is no result of rsc, so there is no case to print");
         std::cout << head->case_text;
         return 0;
     }
@@ -131,7 +131,7 @@ int run_program(int argc, char** argv, Job& job) {
     catch_signals_early();  // not earlier, so that a signal ends the wait for standard input
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
-        if (!read.study) throw rsc::Error(rsc::Failure::bad_input, "--list: the case has no &study");
+        if (!read.study) rsc::bad_input("--list: the case has no &study");
         std::cout << rsc::list_members(rsc::members_of(read));
         return 0;
     }

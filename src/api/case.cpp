@@ -11,7 +11,7 @@
 namespace rsc::api {
 
 const Case& settings_of(const rsc_case* a_case) {
-    if (a_case && !a_case->tag.sound()) throw Error(Failure::bad_input, "the case was already released, or is a handle of another kind");
+    if (a_case && !a_case->tag.sound()) bad_input("the case was already released, or is a handle of another kind");
     static const Case defaults;
     return a_case ? a_case->settings : defaults;
 }
@@ -24,7 +24,7 @@ void require_sound(const Case& settings, std::initializer_list<std::string_view>
         if (std::none_of(names.begin(), names.end(), [&](std::string_view name) { return name == group || name == full; })) continue;
         text += (text.empty() ? "&" : "\n&") + group + ": " + problem.text;
     }
-    if (!text.empty()) throw Error(Failure::bad_input, text);
+    if (!text.empty()) bad_input(text);
 }
 
 int threads_of(const Case& settings) { return static_cast<int>(most_threads(settings.run.threads)); }

@@ -46,11 +46,11 @@ struct Entries {
     std::map<std::string, std::string> texts;
     const Numbers& of(const std::string& name) const {
         const auto found = numbers.find(name);
-        if (found == numbers.end()) throw Error(Failure::bad_input, kBroken);
+        if (found == numbers.end()) bad_input(kBroken);
         return found->second;
     }
     double one(const std::string& name) const {
-        if (of(name).size() != 1) throw Error(Failure::bad_input, kBroken);
+        if (of(name).size() != 1) bad_input(kBroken);
         return of(name)[0];
     }
 };
@@ -59,26 +59,25 @@ const std::string kStart = "rsc save of ";
 constexpr const char *kContact = "a contact", *kFriction = "a contact with friction";
 const FileKind kSave{"saved contact", [](const std::string& path) { return begins_with(path, kStart); }};
 
-std::vector<char> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+std::vector<char> characters(const std::string& text) { return {text.begin(), text.end()}; }
 
 void write(const std::string& path, const char* what, Entries& entries) {
     entries.numbers["format"] = {kFormat};
     entries.texts["rsc"] = RSC_VERSION;
     ArchiveWriter writer;
     writer(static_cast<std::uint64_t>(entries.texts.size()));
-    for (const auto& [name, text] : entries.texts) writer(bytes_of(name)), writer(bytes_of(text));
+    for (const auto& [name, text] : entries.texts) writer(characters(name)), writer(characters(text));
     writer(static_cast<std::uint64_t>(entries.numbers.size()));
-    for (const auto& [name, numbers] : entries.numbers) writer(bytes_of(name)), writer(numbers);
+    for (const auto& [name, numbers] : entries.numbers) writer(characters(name)), writer(numbers);
     const std::uint64_t hash = mix(kHash, writer.bytes.data(), writer.bytes.size());
-    const std::string head = kStart + what + "\n" + std::string(reinterpret_cast<const char*>(&hash), sizeof hash);
-    write_whole(path, kSave, head + writer.bytes);
+    write_whole(path, kSave, kStart + what + "\n" + bytes_of(hash) + writer.bytes);
 }
 
 Entries read(const std::string& path, const char* what) {
     const std::string head = kStart + what + "\n";
-    const auto refuse = [&](const std::string& why) { throw Error(Failure::bad_input, "'" + path + "' " + why); };
+    const auto refuse = [&](const std::string& why) { bad_input("'" + path + "' " + why); };
     if (access(path.c_str(), R_OK) != 0)  // not by opening it: a FIFO would wait for a writer
-        throw Error(Failure::bad_input, "cannot read '" + path + "'");
+        bad_input("cannot read '" + path + "'");
     if (!begins_with(path, head)) refuse(std::string("is not ") + what + " saved by rsc");
     std::ifstream in(path, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -125,7 +124,7 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     const SurfaceModel& on = *asperities.model;
     if (from.one("ground") != digest(on)) refuse(2, "asperities", "must be the ones that the file was saved with");
     const Numbers& tip = from.of("tip");
-    if (tip.size() != 2 || !from.texts.contains("case")) throw Error(Failure::bad_input, kBroken);
+    if (tip.size() != 2 || !from.texts.contains("case")) bad_input(kBroken);
     const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
     const SurfaceDomain domain = domain_of(*keys, on);
     const bool told = from.numbers.contains("given");
@@ -174,12 +173,12 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
     rsc_contact::State state;
     const Numbers& tip = from.of(prefix + "tip");
     state.memory = from.of(prefix + "memory");
-    if (tip.size() != 2) throw Error(Failure::bad_input, kBroken);
+    if (tip.size() != 2) bad_input(kBroken);
     state.x0 = tip[0], state.y0 = tip[1];
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
     const Numbers& pixels = from.of(prefix + "level.pixels");
-    if (known.size() != 8 || (pixels.size() != 5 && pixels.size() != 6)) throw Error(Failure::bad_input, kBroken);
+    if (known.size() != 8 || (pixels.size() != 5 && pixels.size() != 6)) bad_input(kBroken);
     Level level;
     level.separation = known[0];
     state.known = {{}, known[1], known[2], known[3], {known[4], known[5]}, {known[6], known[7]}};
@@ -202,12 +201,12 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
     const std::size_t n = level.asperity.size();
     const LevelTractions& t = level.tractions;
     for (const auto* values : {&t.y, &t.a, &t.c, &t.pressed, &t.pulled})
-        if (values->size() != t.x.size()) throw Error(Failure::bad_input, kBroken);
+        if (values->size() != t.x.size()) bad_input(kBroken);
     if (std::any_of(level.pixels.cohesive.begin(), level.pixels.cohesive.end(), outside) ||
         std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
         std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) || level.x.size() != n || level.y.size() != n ||
         level.f.size() != n || level.a.size() != n || level.u.size() != n)
-        throw Error(Failure::bad_input, kBroken);
+        bad_input(kBroken);
     state.known.level = std::move(level);
     return state;
 }
@@ -221,7 +220,7 @@ void put_path(Entries& to, const std::string& prefix, const FrictionHistory::Sta
 
 FrictionHistory::State get_path(const Entries& from, const std::string& prefix) {
     const Numbers &values = from.of(prefix), &nodes = from.of(prefix + ".nodes");
-    if (values.size() != 6 || nodes.size() % 5 != 0) throw Error(Failure::bad_input, kBroken);
+    if (values.size() != 6 || nodes.size() % 5 != 0) bad_input(kBroken);
     FrictionHistory::State path{values[0] != 0, values[1], {values[2], values[3]}, {}, values[4], values[5]};
     for (std::size_t k = 0; k < nodes.size(); k += 5)
         path.nodes.push_back({nodes[k], nodes[k + 1], nodes[k + 2], {nodes[k + 3], nodes[k + 4]}});
@@ -282,10 +281,10 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         require_path(path, 3);
         const Entries entries = read(path, kFriction);
         const Numbers& with = entries.of("friction");
-        if (with.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
+        if (with.size() != 2) rsc::bad_input(kBroken);
         auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities), rsc::Friction{with[0], with[1]});
         const Numbers& tip = entries.of("committed_tip");
-        if (tip.size() != 2) throw rsc::Error(rsc::Failure::bad_input, kBroken);
+        if (tip.size() != 2) rsc::bad_input(kBroken);
         made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
         made->committed_tip = {tip[0], tip[1]};
         return made.release();

@@ -34,8 +34,7 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
 bool varied(const Study& study, const Problem& problem) {
     return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
         const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
-        return std::any_of(problem.keys.begin(), problem.keys.end(),
-                           [&](const Key* key) { return name == std::string(key->group) + "%" + key->name; });
+        return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) { return name == full_name(*key); });
     });
 }
 
@@ -50,8 +49,7 @@ std::string limited_text(std::istream& in, const std::string& name) {
     char buffer[65536];
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
         text.append(buffer, static_cast<std::size_t>(in.gcount()));
-        if (text.size() > namelist::kLargestText)
-            bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes, the limit for a case");
+        if (text.size() > namelist::kLargestText) break;  // read_case_text refuses it
     }
     if (in.bad()) bad_input(name + ": cannot be read");
     return text;
@@ -61,28 +59,27 @@ std::string limited_text(std::istream& in, const std::string& name) {
 // Their defaults are accepted, because the effective namelist contains every key.
 void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     static const Case defaults;
-    const auto given = [&](const char* name, const char* group = "surface") -> const Ledger::Entry* {
-        const Ledger::Entry* entry = reading.ledger.find(*find_key(group, name));
+    const auto given = [&](const char* name) -> const Ledger::Entry* {
+        const Ledger::Entry* entry = reading.ledger.find(key_of(name));
         return entry && !entry->given.empty() && !entry->faulty ? entry : nullptr;
     };
+    const auto refuse = [&](const char* name, const std::string& why) {
+        const Ledger::Entry* const entry = given(name);
+        const std::string value = get_key(reading.settings, name);
+        if (!entry || value == get_key(defaults, name)) return;
+        const Key& key = *entry->key;
+        faults.push_back(
+            {entry->given.front().second, "&" + std::string(key.group) + ": " + key.name + " = " + value + ": has no effect " + why});
+    };
     // A namelist with all of these keys was printed by rsc.
-    const std::array replaced = {"start", "stop", "steps", "spacing"};
-    const bool printed = std::all_of(replaced.begin(), replaced.end(), [&](const char* name) { return given(name, "indentation"); });
-    for (const std::string name : replaced) {
-        const Ledger::Entry* const entry = given(name.c_str(), "indentation");
-        const std::string value = get_key(reading.settings, "indentation%" + name);
-        if (entry && !printed && given("levels", "indentation") && value != get_key(defaults, "indentation%" + name))
-            faults.push_back({entry->given.front().second, "&indentation: " + name + " = " + value + ": has no effect beside levels"});
-    }
+    const std::array replaced = {"indentation%start", "indentation%stop", "indentation%steps", "indentation%spacing"};
+    if (given("indentation%levels") && !std::all_of(replaced.begin(), replaced.end(), given))
+        for (const char* name : replaced) refuse(name, "beside levels");
     const Source source = reading.settings.surface.source;
-    if (!given("source") || (source != Source::heights && source != Source::asperities)) return;
-    for (const std::string name : {"n", "hurst", "L_lambda_l", "L_lambda_s", "plateau", "normalise"}) {
-        const std::string value = get_key(reading.settings, "surface%" + name);
-        if (const Ledger::Entry* entry = given(name.c_str()); entry && value != get_key(defaults, "surface%" + name))
-            faults.push_back({entry->given.front().second, "&surface: " + name + " = " + value + ": has no effect with source = " +
-                                                               get_key(reading.settings, "surface%source") +
-                                                               ", whose surface is read from the file"});
-    }
+    if (!given("surface%source") || (source != Source::heights && source != Source::asperities)) return;
+    for (const char* name :
+         {"surface%n", "surface%hurst", "surface%L_lambda_l", "surface%L_lambda_s", "surface%plateau", "surface%normalise"})
+        refuse(name, "with source = " + get_key(reading.settings, "surface%source") + ", whose surface is read from the file");
 }
 
 // Applies "--set surface%sigma=1"; returns an error message, or nothing.

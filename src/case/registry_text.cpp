@@ -3,27 +3,14 @@
 #include "case/options.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
+#include "format.hpp"
 #include "version.h"
 
 namespace rsc {
 namespace {
 
-std::string padded(std::string text, std::size_t width) {
-    if (text.size() < width) text.resize(width, ' ');
-    return text;
-}
-
-const char* type_name(Type type) {
-    switch (type) {
-        case Type::logical: return "logical";
-        case Type::integer: return "integer";
-        case Type::long_integer: return "integer (64 bits)";
-        case Type::real: return "real";
-        case Type::string: return "text";
-        case Type::choice: return "choice";
-    }
-    return "";
-}
+// In the order of Type.
+constexpr const char* kTypeNames[] = {"logical", "integer", "integer (64 bits)", "real", "text", "choice"};
 
 void describe_key(std::ostream& out, const Key& key) {
     static const Case defaults;
@@ -33,7 +20,8 @@ void describe_key(std::ostream& out, const Key& key) {
     else if (key.size > 1)
         out << "(" << key.size << ")";
     const std::string value = get_key(defaults, full_name(key));
-    out << " = " << (value.empty() ? "(unset: " + std::string(key.unset) + ")" : value) << "\n      " << type_name(key.type);
+    out << " = " << (value.empty() ? "(unset: " + std::string(key.unset) + ")" : value) << "\n      "
+        << kTypeNames[static_cast<std::size_t>(key.type)];
     if (key.type == Type::string) out << " of at most " << key.length << " characters";
     if (*key.unit) out << ", unit " << key.unit;
     const std::string bounds = key.bounds.text();
@@ -74,12 +62,7 @@ std::string effective_namelist(const Case& settings) {
         for (const Key& key : registry()) {
             if (group != key.group) continue;
             const std::string value = get_key(settings, full_name(key));
-            std::string line = "  " + padded(key.name, 17) + " = ";
-            if (value.empty())
-                line += ",  ! unset: " + std::string(key.unset);
-            else
-                line += value;
-            text += line + "\n";
+            text += format("  %-17s = ", key.name) + (value.empty() ? ",  ! unset: " + std::string(key.unset) : value) + "\n";
         }
         text += "/\n";
     }

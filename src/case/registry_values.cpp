@@ -139,10 +139,8 @@ std::string at_line(const namelist::Position& at) { return at.line > 0 ? " at li
 }  // namespace
 
 Ledger::Entry& Ledger::entry(const Key& key) {
-    for (Entry& e : entries_)
-        if (e.key == &key) return e;
-    entries_.push_back({});
-    entries_.back().key = &key;
+    if (const Entry* found = find(key)) return entries_[static_cast<std::size_t>(found - entries_.data())];
+    entries_.emplace_back().key = &key;
     return entries_.back();
 }
 
@@ -301,10 +299,9 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
     if (whole && key->size > 1 && !key->list && !assignment.subscript) {
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;
-        if (given > 0 && given < key->size) {
-            bad_input(std::string(key->name) + " has " + std::to_string(key->size) + " values: give all of them, or one as " + key->group +
-                      "%" + key->name + "(1)");
-        }
+        if (given > 0 && given < key->size)
+            bad_input(std::string(key->name) + " has " + std::to_string(key->size) + " values: give all of them, or one as " +
+                      full_name(*key) + "(1)");
     }
     Case changed = settings;
     Ledger ledger;

@@ -4,6 +4,7 @@
 #include <udunits2.h>
 
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
@@ -61,9 +62,7 @@ double factor_between(const Unit& from, const Unit& to) {
     const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(from.get(), to.get()), cv_free);
     if (!converter || cv_convert_double(converter.get(), 0.0) != 0) return 0;
     // Conversion factors are short decimal numbers; rounding to 15 digits removes the errors of their products.
-    char digits[40];
-    std::snprintf(digits, sizeof digits, "%.14e", cv_convert_double(converter.get(), 1.0));
-    return std::strtod(digits, nullptr);
+    return std::stod(format("%.14e", cv_convert_double(converter.get(), 1.0)));
 }
 
 // Name of a quantity, default unit, a unit that measures it, and examples.

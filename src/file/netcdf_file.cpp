@@ -109,17 +109,6 @@ private:
     NC_memio image_{};
 };
 
-// HDF5 may crash, now or when the program ends, if it is out of memory: the memory it needs is allocated first as a test.
-// The image of the file is copied when it grows, and once more for reading.
-void require_memory(double bytes, const std::string& path) {
-    const double wanted = 3 * bytes + (32 << 20);
-    void* const probe = wanted < 9e18 ? std::malloc(static_cast<std::size_t>(wanted)) : nullptr;
-    if (probe == nullptr)
-        throw Error(Failure::no_memory, "not enough memory for '" + path + "' (some " + std::to_string(std::lround(wanted / 1e6)) +
-                                            " MB); write less (&output contacts, heights, map_cells)");
-    std::free(probe);
-}
-
 void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAttribute& value, const std::string& path) {
     if (const auto* text = std::get_if<std::string>(&value))
         check(nc_put_att_text(ncid, varid, name.c_str(), text->size(), text->c_str()), path);
@@ -179,16 +168,16 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
 
 void NetcdfFile::dimension(const std::string& name, std::size_t length) { dimensions_.emplace_back(name, length); }
 
-bool NetcdfFile::has_dimension(const std::string& name) const {
-    return std::any_of(dimensions_.begin(), dimensions_.end(), [&](const auto& d) { return d.first == name; });
-}
-
 void NetcdfFile::attribute(const std::string& name, NetcdfAttribute value) { attributes_.emplace_back(name, std::move(value)); }
 
-std::size_t NetcdfFile::length(const std::string& dimension) const {
-    for (const auto& [name, n] : dimensions_)
-        if (name == dimension) return n;
-    throw Error(Failure::internal, "result file: no dimension '" + dimension + "'");
+std::vector<std::size_t> NetcdfFile::shape(const NetcdfVariable& v) const {
+    std::vector<std::size_t> lengths;
+    for (const std::string& wanted : v.dimensions) {
+        const auto found = std::find_if(dimensions_.begin(), dimensions_.end(), [&](const auto& d) { return d.first == wanted; });
+        if (found == dimensions_.end()) throw Error(Failure::internal, "result file: no dimension '" + wanted + "'");
+        lengths.push_back(found->second);
+    }
+    return lengths;
 }
 
 void NetcdfFile::variable(NetcdfVariable v) {
@@ -197,8 +186,8 @@ void NetcdfFile::variable(NetcdfVariable v) {
 }
 
 void NetcdfFile::check_values(const NetcdfVariable& v) const {
-    std::size_t size = 1;
-    for (const std::string& d : v.dimensions) size *= length(d);
+    const std::vector<std::size_t> lengths = shape(v);
+    const std::size_t size = values_of(lengths);
     const auto bad = [&v](double x) { return std::isinf(x) || (std::isnan(x) && !v.may_be_absent); };
     bool finite = true, fits = true;
     if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
@@ -207,14 +196,14 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
     } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         fits = integers->size() == size;
     } else if (const auto* rows = std::get_if<StridedRows>(&v.values)) {
-        fits = v.dimensions.size() == 2;
-        for (std::size_t j = 0; fits && finite && j < length(v.dimensions[0]); ++j) {
+        fits = lengths.size() == 2;
+        for (std::size_t j = 0; fits && finite && j < lengths[0]; ++j) {
             const double* row = rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride;
-            finite = std::none_of(row, row + length(v.dimensions[1]), bad);
+            finite = std::none_of(row, row + lengths[1], bad);
         }
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
-        fits = v.dimensions.size() == 2 && texts->size() == length(v.dimensions[0]) &&
-               std::none_of(texts->begin(), texts->end(), [&](const auto& t) { return t.size() > length(v.dimensions[1]); });
+        fits = lengths.size() == 2 && texts->size() == lengths[0] &&
+               std::none_of(texts->begin(), texts->end(), [&](const auto& t) { return t.size() > lengths[1]; });
     }
     if (!fits) throw Error(Failure::internal, "result file: the values of '" + v.name + "' do not fill its dimensions");
     if (!finite) throw Error(Failure::internal, "result file: '" + v.name + "' holds a value that is not a finite number");
@@ -223,40 +212,30 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
 void NetcdfFile::define_and_put(int ncid, Format format, int compression, const std::string& path) const {
     int old_fill = 0;
     check(nc_set_fill(ncid, NC_NOFILL, &old_fill), path);  // every value is written below
-    std::vector<std::pair<std::string, int>> dimids;
-    for (const auto& [name, n] : dimensions_) {
-        dimids.emplace_back(name, -1);
-        check(nc_def_dim(ncid, name.c_str(), n, &dimids.back().second), path);
-    }
+    for (const auto& [name, n] : dimensions_) check(nc_def_dim(ncid, name.c_str(), n, nullptr), path);
     for (const auto& [name, value] : attributes_) put_attribute(ncid, NC_GLOBAL, name, value, path);
 
     std::vector<int> varids;
-    std::vector<std::vector<std::size_t>> shapes;
     for (const NetcdfVariable& v : variables_) {
-        std::vector<int> ids;
-        std::vector<std::size_t> shape;
-        for (const std::string& d : v.dimensions) {
-            ids.push_back(std::find_if(dimids.begin(), dimids.end(), [&](const auto& p) { return p.first == d; })->second);
-            shape.push_back(length(d));
-        }
+        std::vector<int> ids(v.dimensions.size());
+        for (std::size_t d = 0; d < ids.size(); ++d) check(nc_inq_dimid(ncid, v.dimensions[d].c_str(), &ids[d]), path);
         const nc_type type = std::holds_alternative<std::vector<std::int32_t>>(v.values)  ? NC_INT
                              : std::holds_alternative<std::vector<std::string>>(v.values) ? NC_CHAR
                                                                                           : NC_DOUBLE;
         int varid = -1;
         check(nc_def_var(ncid, v.name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &varid), path);
         if (v.may_be_absent) put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
-        if (format == Format::netcdf4 && !shape.empty() && values_of(shape) >= kChunked) {
-            check(nc_def_var_chunking(ncid, varid, NC_CHUNKED, chunks(shape).data()), path);
+        if (format == Format::netcdf4 && !ids.empty() && values_of(shape(v)) >= kChunked) {
+            check(nc_def_var_chunking(ncid, varid, NC_CHUNKED, chunks(shape(v)).data()), path);
             if (compression > 0 && !v.disorder) check(nc_def_var_deflate(ncid, varid, 1, 1, compression), path);
         }
         put_attribute(ncid, varid, "long_name", v.long_name, path);
         if (!v.units.empty()) put_attribute(ncid, varid, "units", v.units, path);  // texts have none
         for (const auto& [name, value] : v.attributes) put_attribute(ncid, varid, name, value, path);
         varids.push_back(varid);
-        shapes.push_back(std::move(shape));
     }
     check(nc_enddef(ncid), path);
-    for (std::size_t k = 0; k < variables_.size(); ++k) put_values(ncid, varids[k], variables_[k], shapes[k], path);
+    for (std::size_t k = 0; k < variables_.size(); ++k) put_values(ncid, varids[k], variables_[k], shape(variables_[k]), path);
 }
 
 void NetcdfFile::write(const std::string& path, Format format, int compression) const {
@@ -270,12 +249,9 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     WholeFile file(path, kResultFile);
 
     double bytes = 0;
-    for (const NetcdfVariable& v : variables_) {
-        double size = 8;
-        for (const std::string& d : v.dimensions) size *= static_cast<double>(length(d));
-        bytes += size;
-    }
-    require_memory(bytes, path);
+    for (const NetcdfVariable& v : variables_) bytes += 8 * static_cast<double>(values_of(shape(v)));
+    // The image of the file is copied when it grows, and once more for reading.
+    require_memory(3 * bytes + (32 << 20), "for '" + path + "'", "; write less (&output contacts, heights, map_cells)");
     int mode = NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL;
     if (format == Format::cdf5) mode = NC_CLOBBER | NC_64BIT_DATA;
     if (format == Format::classic) mode = bytes < 1.9e9 ? NC_CLOBBER : NC_CLOBBER | NC_64BIT_OFFSET;  // offsets of 32 bits reach 2 GiB

@@ -28,7 +28,6 @@ struct NetcdfVariable {
 class NetcdfFile {
 public:
     void dimension(const std::string& name, std::size_t length);
-    bool has_dimension(const std::string& name) const;
     void attribute(const std::string& name, NetcdfAttribute value);
     void variable(NetcdfVariable variable);
 
@@ -38,7 +37,7 @@ public:
     void write(const std::string& path, Format format, int compression) const;
 
 private:
-    std::size_t length(const std::string& dimension) const;
+    std::vector<std::size_t> shape(const NetcdfVariable& v) const;  // the lengths of its dimensions
     void check_values(const NetcdfVariable& v) const;
     void define_and_put(int ncid, Format format, int compression, const std::string& path) const;
 

@@ -12,19 +12,6 @@ const char* const kPaper =
     "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, "
     "Journal of Multiscale Modelling (2018)";
 
-// flag_values from `first` on, with the names of the enumeration.
-template <std::size_t n>
-NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t first) {
-    std::vector<std::int32_t> values;
-    std::string meanings;
-    for (std::size_t k = first; k < n; ++k) {
-        values.push_back(static_cast<std::int32_t>(k));
-        if (k > first) meanings += ' ';
-        meanings += names[k];
-    }
-    return {{"flag_values", values}, {"flag_meanings", meanings}};
-}
-
 }  // namespace
 
 void ResultTable::global_attributes(const std::string& history) {
@@ -76,9 +63,9 @@ void ResultTable::levels() {
     const Names dims{"realization", "step"};
     for (const LevelQuantity& q : level_quantities()) {
         NetcdfAttributes attributes;
-        if (std::holds_alternative<LevelStatus LevelValues::*>(q.member)) attributes = flags(kLevelStatusNames, 0);
+        if (std::holds_alternative<LevelStatus LevelValues::*>(q.member)) attributes = flags(kLevelStatusNames);
         if (std::holds_alternative<Method LevelValues::*>(q.member)) attributes = flags(kMethodNames, 1);  // 0 is 'auto'
-        if (std::holds_alternative<Fallback LevelValues::*>(q.member)) attributes = flags(kFallbackNames, 0);
+        if (std::holds_alternative<Fallback LevelValues::*>(q.member)) attributes = flags(kFallbackNames);
         append(attributes, comment(q.comment));
         const auto absent = [&](const LevelValues& l) { return std::isnan(q.beside ? l.*q.beside : q.of(l)); };
         if (!q.always && std::all_of(o_.rows.begin(), o_.rows.end(), absent)) continue;

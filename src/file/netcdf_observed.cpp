@@ -7,23 +7,19 @@
 namespace rsc {
 namespace {
 
-// Attributes of one fitted distribution, with one value for each pdf_level. NaN becomes the fill value, as in a variable.
-template <typename Get>
-std::vector<double> of_fits(const std::vector<FittedDistributions>& fits, Get get) {
-    std::vector<double> values;
-    for (const FittedDistributions& f : fits) {
-        const double value = get(f);
-        values.push_back(std::isnan(value) ? NC_FILL_DOUBLE : value);
-    }
-    return values;
-}
+using Fits = FittedDistributions;
 
-template <typename Get>
-NetcdfAttributes moment_attributes(const std::vector<FittedDistributions>& fits, Get moments) {
-    return {{"mean", of_fits(fits, [&](const auto& f) { return moments(f).mean; })},
-            {"standard_deviation", of_fits(fits, [&](const auto& f) { return moments(f).deviation; })},
-            {"skewness", of_fits(fits, [&](const auto& f) { return moments(f).skewness; })},
-            {"kurtosis", of_fits(fits, [&](const auto& f) { return moments(f).kurtosis; })}};
+// Numbers of a fit, or of moments, as attributes with one value for each pdf_level. NaN becomes the fill value, as in a variable.
+template <class Fit>
+NetcdfAttributes numbers_of(const std::vector<Fits>& distributions, Fit Fits::*fit,
+                            std::initializer_list<std::pair<const char*, double Fit::*>> numbers) {
+    NetcdfAttributes attributes;
+    for (const auto& [name, number] : numbers) {
+        std::vector<double> values;
+        for (const Fits& f : distributions) values.push_back(std::isnan(f.*fit.*number) ? NC_FILL_DOUBLE : f.*fit.*number);
+        attributes.push_back({name, values});
+    }
+    return attributes;
 }
 
 }  // namespace
@@ -97,9 +93,22 @@ void ResultTable::distributions() {
     bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf", bins.mean_pressure_width());
     bin_axis("pressure_bin", unit(-2, 1), "middle of the bins of pressure_pdf", bins.pressure_width());
     bin_axis("spot_area_bin", unit(2), "middle of the bins of spot_area_pdf", bins.area_width());
-    mean_pressure();
+    using S = ScaleFit;
+    histogram("pressure_mean_count", "pressure_mean_bin", "1", "contacts by mean pressure, all realizations", &Distributions::mean_pressure,
+              "integers; overflow: contacts");
+    density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1), "probability density of the mean pressure of a contact, f/(pi a^2)",
+            &Fits::mean_pressure_pdf, &Fits::mean_pressure_moments,
+            numbers_of(o_.distributions, &Fits::rayleigh,
+                       {{"rayleigh_scale", &S::scale}, {"rayleigh_scale_error", &S::scale_error}, {"ks_distance", &S::ks_distance}}),
+            "fit: Rayleigh, (p/s^2) exp(-p^2/(2 s^2)), s = rayleigh_scale by maximum likelihood, with its standard error");
     pressure();
-    spot_area();
+    histogram("spot_area_count", "spot_area_bin", "1", "contacts by area, all realizations", &Distributions::spot_area,
+              "integers; overflow: contacts");
+    density("spot_area_pdf", "spot_area_bin", unit(-2), "probability density of the area of a contact, pi a^2", &Fits::spot_area_pdf,
+            &Fits::spot_area_moments,
+            numbers_of(o_.distributions, &Fits::exponential,
+                       {{"exponential_scale", &S::scale}, {"exponential_scale_error", &S::scale_error}, {"ks_distance", &S::ks_distance}}),
+            "fit: exponential, exp(-A/s)/s, s = exponential_scale by maximum likelihood, with its standard error");
     if (o_.realizations == 1) return;
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums)
@@ -129,68 +138,44 @@ void ResultTable::histogram(const std::string& name, const std::string& axis, co
 }
 
 void ResultTable::density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
-                          std::vector<double> FittedDistributions::*which, NetcdfAttributes attributes, const std::string& note) {
+                          std::vector<double> Fits::*which, DistributionMoments Fits::*moments, NetcdfAttributes fit,
+                          const std::string& note) {
     std::vector<double> values;
-    for (const FittedDistributions& f : o_.distributions) values.insert(values.end(), (f.*which).begin(), (f.*which).end());
+    for (const Fits& f : o_.distributions) values.insert(values.end(), (f.*which).begin(), (f.*which).end());
+    using M = DistributionMoments;
     NetcdfAttributes all{{"coordinates", axis}};
-    append(all, std::move(attributes));
+    append(all, std::move(fit));
+    append(all,
+           numbers_of(o_.distributions, moments,
+                      {{"mean", &M::mean}, {"standard_deviation", &M::deviation}, {"skewness", &M::skewness}, {"kurtosis", &M::kurtosis}}));
     append(all, comment(note + "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one value for each pdf_level; " +
                         kAbsentMeans));
     file_.variable({name, {"pdf_level", "bin"}, units, long_name, std::move(values), std::move(all), true});
 }
 
-void ResultTable::mean_pressure() {
-    const auto& fits = o_.distributions;
-    histogram("pressure_mean_count", "pressure_mean_bin", "1", "contacts by mean pressure, all realizations", &Distributions::mean_pressure,
-              "integers; overflow: contacts");
-    NetcdfAttributes a{{"rayleigh_scale", of_fits(fits, [](const auto& f) { return f.rayleigh.scale; })},
-                       {"rayleigh_scale_error", of_fits(fits, [](const auto& f) { return f.rayleigh.scale_error; })},
-                       {"ks_distance", of_fits(fits, [](const auto& f) { return f.rayleigh.ks_distance; })}};
-    append(a, moment_attributes(fits, [](const auto& f) { return f.mean_pressure_moments; }));
-    density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1), "probability density of the mean pressure of a contact, f/(pi a^2)",
-            &FittedDistributions::mean_pressure_pdf, std::move(a),
-            "fit: Rayleigh, (p/s^2) exp(-p^2/(2 s^2)), s = rayleigh_scale by maximum likelihood, with its standard error");
-}
-
 void ResultTable::pressure() {
-    const auto& fits = o_.distributions;
-    const std::vector<double> equal = of_fits(fits, [](const auto& f) {
-        return f.sum.pressure.squares > 0 ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares : 0;
-    });
+    std::vector<double> equal;
+    for (const Fits& f : o_.distributions)
+        equal.push_back(f.sum.pressure.squares > 0 ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares : 0);
     histogram("pressure_area", "pressure_bin", unit(2), "contact area by pressure, summed over realizations", &Distributions::pressure,
               "overflow: area");
-    const auto parameter = [&](const std::string& name, double GammaFit::*p) {
-        return std::pair<std::string, NetcdfAttribute>{name, of_fits(fits, [p](const auto& f) { return f.gamma.*p; })};
-    };
-    NetcdfAttributes a{parameter("alpha", &GammaFit::alpha),
-                       parameter("alpha_error", &GammaFit::alpha_error),
-                       parameter("beta", &GammaFit::beta),
-                       parameter("beta_error", &GammaFit::beta_error),
-                       parameter("delta", &GammaFit::delta),
-                       parameter("delta_error", &GammaFit::delta_error),
-                       parameter("gamma", &GammaFit::gamma),
-                       parameter("gamma_error", &GammaFit::gamma_error),
-                       parameter("ks_distance", &GammaFit::ks_distance),
-                       {"independent_contacts", equal}};
-    append(a, moment_attributes(fits, [](const auto& f) { return f.pressure_moments; }));
+    using G = GammaFit;
+    NetcdfAttributes fit = numbers_of(o_.distributions, &Fits::gamma,
+                                      {{"alpha", &G::alpha},
+                                       {"alpha_error", &G::alpha_error},
+                                       {"beta", &G::beta},
+                                       {"beta_error", &G::beta_error},
+                                       {"delta", &G::delta},
+                                       {"delta_error", &G::delta_error},
+                                       {"gamma", &G::gamma},
+                                       {"gamma_error", &G::gamma_error},
+                                       {"ks_distance", &G::ks_distance}});
+    fit.push_back({"independent_contacts", equal});
     density("pressure_pdf", "pressure_bin", unit(2, -1), "probability density of the pressure at a random point of the contact area",
-            &FittedDistributions::pressure_pdf, std::move(a),
+            &Fits::pressure_pdf, &Fits::pressure_moments, std::move(fit),
             "each contact contributes 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2), weighted by its area; fit: gamma p^alpha "
             "exp(-(p/delta)^beta), "
             "by maximum likelihood of the bins; standard errors for independent_contacts = (sum A)^2/sum A^2 draws");
-}
-
-void ResultTable::spot_area() {
-    const auto& fits = o_.distributions;
-    histogram("spot_area_count", "spot_area_bin", "1", "contacts by area, all realizations", &Distributions::spot_area,
-              "integers; overflow: contacts");
-    NetcdfAttributes a{{"exponential_scale", of_fits(fits, [](const auto& f) { return f.exponential.scale; })},
-                       {"exponential_scale_error", of_fits(fits, [](const auto& f) { return f.exponential.scale_error; })},
-                       {"ks_distance", of_fits(fits, [](const auto& f) { return f.exponential.ks_distance; })}};
-    append(a, moment_attributes(fits, [](const auto& f) { return f.spot_area_moments; }));
-    density("spot_area_pdf", "spot_area_bin", unit(-2), "probability density of the area of a contact, pi a^2",
-            &FittedDistributions::spot_area_pdf, std::move(a),
-            "fit: exponential, exp(-A/s)/s, s = exponential_scale by maximum likelihood, with its standard error");
 }
 
 void ResultTable::asperities() {

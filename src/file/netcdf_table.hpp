@@ -17,6 +17,19 @@ inline std::int32_t clamped(std::int64_t n) {
 }
 inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>(n)); }
 
+// flag_values from `first` on, with the names of the enumeration.
+template <std::size_t n>
+NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t first = 0) {
+    std::vector<std::int32_t> values;
+    std::string meanings;
+    for (std::size_t k = first; k < n; ++k) {
+        values.push_back(static_cast<std::int32_t>(k));
+        if (k > first) meanings += ' ';
+        meanings += names[k];
+    }
+    return {{"flag_values", values}, {"flag_meanings", meanings}};
+}
+
 class ResultTable {
 public:
     explicit ResultTable(const Result& result)
@@ -76,10 +89,9 @@ private:
     void histogram(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
                    Histogram Distributions::*which, const std::string& note);
     void density(const std::string& name, const std::string& axis, const std::string& units, const std::string& long_name,
-                 std::vector<double> FittedDistributions::*which, NetcdfAttributes attributes, const std::string& note);
-    void mean_pressure();
+                 std::vector<double> FittedDistributions::*which, DistributionMoments FittedDistributions::*moments, NetcdfAttributes fit,
+                 const std::string& note);
     void pressure();
-    void spot_area();
     void asperities();
     void contacts();
     void residual_profile();

@@ -45,18 +45,10 @@ void ResultTable::measured() {
             {{"threshold", std::vector<double>{m.outliers.threshold}},
              {"standard_deviations", std::vector<double>{m.outlier_times}},
              {"comment", "differing from the median of the 5 x 5 points around them by more than the threshold"}});
-    std::vector<std::int32_t> values;
-    std::string meanings;
-    for (const char* name : kDetrendNames) {
-        values.push_back(static_cast<std::int32_t>(values.size()));
-        if (!meanings.empty()) meanings += ' ';
-        meanings += name;
-    }
-    NetcdfAttributes form{{"flag_values", values},
-                          {"flag_meanings", meanings},
-                          {"level", std::vector<double>{m.form.level}},
-                          {"slope", std::vector<double>{m.form.slope_x, m.form.slope_y}},
-                          {"second_derivatives", std::vector<double>{m.form.zxx, m.form.zxy, m.form.zyy}}};
+    NetcdfAttributes form = flags(kDetrendNames);
+    append(form, {{"level", std::vector<double>{m.form.level}},
+                  {"slope", std::vector<double>{m.form.slope_x, m.form.slope_y}},
+                  {"second_derivatives", std::vector<double>{m.form.zxx, m.form.zxy, m.form.zyy}}});
     if (m.form.how == Detrend::sphere && std::isfinite(m.form.radius)) form.push_back({"radius", std::vector<double>{m.form.radius}});
     form.push_back(
         {"comment",

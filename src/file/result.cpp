@@ -110,9 +110,7 @@ public:
         const NetcdfInput::Variable* variable = find(name);
         if (!variable) refuse("it has no variable " + name + ", which is needed to merge campaigns");
         if (variable->lengths != lengths) refuse("variable " + variable->shape() + " does not have the shape given by its case");
-        std::size_t count = 1;
-        for (const std::size_t n : lengths) count *= n;
-        std::vector<double> values(count);
+        std::vector<double> values(variable->count());
         file_.read(*variable, values.data(), true);
         return values;
     }

@@ -65,6 +65,17 @@ int lock_file(int fd) {
     return errno == EACCES ? EAGAIN : errno;
 }
 
+int write_all(int fd, std::span<const char> bytes) {
+    constexpr std::size_t most = std::size_t{1} << 30;  // one call writes less than 2 GiB
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), most));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return errno;
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+    return 0;
+}
+
 // A temporary file that no process has locked was left by an interrupted writer. Without working locks it is kept.
 void remove_parts_left(const std::string& path) {
     for (int k = 0; k < kPartsLookedAt; ++k) {
@@ -108,13 +119,7 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::write(std::span<const char> bytes) {
-    constexpr std::size_t most = std::size_t{1} << 30;  // one call writes less than 2 GiB
-    while (!bytes.empty()) {
-        const ssize_t n = ::write(fd_, bytes.data(), std::min(bytes.size(), most));
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) fail_to_write(path_, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
+    if (const int error = write_all(fd_, bytes); error != 0) fail_to_write(path_, error);
 }
 
 int WholeFile::finish(bool keep_open) {
@@ -148,31 +153,16 @@ fs::path existing_ancestor(fs::path folder) {
     return folder;
 }
 
-// By the first bytes, because NetCDF and HDF5 take long to open their first file.
-bool begins_as_netcdf(const std::string& path) {
-    char start[4] = {};
-    std::ifstream file(path, std::ios::binary);
-    return file.read(start, sizeof start) && (std::memcmp(start, "CDF", 3) == 0 || std::memcmp(start, "\x89HDF", 4) == 0);
-}
-
-// HDF5 may crash if it is out of memory: the memory it needs is allocated first as a test.
-void require_memory(const std::string& path) {
-    constexpr std::size_t wanted = std::size_t{32} << 20;
-    void* const probe = std::malloc(wanted);
-    if (!probe) throw Error(Failure::no_memory, "not enough memory to read '" + path + "' (some 32 MB)");
-    std::free(probe);
-}
-
 }  // namespace
 
 bool ResultHead::this_version() const { return source.starts_with("rsc " RSC_VERSION ","); }
 
 std::optional<ResultHead> head_of_result(const std::string& path) {
     const std::lock_guard lock(library_lock());
-    std::error_code error;
     int file = -1;
-    if (!fs::is_regular_file(path, error) || !begins_as_netcdf(path)) return std::nullopt;
-    require_memory(path);
+    // By the first bytes, because NetCDF and HDF5 take long to open their first file.
+    if (!begins_with(path, "CDF") && !begins_with(path, "\x89HDF")) return std::nullopt;
+    require_memory(32 << 20, "to read '" + path + "'");
     require_sound(path);
     if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {

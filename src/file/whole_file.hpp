@@ -32,6 +32,9 @@ bool begins_with(const std::string& path, const std::string& start);
 // writer holds the lock, or another errno: some file systems have no locks.
 int lock_file(int fd);
 
+// Writes all of the bytes at the place of the descriptor. Returns 0, or errno.
+int write_all(int fd, std::span<const char> bytes);
+
 // Removes temporaries of this target whose writers were killed, but not those that are being written.
 void remove_parts_left(const std::string& path);
 

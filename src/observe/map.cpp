@@ -141,14 +141,7 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
     const double largest = std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly() - y0});
     if (!(largest > 0) || bins < 1) return;
     const double ring_width = largest / bins;
-    const auto cells = static_cast<std::size_t>(grid.cells());
-    std::vector<double> row(cells);
-    struct Part {
-        std::size_t cell;
-        int circle;
-        double weight;
-    };
-    std::vector<Part> parts;
+    std::vector<double> row(static_cast<std::size_t>(grid.cells()));
     std::vector<std::size_t> touched;  // cells of the circle
     for (int b = 0; b < bins; ++b) {
         stopping_point();
@@ -165,27 +158,16 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
             });
         }
         for (const std::size_t c : touched)
-            if (const double weight = std::exchange(row[c], 0.0); weight != 0) parts.push_back({c, b, weight});
+            if (const double weight = std::exchange(row[c], 0.0); weight != 0)
+                parts_.push_back({static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(b), weight});
     }
-    start_.assign(cells + 1, 0);
-    for (const Part& part : parts) ++start_[part.cell + 1];
-    for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
-    circle_.resize(parts.size());
-    weight_.resize(parts.size());
-    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for (const Part& part : parts) {
-        const std::size_t k = next[part.cell]++;
-        circle_[k] = part.circle;
-        weight_[k] = part.weight;
-    }
+    std::ranges::stable_sort(parts_, {}, &Part::cell);
 }
 
 std::vector<double> RadialMean::operator()(const double* values) const {
     std::vector<double> mean(radii_.size());
-    for (std::size_t c = 0; c + 1 < start_.size(); ++c) {
-        if (values[c] == 0) continue;
-        for (std::size_t k = start_[c]; k < start_[c + 1]; ++k) mean[static_cast<std::size_t>(circle_[k])] += weight_[k] * values[c];
-    }
+    for (const Part& part : parts_)
+        if (values[part.cell] != 0) mean[part.circle] += part.weight * values[part.cell];
     return mean;
 }
 

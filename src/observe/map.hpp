@@ -73,10 +73,12 @@ public:
 
 private:
     std::vector<double> radii_;
-    // A cell contributes weight_[k] times its value to the mean over circle circle_[k], for k in [start_[cell], start_[cell+1]).
-    std::vector<std::size_t> start_;
-    std::vector<int> circle_;
-    std::vector<double> weight_;
+    // A cell contributes `weight` times its value to the mean over a circle.
+    struct Part {
+        std::uint32_t cell, circle;
+        double weight;
+    };
+    std::vector<Part> parts_;  // in the order of the cells
 };
 
 }  // namespace rsc

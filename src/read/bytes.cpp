@@ -26,6 +26,10 @@ HeightMap allocate_map(std::size_t nx, std::size_t ny) {
     return map;
 }
 
+void scale_heights(HeightMap& map, double factor) {
+    for (double& z : std::span(map.data.get(), static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny))) z *= factor;
+}
+
 void reverse_columns(HeightMap& map) {
     for (int j = 0; j < map.ny; ++j) std::reverse(map.row(j), map.row(j) + map.nx);
 }

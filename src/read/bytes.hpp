@@ -14,8 +14,9 @@ void check_memory(const std::string& path, const std::string& what, double count
 // Throws Error(bad_input) unless a map has at least 3 x 3 points, at most 2^31 - 1 a side, and fits into memory.
 void check_grid(const std::string& path, std::size_t nx, std::size_t ny);
 
-// Rows without padding.
+// Rows without padding, as for the functions below.
 HeightMap allocate_map(std::size_t nx, std::size_t ny);
+void scale_heights(HeightMap& map, double factor);
 
 // Reverse the order of columns or rows.
 void reverse_columns(HeightMap& map);

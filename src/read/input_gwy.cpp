@@ -70,6 +70,9 @@ struct Field {
 class GwyFile {
 public:
     GwyFile(const std::string& path) : path_(path), bytes_(read_bytes(path)) {
+        if (!bytes_.starts_with("GWYP"))
+            bad_input(path + ": a file of another version of Gwyddion (it begins with '" + printable(bytes_.substr(0, 4)) +
+                      "', not 'GWYP'): open it in Gwyddion 2 and save it again");
         ByteReader in(path_, bytes_, 4, bytes_.size());
         for (const Component& c : components(in, "GwyContainer")) top_[c.name] = c;
     }
@@ -151,15 +154,6 @@ std::optional<double> factor_of(const std::string& unit, const std::string& leng
 bool is_gwy(const std::string& start) { return start.substr(0, 3) == "GWY"; }
 
 HeightMap read_gwy(const std::string& path, const std::string& channel, const std::string& length_unit) {
-    const std::string start = [&] {
-        std::ifstream file(path, std::ios::binary);
-        std::string magic(4, '\0');
-        file.read(magic.data(), 4);
-        return magic;
-    }();
-    if (start != "GWYP")
-        bad_input(path + ": a file of another version of Gwyddion (it begins with '" + printable(start) +
-                  "', not 'GWYP'): open it in Gwyddion 2 and save it again");
     const GwyFile file(path);
     std::string names;
     std::optional<long> chosen;

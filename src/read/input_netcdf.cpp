@@ -187,15 +187,16 @@ void check_classic_length(const std::string& path) {
 
 namespace {
 
-// Stored values of the variable that mean "missing".
-bool has_default_fill(nc_type type) {
-    return type == NC_FLOAT || type == NC_DOUBLE || type == NC_INT || type == NC_SHORT || type == NC_INT64;
-}
-
-std::string shown(double v) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.9g", v);
-    return buffer;
+// The fill value of the library for values that were not written; none for types all of whose values may be data.
+std::optional<double> default_fill(nc_type type) {
+    switch (type) {
+        case NC_FLOAT: return NC_FILL_FLOAT;
+        case NC_DOUBLE: return NC_FILL_DOUBLE;
+        case NC_INT: return NC_FILL_INT;
+        case NC_SHORT: return NC_FILL_SHORT;
+        case NC_INT64: return static_cast<double>(NC_FILL_INT64);
+        default: return {};
+    }
 }
 
 std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
@@ -208,6 +209,12 @@ std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
 }
 
 }  // namespace
+
+void require_memory(double bytes, const std::string& purpose, const char* remedy) {
+    void* const probe = bytes < 9e18 ? std::malloc(static_cast<std::size_t>(bytes)) : nullptr;
+    if (!probe) throw Error(Failure::no_memory, "not enough memory " + purpose + format(" (some %.0f MB)", bytes / 1e6) + remedy);
+    std::free(probe);
+}
 
 bool is_netcdf(const std::string& path) {
     std::error_code ignored;
@@ -250,6 +257,10 @@ std::string NetcdfInput::Variable::shape() const {
     std::string text = name + "(";
     for (std::size_t d = 0; d < axes.size(); ++d) text += (d > 0 ? ", " : "") + axes[d] + " = " + std::to_string(lengths[d]);
     return text + ")";
+}
+
+std::size_t NetcdfInput::Variable::count() const {
+    return std::accumulate(lengths.begin(), lengths.end(), std::size_t{1}, std::multiplies<>());
 }
 
 std::vector<NetcdfInput::Variable> NetcdfInput::variables() const {
@@ -315,22 +326,13 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
 
 void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {
     if (!v.numeric()) bad_input(path_ + ": variable " + v.name + " is not numeric");
-    std::size_t count = 1;
-    for (const std::size_t n : v.lengths) count *= n;
     must(nc_get_var_double(id_, v.id, out), "variable " + v.name);
 
     std::vector<double> missing = numbers_attribute(v, "missing_value").value_or(std::vector<double>());
-    if (const auto fill = numbers_attribute(v, "_FillValue")) {
+    if (const auto fill = numbers_attribute(v, "_FillValue"))
         missing.insert(missing.end(), fill->begin(), fill->end());
-    } else if (has_default_fill(v.type)) {
-        // The fill value of the library for unwritten values.
-        const double standard = v.type == NC_FLOAT    ? static_cast<double>(NC_FILL_FLOAT)
-                                : v.type == NC_DOUBLE ? NC_FILL_DOUBLE
-                                : v.type == NC_INT    ? static_cast<double>(NC_FILL_INT)
-                                : v.type == NC_SHORT  ? static_cast<double>(NC_FILL_SHORT)
-                                                      : static_cast<double>(NC_FILL_INT64);
-        missing.push_back(standard);
-    }
+    else if (const auto standard = default_fill(v.type))
+        missing.push_back(*standard);
     const auto factor = [&](const char* name, double otherwise) {
         const auto values = numbers_attribute(v, name);
         if (!values) return otherwise;
@@ -339,14 +341,15 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         return values->front();
     };
     const double scale = factor("scale_factor", 1.0), offset = factor("add_offset", 0.0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < v.count(); ++i) {
         const double stored = out[i];
-        if (missing_allowed && (std::isnan(stored) || std::find(missing.begin(), missing.end(), stored) != missing.end())) {
+        const bool filled = std::find(missing.begin(), missing.end(), stored) != missing.end();
+        if (missing_allowed && (std::isnan(stored) || filled)) {
             out[i] = std::nan("");
             continue;
         }
-        if (std::find(missing.begin(), missing.end(), stored) != missing.end())
-            bad_input(path_ + ": " + indices(v, i) + " is missing (it has the fill value " + shown(stored) +
+        if (filled)
+            bad_input(path_ + ": " + indices(v, i) + " is missing (it has the fill value " + text_of(stored) +
                       "); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) bad_input(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
@@ -370,10 +373,8 @@ std::vector<double> NetcdfInput::values(const std::string& name, std::size_t ran
     if (v->lengths.size() != rank || !v->numeric())
         bad_input(path_ + ": " + name + ", numeric over " + (rank == 1 ? "one dimension" : "two dimensions") + ", was expected, not " +
                   v->shape());
-    std::size_t count = 1;
-    for (const std::size_t length : v->lengths) count *= length;
-    check_memory(path_, v->shape(), 8.0 * static_cast<double>(count));
-    std::vector<double> all(count);
+    check_memory(path_, v->shape(), 8.0 * static_cast<double>(v->count()));
+    std::vector<double> all(v->count());
     read(*v, all.data());
     const double factor = unit_factor(*v, length_unit, power).value_or(1.0);
     for (double& value : all) value *= factor;

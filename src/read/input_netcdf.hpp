@@ -23,6 +23,10 @@ void require_sound(const std::string& path);
 // than its header and data, because the NetCDF library then returns zeros or worse without an error. Does nothing for other files.
 void check_classic_length(const std::string& path);
 
+// HDF5 may crash, now or when the program ends, if it is out of memory: allocates as many bytes as it needs, as a test. Throws
+// Error(no_memory): "not enough memory PURPOSE (some 34 MB)REMEDY".
+void require_memory(double bytes, const std::string& purpose, const char* remedy = "");
+
 // A NetCDF file open for reading; errors name the file and the variable. Holds library_lock() during its lifetime, because the library
 // is not thread-safe.
 class NetcdfInput {
@@ -41,6 +45,7 @@ public:
         std::vector<std::size_t> lengths;  // of the dimensions
         std::vector<std::string> axes;     // their names
         std::string shape() const;         // "name(y = 3, x = 4)"
+        std::size_t count() const;         // of its values
         bool numeric() const { return type != NC_CHAR && type != NC_STRING && type <= NC_MAX_ATOMIC_TYPE; }
     };
     std::vector<Variable> variables() const;

@@ -133,8 +133,7 @@ HeightMap read_text_points(const std::string& path, std::optional<double> L, boo
 HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing, const TextMap& text,
                             const std::string& length_unit) {
     HeightMap map = read_text_points(path, L, missing, text);
-    const double factor = text.height_unit.empty() ? 1 : length_factor(text.height_unit, length_unit, 1);
-    std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [&](double& z) { z *= factor; });
+    if (!text.height_unit.empty()) scale_heights(map, length_factor(text.height_unit, length_unit, 1));
     return map;
 }
 
@@ -171,23 +170,18 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
 }
 
 NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel) {
-    if (!channel.empty()) {
-        const auto named = file.find(channel);
-        if (!named) bad_input(file.path() + ": there is no variable '" + channel + "'");
-        if (named->lengths.size() != 2 || !named->numeric())
-            bad_input(file.path() + ": channel '" + channel + "': a numeric variable of two dimensions was expected, not " +
-                      named->shape());
-        return *named;
+    const auto is_map = [](const NetcdfInput::Variable& v) { return v.lengths.size() == 2 && v.numeric(); };
+    if (const auto named = file.find(channel.empty() ? "height" : channel)) {
+        if (is_map(*named)) return *named;
+        bad_input(file.path() + ": " +
+                  (channel.empty() ? "height(y, x), numeric," : "channel '" + channel + "': a numeric variable of two dimensions") +
+                  " was expected, not " + named->shape());
     }
-    if (const auto named = file.find("height")) {
-        if (named->lengths.size() != 2 || !named->numeric())
-            bad_input(file.path() + ": height(y, x), numeric, was expected, not " + named->shape());
-        return *named;
-    }
+    if (!channel.empty()) bad_input(file.path() + ": there is no variable '" + channel + "'");
     std::vector<NetcdfInput::Variable> maps;
     std::string names;
     for (const auto& v : file.variables())
-        if (v.lengths.size() == 2 && v.numeric()) {
+        if (is_map(v)) {
             names += (maps.empty() ? "" : ", ") + v.shape();
             maps.push_back(v);
         }
@@ -241,8 +235,7 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
         check_given_L(path, variable.axes[1], map.nx, map.dx, L);
     }
     file.read(variable, map.data.get(), missing);
-    if (factor_z != 1)
-        std::for_each(map.data.get(), map.data.get() + map.nx * std::ptrdiff_t{map.ny}, [f = factor_z](double& z) { z *= f; });
+    scale_heights(map, factor_z);
     if (x && x->reversed) reverse_columns(map);
     if (y && y->reversed) reverse_rows(map);
     return map;

@@ -6,7 +6,7 @@ namespace rsc {
 
 void validate(const Asperities& a, const std::function<std::string(std::size_t)>& name) {
     const std::size_t n = a.size();
-    const auto refuse = [](const std::string& message) { throw Error(Failure::bad_input, message); };
+    const auto refuse = [](const std::string& message) { bad_input(message); };
     const auto text = [](double v) {
         char buffer[32];
         std::snprintf(buffer, sizeof buffer, "%.17g", v);

@@ -147,7 +147,7 @@ Outliers remove_outliers(HeightMap& map, double times) {
 std::vector<std::uint8_t> fill_missing(HeightMap& map) {
     const long missing = count_missing(map);
     if (missing == 0) return {};
-    if (missing == static_cast<long>(map.nx) * map.ny) throw Error(Failure::bad_input, "all points of the map are missing");
+    if (missing == static_cast<long>(map.nx) * map.ny) bad_input("all points of the map are missing");
     HoleProblem hole(map);
     hole.solve();
     std::vector<std::uint8_t> filled;

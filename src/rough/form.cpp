@@ -7,7 +7,7 @@
 namespace rsc {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(Failure::bad_input, "form: " + what); }
+[[noreturn]] void refuse(const std::string& what) { bad_input("form: " + what); }
 
 // Normal equations of at most six unknowns, summed row by row: short partial sums keep rounding errors small.
 template <int kUnknowns>
@@ -250,8 +250,7 @@ double gaussian_transmission(double cutoff, double k) {
 }
 
 void gaussian_filter(HeightMap& map, double cutoff) {
-    if (!(cutoff > 0 && std::isfinite(cutoff)))
-        throw Error(Failure::bad_input, "filter_cutoff must be positive and finite, not " + text_of(cutoff));
+    if (!(cutoff > 0 && std::isfinite(cutoff))) bad_input("filter_cutoff must be positive and finite, not " + text_of(cutoff));
     const std::vector<double> tx = transmissions(map.nx, map.dx, cutoff, map.periodic);
     const std::vector<double> ty = transmissions(map.ny, map.dy, cutoff, map.periodic);
     damp_waves(map, map.periodic, "a filtered height map", [&](double* z, double scale) {

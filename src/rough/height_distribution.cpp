@@ -40,7 +40,7 @@ HeightDistribution::HeightDistribution(std::vector<double> values) : values_(std
 HeightDistribution HeightDistribution::of_quantiles(const std::vector<double>& scores, const std::vector<double>& heights) {
     bool rising = scores.size() == heights.size() && scores.size() >= 2 && heights.front() < heights.back();
     for (std::size_t i = 1; rising && i < scores.size(); ++i) rising = scores[i] > scores[i - 1] && heights[i] >= heights[i - 1];
-    if (!rising) throw Error(Failure::bad_input, "the distribution of heights: heights must increase with the normal score");
+    if (!rising) bad_input("the distribution of heights: heights must increase with the normal score");
     std::vector<double> values(kValues);
     for (int i = 0; i < kValues; ++i) {
         const double u = std::clamp(score(i), scores.front(), scores.back());

@@ -13,10 +13,10 @@ void refuse_missing(const HeightMap& map, long missing) {
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i)
             if (std::isnan(map(i, j)))
-                throw Error(Failure::bad_input,
-                            format("%ld of %.0f points are missing, the first in column %d of row %d, counted from 0 with y upwards; "
-                                   "surface%%missing = 'fill' fills them",
-                                   missing, static_cast<double>(map.nx) * map.ny, i, j));
+                bad_input(
+                    format("%ld of %.0f points are missing, the first in column %d of row %d, counted from 0 with y upwards; "
+                           "surface%%missing = 'fill' fills them",
+                           missing, static_cast<double>(map.nx) * map.ny, i, j));
 }
 
 // Histogram of the heights in 60 bins from -5 to 5 Sq; the few heights beyond are ignored.
@@ -81,10 +81,10 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     // Beyond this ratio, rounding removes the smaller of the terms in 1/dx^2 and 1/dy^2 from their sum.
     constexpr double most_unlike = 1e4;
     if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
-        throw Error(Failure::bad_input, format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx, map.dy, most_unlike));
+        bad_input(format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx, map.dy, most_unlike));
     m.missing = count_missing(map);
     const double points = static_cast<double>(map.nx) * map.ny;
-    if (m.missing > 0 && static_cast<double>(m.missing) == points) throw Error(Failure::bad_input, "all points of the map are missing");
+    if (m.missing > 0 && static_cast<double>(m.missing) == points) bad_input("all points of the map are missing");
     if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
     m.outlier_times = options.outliers;
     if (options.outliers > 0) m.outliers = remove_outliers(map, options.outliers);
@@ -96,7 +96,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.filled = fill_missing(map);
     for (int j = 0; j < map.ny; ++j)
         if (!std::all_of(map.row(j), map.row(j) + map.nx, [](double z) { return std::isfinite(z); }))
-            throw Error(Failure::bad_input, "the heights are too small or too large: their squares overflow or underflow double precision");
+            bad_input("the heights are too small or too large: their squares overflow or underflow double precision");
     m.without_form = m.filtered = roughness(map);
     m.filter_cutoff = options.filter_cutoff;
     if (options.filter_cutoff > 0) {
@@ -104,8 +104,8 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         m.filtered = roughness(map);
         constexpr double rounding = 1e-12;  // of the heights before
         if (m.without_form.height > 0 && !(m.filtered.height > rounding * m.without_form.height))
-            throw Error(Failure::bad_input, format("surface%%filter_cutoff = %g removes all heights of a map of %g x %g",
-                                                   options.filter_cutoff, map.Lx(), map.Ly()));
+            bad_input(
+                format("surface%%filter_cutoff = %g removes all heights of a map of %g x %g", options.filter_cutoff, map.Lx(), map.Ly()));
     }
     m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);

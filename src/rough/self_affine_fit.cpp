@@ -219,8 +219,7 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
     constexpr std::size_t kShortest = 4;  // smallest number of rings of a power law
     const std::size_t n = x.size();
-    if (n < kFewest)
-        throw Error(Failure::bad_input, "the map is too small for a spectrum: it has " + std::to_string(n) + " rings of modes");
+    if (n < kFewest) bad_input("the map is too small for a spectrum: it has " + std::to_string(n) + " rings of modes");
     const BandSearch search(x, y, weight);
     Cut best{0, n};
     double least = HUGE_VAL;  // default: one power law over all rings

@@ -119,8 +119,7 @@ double Stencil::fit(double cutoff) {
 
 Stencil Stencil::band_limited(double points_per_wave) {
     if (!(points_per_wave >= 4 * (1 - 1e-12)))
-        throw Error(Failure::bad_input,
-                    "summits between grid points require at least 4 points in the shortest wavelength, not " + text_of(points_per_wave));
+        bad_input("summits between grid points require at least 4 points in the shortest wavelength, not " + text_of(points_per_wave));
     constexpr double kWanted = 1e-8;
     for (int reach = 4;; ++reach) {
         Stencil stencil(reach);

@@ -76,8 +76,8 @@ void HeightMap::Free::operator()(double* p) const noexcept {
 
 void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
     if (nx_ < 1 || ny_ < 1 || stride_ < nx_)
-        throw Error(Failure::bad_input, "height map: " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points with " +
-                                            std::to_string(stride_) + " a row");
+        bad_input("height map: " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points with " + std::to_string(stride_) +
+                  " a row");
     if (stride_ > (std::ptrdiff_t{1} << 44) / ny_)
         throw Error(Failure::no_memory, "no memory for a height map of " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points");
     data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_), "a height map"));

@@ -30,56 +30,39 @@ constexpr double kSyncSeconds = 5;
 const FileKind kCheckpoint{"checkpoint", [](const std::string&) { return true; }};
 
 // CRC-32 of kind, length and bytes.
-std::uint32_t checksum_of(const FrameHead& head, const std::string& bytes) {
+std::uint32_t checksum_of(const FrameHead& head, std::string_view bytes) {
     const auto add = [](uLong crc, const void* data, std::size_t n) { return crc32_z(crc, static_cast<const Bytef*>(data), n); };
     const uLong crc = add(add(0, &head.kind, sizeof head.kind), &head.length, sizeof head.length);
     return static_cast<std::uint32_t>(add(crc, bytes.data(), bytes.size()));
 }
 
-FrameHead head_of(std::uint32_t kind, const std::string& bytes) {
-    FrameHead head;
-    head.kind = kind;
-    head.length = bytes.size();
+std::string frame(std::uint32_t kind, const std::string& bytes) {
+    FrameHead head{kind, 0, bytes.size()};
     head.checksum = checksum_of(head, bytes);
-    return head;
+    return bytes_of(head) + bytes;
 }
 
-// 0, or errno.
-int put(int fd, const char* data, std::size_t n, std::uint64_t offset) {
-    while (n > 0) {
-        const ssize_t written = ::pwrite(fd, data, std::min<std::size_t>(n, std::size_t{1} << 30), static_cast<off_t>(offset));
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return written < 0 ? errno : EIO;
-        data += written, n -= static_cast<std::size_t>(written), offset += static_cast<std::uint64_t>(written);
-    }
-    return 0;
-}
+struct Frame {
+    std::uint32_t kind = 0;
+    std::string_view bytes;
+};
 
-bool get(int fd, char* data, std::size_t n, std::uint64_t offset) {
-    while (n > 0) {
-        const ssize_t got = ::pread(fd, data, std::min<std::size_t>(n, std::size_t{1} << 30), static_cast<off_t>(offset));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        data += got, n -= static_cast<std::size_t>(got), offset += static_cast<std::uint64_t>(got);
-    }
-    return true;
-}
-
-// Reads the frame at `offset` and advances `offset`; false for a frame that is incomplete, damaged or missing.
-bool get_frame(int fd, std::uint64_t end, std::uint64_t& offset, std::uint32_t& kind, std::string& bytes) {
+// Takes the frame at the beginning of `file` from it; none if it is incomplete, damaged or missing.
+std::optional<Frame> take_frame(std::string_view& file) {
     FrameHead head;
-    if (end - offset < sizeof head || !get(fd, reinterpret_cast<char*>(&head), sizeof head, offset)) return false;
-    if (head.length > end - offset - sizeof head) return false;
-    bytes.resize(static_cast<std::size_t>(head.length));
-    if (!get(fd, bytes.data(), bytes.size(), offset + sizeof head) || checksum_of(head, bytes) != head.checksum) return false;
-    kind = head.kind;
-    offset += sizeof head + head.length;
-    return true;
+    if (file.size() < sizeof head) return {};
+    std::memcpy(&head, file.data(), sizeof head);
+    if (head.length > file.size() - sizeof head) return {};
+    const std::string_view bytes = file.substr(sizeof head, static_cast<std::size_t>(head.length));
+    if (checksum_of(head, bytes) != head.checksum) return {};
+    file.remove_prefix(sizeof head + bytes.size());
+    return Frame{head.kind, bytes};
 }
 
-std::uint64_t file_size(int fd) {
-    struct stat status {};
-    return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+std::uint32_t kind_at(std::string_view file) {
+    std::uint32_t kind = kHeader;
+    std::memcpy(&kind, file.data(), std::min(file.size(), sizeof kind));
+    return kind;
 }
 
 // True if the descriptor belongs to the file that now has this name.
@@ -127,72 +110,66 @@ Checkpoint::~Checkpoint() {
 }
 
 void Checkpoint::create() {
-    if (::ftruncate(fd_, 0) != 0) fail_to_write(name_, errno);
-    write_frame(kHeader, header_, base_size_);
-    size_ = base_size_;
+    cut(0);
+    write(frame(kHeader, header_));
+    base_size_ = size_;
 }
 
-void Checkpoint::write_frame(std::uint32_t kind, const std::string& bytes, std::uint64_t& size) {
-    const FrameHead head = head_of(kind, bytes);
-    int error = put(fd_, reinterpret_cast<const char*>(&head), sizeof head, size);
-    if (error == 0) error = put(fd_, bytes.data(), bytes.size(), size + sizeof head);
-    if (error != 0) {
-        // An incomplete frame at the end is ignored, but nothing may follow it.
-        if (::ftruncate(fd_, static_cast<off_t>(size)) != 0) error = errno;
+// Leaves the first `size` bytes, after which the next frame is written.
+void Checkpoint::cut(std::uint64_t size) {
+    if (::ftruncate(fd_, static_cast<off_t>(size)) != 0 || ::lseek(fd_, 0, SEEK_END) < 0) fail_to_write(name_, errno);
+    size_ = size;
+}
+
+void Checkpoint::write(const std::string& bytes) {
+    if (const int error = write_all(fd_, bytes); error != 0) {
+        cut(size_);  // an incomplete frame at the end is ignored, but nothing may follow it
         fail_to_write(name_, error);
     }
-    size += sizeof head + bytes.size();
+    size_ += bytes.size();
 }
 
 // Leaves base_size_ = 0 for a new file, or for one whose first frame is incomplete.
 void Checkpoint::load(const Case& settings) {
-    const std::uint64_t end = file_size(fd_);
-    std::uint64_t offset = 0;
-    std::uint32_t kind = 0;
-    std::string bytes;
+    std::ifstream in(name_, std::ios::binary);
+    const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    std::string_view left = all;
     const auto refuse = [this](const std::string& text) { bad_input("'" + name_ + "' " + text); };
-    if (!get_frame(fd_, end, offset, kind, bytes)) {
+    const std::optional<Frame> header = take_frame(left);
+    if (!header) {
         // The incomplete first frame of a killed process is accepted; anything else is no checkpoint.
-        std::uint32_t start = kHeader;
-        const bool read = get(fd_, reinterpret_cast<char*>(&start), std::min<std::size_t>(end, sizeof start), 0);
-        if (!read || start != kHeader || end > sizeof(FrameHead) + header_.size())
+        if (kind_at(all) != kHeader || all.size() > sizeof(FrameHead) + header_.size())
             refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
         return;
     }
-    if (kind != kHeader) refuse("is not a checkpoint of rsc");
-    if (!bytes.starts_with(header_start()))
-        refuse("was written by another version of rsc (" + bytes.substr(0, bytes.find('\n')) +
+    if (header->kind != kHeader) refuse("is not a checkpoint of rsc");
+    if (!header->bytes.starts_with(header_start()))
+        refuse("was written by another version of rsc (" + std::string(header->bytes.substr(0, header->bytes.find('\n'))) +
                "), whose numbers may differ in the last bits: finish it with that version, or remove the file to start from the "
                "beginning");
-    const Reading there = read_namelist(std::string_view(bytes).substr(header_start().size()));
+    const Reading there = read_namelist(header->bytes.substr(header_start().size()));
     if (!there.faults.empty()) refuse("is damaged; remove it to start from the beginning");
     std::string changed;
     for (const std::string& line : differences(there.settings, settings)) changed += "\n  " + line;
     if (!changed.empty())
         refuse("belongs to another case: it cannot be resumed with" + changed +
                "\nRestore the old values of these keys, or remove the file to start from the beginning.");
-    base_size_ = size_ = offset;
-    while (get_frame(fd_, end, offset, kind, bytes)) {
-        if (kind == kSums && size_ == base_size_) {
-            contents_.sums = std::move(bytes);
-            base_size_ = offset;
-        } else if (kind == kRecord) {
-            contents_.records.push_back(std::move(bytes));
-        } else {
-            break;
-        }
-        size_ = offset;
+    if (!left.empty() && kind_at(left) == kSums) {
+        // Sums are written before the file gets its name, so incomplete sums are a disk error.
+        const std::optional<Frame> sums = take_frame(left);
+        if (!sums) refuse("is damaged: its checksum is wrong; remove it to start from the beginning");
+        contents_.sums = sums->bytes;
     }
-    // Sums are written before the file gets its name, so incomplete sums are a disk error.
-    FrameHead head;
-    if (size_ == base_size_ && !contents_.sums && end - size_ >= sizeof head &&
-        get(fd_, reinterpret_cast<char*>(&head), sizeof head, size_) && head.kind == kSums)
-        refuse("is damaged: its checksum is wrong; remove it to start from the beginning");
-    if (::ftruncate(fd_, static_cast<off_t>(size_)) != 0) fail_to_write(name_, errno);
+    std::uint64_t whole = base_size_ = all.size() - left.size();
+    for (auto record = take_frame(left); record && record->kind == kRecord; record = take_frame(left)) {
+        contents_.records.emplace_back(record->bytes);
+        whole = all.size() - left.size();
+    }
+    cut(whole);
 }
 
 void Checkpoint::append(const std::string& record) {
-    write_frame(kRecord, record, size_);
+    write(frame(kRecord, record));
     sync_now_and_then();
 }
 
@@ -201,16 +178,14 @@ bool Checkpoint::wants_rewrite() const { return size_ - base_size_ > std::max({k
 void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::string*>& records) {
     try {
         WholeFile fresh(name_, kCheckpoint);
-        std::uint64_t base = 0, size = 0;
+        std::uint64_t size = 0;
         const auto add = [&](std::uint32_t kind, const std::string& bytes) {
-            const FrameHead head = head_of(kind, bytes);
-            fresh.write({reinterpret_cast<const char*>(&head), sizeof head});
-            fresh.write(bytes);
-            size += sizeof head + bytes.size();
+            const std::string whole = frame(kind, bytes);
+            fresh.write(whole);
+            return size += whole.size();
         };
         add(kHeader, header_);
-        add(kSums, sums);
-        base = size;
+        const std::uint64_t base = add(kSums, sums);
         for (const std::string* record : records) add(kRecord, *record);
         ::close(std::exchange(fd_, fresh.finish(true)));
         size_ = size;

@@ -55,7 +55,8 @@ public:
 private:
     void create();
     void load(const Case& settings);
-    void write_frame(std::uint32_t kind, const std::string& bytes, std::uint64_t& size);
+    void cut(std::uint64_t size);
+    void write(const std::string& frame);
     void sync_now_and_then();
 
     std::string name_;

@@ -179,19 +179,15 @@ Job prepare(const Case& settings) {
         const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
         const bool relative = indentation.unit == LevelUnit::relative;
         if (relative && !(m2 > 0)) {
-            throw Error(
-                Failure::bad_input,
-                "indentation%unit = 'relative': the rms slope of the surface is not known, only its summits; use unit = 'pressure'");
+            bad_input("indentation%unit = 'relative': the rms slope of the surface is not known, only its summits; use unit = 'pressure'");
         }
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
             if (!elements && level * unit >= kClosingPressure * full)
-                throw Error(
-                    Failure::bad_input,
-                    format(
-                        "indentation: a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
-                        "asperity model; use solver%%model = 'elements', which is valid up to full contact",
-                        level * unit, full));
+                bad_input(format(
+                    "indentation: a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
+                    "asperity model; use solver%%model = 'elements', which is valid up to full contact",
+                    level * unit, full));
         }
         job.level_unit = unit * job.indenter.period.area();
     }

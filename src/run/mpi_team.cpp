@@ -5,7 +5,7 @@
 
 #include <mpi.h>
 
-#include "error.hpp"
+#include "archive.hpp"
 #include "run/signals.hpp"
 
 namespace rsc {
@@ -61,16 +61,10 @@ private:
     std::deque<Letter> letters_;
 };
 
+// The value at the beginning of a message.
 template <class T>
-std::string raw(const T& value) {
-    return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-
-template <class T>
-T from_raw(const std::string& bytes) {
-    T value{};
-    std::memcpy(&value, bytes.data(), std::min(sizeof value, bytes.size()));
-    return value;
+T first_of(std::string_view bytes) {
+    return from_bytes<T>(bytes.substr(0, sizeof(T)));
 }
 
 // An exception as kind and text, and back.
@@ -78,16 +72,16 @@ std::string packed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
     } catch (const Error& e) {
-        return raw(static_cast<std::int32_t>(e.kind())) + e.what();
+        return bytes_of(static_cast<std::int32_t>(e.kind())) + e.what();
     } catch (const std::bad_alloc&) {
-        return raw(static_cast<std::int32_t>(Failure::no_memory)) + "out of memory";
+        return bytes_of(static_cast<std::int32_t>(Failure::no_memory)) + "out of memory";
     } catch (const std::exception& e) {
-        return raw(static_cast<std::int32_t>(Failure::internal)) + e.what();
+        return bytes_of(static_cast<std::int32_t>(Failure::internal)) + e.what();
     }
 }
 
 [[noreturn]] void rethrow(const Message& message) {
-    throw Error(static_cast<Failure>(from_raw<std::int32_t>(message.bytes)),
+    throw Error(static_cast<Failure>(first_of<std::int32_t>(message.bytes)),
                 "rank " + std::to_string(message.rank) + ": " + message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
 }
 
@@ -115,11 +109,11 @@ public:
             }
             while (std::optional<Message> message = receive()) {
                 if (message->tag == kError) rethrow(*message);
-                if (message->tag == kSignal) note_signal(from_raw<std::int32_t>(message->bytes));
+                if (message->tag == kSignal) note_signal(first_of<std::int32_t>(message->bytes));
                 leave_if_interrupted();
                 if (message->tag != kAnswer) continue;
                 --at_work[static_cast<std::size_t>(message->rank)];
-                collect(from_raw<Task>(message->bytes), message->bytes.substr(sizeof(Task)));
+                collect(first_of<Task>(message->bytes), message->bytes.substr(sizeof(Task)));
             }
             outbox_.tidy();
         }
@@ -139,7 +133,7 @@ private:
                     if (rank == 0)
                         local.push(*task);
                     else
-                        outbox_.send(static_cast<int>(rank), kTask, raw(*task));
+                        outbox_.send(static_cast<int>(rank), kTask, bytes_of(*task));
                 }
         std::size_t sum = 0;
         for (std::size_t n : at_work) sum += n;
@@ -168,7 +162,7 @@ MpiJob::MpiJob(int& argc, char**& argv) {
 MpiJob::~MpiJob() { MPI_Finalize(); }
 
 std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::string& case_text) {
-    const std::string text = raw(static_cast<std::uint64_t>(threads)) + case_text;
+    const std::string text = bytes_of(static_cast<std::uint64_t>(threads)) + case_text;
     for (int rank = 1; rank < size_; ++rank) MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
     return std::make_unique<MpiTeam>(std::move(work), threads, size_);
 }
@@ -193,17 +187,17 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
         for (bool stop = false; !stop;) {
             while (std::optional<Message> message = receive()) {
                 if (message->tag == kStop) {
-                    status = from_raw<std::int32_t>(message->bytes);
+                    status = first_of<std::int32_t>(message->bytes);
                     stop = true;
                     break;
                 }
                 try {
                     if (message->tag == kCase) {
-                        const auto count = static_cast<std::size_t>(from_raw<std::uint64_t>(message->bytes));
+                        const auto count = static_cast<std::size_t>(first_of<std::uint64_t>(message->bytes));
                         work = make(message->bytes.substr(sizeof(std::uint64_t)), count);
                         threads.emplace(work, count);
                     }
-                    if (message->tag == kTask && threads) threads->push(from_raw<Task>(message->bytes));
+                    if (message->tag == kTask && threads) threads->push(first_of<Task>(message->bytes));
                 } catch (...) {
                     outbox.send(0, kError, packed(std::current_exception()));
                 }
@@ -211,7 +205,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
             if (stop) break;
             if (caught_signal() != 0 && !told) {
                 told = true;
-                outbox.send(0, kSignal, raw(static_cast<std::int32_t>(caught_signal())));
+                outbox.send(0, kSignal, bytes_of(static_cast<std::int32_t>(caught_signal())));
             }
             std::optional<WorkerThreads::Done> done;
             if (threads)
@@ -219,7 +213,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
             else
                 std::this_thread::sleep_for(2ms);
             if (done && done->error && caught_signal() == 0) outbox.send(0, kError, packed(done->error));
-            if (done && !done->error) outbox.send(0, kAnswer, raw(done->task) + done->answer);
+            if (done && !done->error) outbox.send(0, kAnswer, bytes_of(done->task) + done->answer);
             outbox.tidy();
         }
     }

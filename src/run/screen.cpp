@@ -11,16 +11,15 @@ namespace rsc {
 namespace fs = std::filesystem;
 
 const char* fallback_text(Fallback fallback) {
-    switch (fallback) {
-        case Fallback::none: return "";
-        case Fallback::no_interaction: return "there is no interaction";
-        case Fallback::dgesv_not_converged: return "dgesv did not converge";
-        case Fallback::dgesv_singular: return "dgesv's matrix was singular";
-        case Fallback::not_unique: return "dgesv's solution is not proved unique";
-        case Fallback::jump: return "the force jumps over this one";
-        case Fallback::held: return "no state has this force; level of the smallest force";
-    }
-    return "";
+    // In the order of Fallback.
+    constexpr const char* texts[] = {"",
+                                     "there is no interaction",
+                                     "dgesv did not converge",
+                                     "dgesv's matrix was singular",
+                                     "dgesv's solution is not proved unique",
+                                     "no state has this force; level of the smallest force",
+                                     "the force jumps over this one"};
+    return texts[static_cast<std::size_t>(fallback)];
 }
 
 std::string name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }

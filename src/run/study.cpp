@@ -1,5 +1,6 @@
 #include "run/study.hpp"
 
+#include "archive.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
 #include "error.hpp"
@@ -18,11 +19,6 @@
 namespace rsc {
 namespace fs = std::filesystem;
 namespace {
-
-const Key& key_of(const std::string& axis) {
-    const std::size_t percent = axis.find('%');
-    return *find_key(axis.substr(0, percent), axis.substr(percent + 1, axis.find('(') - percent - 1));
-}
 
 // "solids%R(2)" -> "solids_R_2".
 std::string variable_name(const std::string& axis) {
@@ -63,22 +59,18 @@ std::size_t longest(const std::vector<std::string>& texts) {
 }
 
 void add_axis(NetcdfFile& file, const std::string& axis, const std::vector<Member>& members, std::size_t number) {
-    const Key& key = key_of(axis);
+    const Key& key = key_of(axis.substr(0, axis.find('(')));
     const std::string name = variable_name(axis);
     const NetcdfAttributes attributes{{"key", axis}};
     if (key.type == Type::real || key.type == Type::integer) {
         std::vector<double> values;
-        std::vector<std::int32_t> whole;
-        bool finite = true;
-        for (const Member& member : members) {
-            const std::string text = get_key(member.settings, axis);
-            const bool infinite = text.find("Inf") != std::string::npos;
-            finite = finite && !infinite && !text.empty();
-            if (!finite) break;
-            values.push_back(std::stod(text));
-            whole.push_back(static_cast<std::int32_t>(values.back()));
-        }
-        if (finite && key.type == Type::integer) return file.variable({name, {"member"}, "1", key.meaning, whole, attributes, false});
+        for (const Member& member : members)
+            if (const std::string text = get_key(member.settings, axis); !text.empty() && text.find("Inf") == std::string::npos)
+                values.push_back(std::stod(text));
+        const bool finite = values.size() == members.size();
+        if (finite && key.type == Type::integer)
+            return file.variable(
+                {name, {"member"}, "1", key.meaning, std::vector<std::int32_t>(values.begin(), values.end()), attributes, false});
         if (finite) return file.variable({name, {"member"}, units_of(key, members), key.meaning, values, attributes, false});
     }
     std::vector<std::string> values;
@@ -225,7 +217,7 @@ public:
                 return Task{members[next++]->index - 1, 0};
             },
             [&](const Task& task, std::string&& answer) {
-                const RunSummary summary = summary_from_bytes(answer);
+                const RunSummary summary = from_bytes<RunSummary>(answer);
                 const auto at = [&](const Member* m) { return m->index - 1 == task.member; };
                 line.wipe();
                 tell(**std::find_if(members.begin(), members.end(), at), summary);

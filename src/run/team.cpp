@@ -1,6 +1,6 @@
 #include "run/team.hpp"
 
-#include "error.hpp"
+#include "archive.hpp"
 #include "rough/parallel.hpp"
 #include "run/checkpoint.hpp"
 #include "run/signals.hpp"
@@ -109,7 +109,7 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     if (task.realization == 0) {
         RunOptions options = whole_;
         options.abandoned = &abandoned;
-        return to_bytes(run_realization(members_.at(static_cast<std::size_t>(task.member)), options));
+        return bytes_of(run_realization(members_.at(static_cast<std::size_t>(task.member)), options));
     }
     const std::shared_ptr<const Job> ready = job(task.member);
     const std::string which = "realization " + std::to_string(task.realization) + ": ";
@@ -126,15 +126,6 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     } catch (const std::bad_alloc&) {
         throw Error(Failure::no_memory, which + "out of memory; reduce run%threads or surface%n");
     }
-}
-
-std::string to_bytes(const RunSummary& summary) { return {reinterpret_cast<const char*>(&summary), sizeof summary}; }
-
-RunSummary summary_from_bytes(std::string_view bytes) {
-    RunSummary summary;
-    if (bytes.size() != sizeof summary) throw Error(Failure::internal, "the summary of a member has the wrong length");
-    std::memcpy(&summary, bytes.data(), sizeof summary);
-    return summary;
 }
 
 }  // namespace rsc

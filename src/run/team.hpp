@@ -91,7 +91,7 @@ class CampaignWork {
 public:
     // `whole`: options for running whole members, with `threads` threads.
     CampaignWork(std::vector<Case> members, RunOptions whole);
-    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member its RunSummary. Throws Error with the
+    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member those of its RunSummary. Throws Error with the
     // number of the realization, and Interrupted when abandoned.
     std::string operator()(const Task& task, const std::atomic<bool>& abandoned);
     std::shared_ptr<const Job> job(std::int32_t member);
@@ -103,8 +103,5 @@ private:
     std::int32_t prepared_ = -1;
     std::shared_ptr<const Job> job_;
 };
-
-std::string to_bytes(const RunSummary& summary);
-RunSummary summary_from_bytes(std::string_view bytes);
 
 }  // namespace rsc

@@ -42,8 +42,7 @@ Asperities lattice(int n) {
 namespace {
 
 Asperities surface(double sigma, std::int64_t realization) {
-    Spectrum spectrum;
-    spectrum.sigma = sigma;
+    Spectrum spectrum{.sigma = sigma};
     return make_asperities(spectrum, 2048, Normalise::sample, 1, realization, Curvature::geometric);
 }
 
@@ -177,9 +176,7 @@ void bench_many() {
 
 void bench_largest() {
     std::printf("\nlargest: 8192^2, L/lambda_l = 4, L/lambda_s = 2048, all in\n");
-    Spectrum spectrum;
-    spectrum.L_lambda_l = 4;
-    spectrum.L_lambda_s = 2048;
+    Spectrum spectrum{.L_lambda_l = 4, .L_lambda_s = 2048};
     SummitCount count;
     Asperities a;
     const double bare = bare_transform(8192);

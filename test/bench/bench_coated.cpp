@@ -88,8 +88,7 @@ void coated_levels() {
     std::vector<std::shared_ptr<const SmoothPart>> tables;  // shared by all contacts
     for (const auto& tip : tips) tables.push_back(layers_of(tip.layers, tip.E_star));
     std::printf("\ncoated_levels: a level without layers, and with a layer of h/L = 0.003, 0.01, 0.1, 1 over it (wanted: 1.3)\n");
-    Spectrum coarse;
-    coarse.L_lambda_s = 128;
+    Spectrum coarse{.L_lambda_s = 128};
     const HeightMap map = synthesize(coarse, 1024, Normalise::sample, 1, 1);
     SolverOptions elements;
     elements.max_iterations = 200;
@@ -97,8 +96,7 @@ void coated_levels() {
     row("elements 1024^2, free", by_elements, kGold, tips, 10, 1);
     row("elements 1024^2, flats", by_elements, flat, flats, 5, 1.5);
     for (const double lambda_s : {Spectrum{}.L_lambda_s, 128.0}) {
-        Spectrum s;
-        s.L_lambda_s = lambda_s;
+        Spectrum s{.L_lambda_s = lambda_s};
         const Asperities plain = make_asperities(s, 2048, Normalise::sample, 1, 1, Curvature::geometric);
         const Asperities fine =
             make_asperities(s, 2048, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);

@@ -16,8 +16,7 @@ SolverOptions options() {
 }
 
 HeightMap surface(int n, double L_lambda_s) {
-    Spectrum spectrum;
-    spectrum.L_lambda_s = L_lambda_s;
+    Spectrum spectrum{.L_lambda_s = L_lambda_s};
     return synthesize(spectrum, n, Normalise::sample, 1, 1);
 }
 
@@ -59,8 +58,7 @@ void elements() {
 void element_flats() {
     std::printf("\nelement_flats: two flats, L/lambda_l = 8, 8 points in the shortest wave, tolerance 1e-6, one thread\n");
     for (const int n : {1024, 2048, 4096}) {
-        Spectrum spectrum;
-        spectrum.L_lambda_l = 8, spectrum.L_lambda_s = n / 8.0;
+        Spectrum spectrum{.L_lambda_l = 8, .L_lambda_s = n / 8.0};
         const HeightMap map = synthesize(spectrum, n, Normalise::sample, 1, 1);
         const Indenter flat{kGold.E_star, HUGE_VAL, 0, 0, {map.Lx(), map.Ly()}};
         const auto contact = make_element_contact(map, flat, options());

@@ -21,11 +21,7 @@ double beside(int runs, const std::function<void()>& reference, const std::funct
     return ratios[static_cast<std::size_t>(runs / 2)];
 }
 
-Spectrum spectrum_of(double lambda_l, double lambda_s) {
-    Spectrum s;
-    s.L_lambda_l = lambda_l, s.L_lambda_s = lambda_s;
-    return s;
-}
+Spectrum spectrum_of(double lambda_l, double lambda_s) { return {.L_lambda_l = lambda_l, .L_lambda_s = lambda_s}; }
 
 }  // namespace
 

@@ -74,8 +74,7 @@ void levels(const HeightMap& map, int count) {
 
 void threads() {
     std::printf("\nthreads: time with all threads / with one, beside 0, 1, 2 busy processes (wanted: at most 1.1 everywhere)\n");
-    Spectrum spectrum;
-    spectrum.L_lambda_s = 512;
+    Spectrum spectrum{.L_lambda_s = 512};
     const auto make = [&] { return synthesize(spectrum, 4096, Normalise::sample, 1, 1, nullptr, static_cast<int>(most_threads(0))); };
     compare("synthesis, 4096^2", make);
     const HeightMap map = make();

@@ -22,8 +22,7 @@ SolverOptions options(double tolerance) {
 }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
-    Spectrum spectrum;
-    spectrum.L_lambda_s = L_lambda_s;
+    Spectrum spectrum{.L_lambda_s = L_lambda_s};
     return synthesize(spectrum, n, Normalise::sample, seed, 1);
 }
 

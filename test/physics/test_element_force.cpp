@@ -31,8 +31,7 @@ Run run(const HeightMap& map, const Indenter& tip, const std::vector<double>& va
 }
 
 void compare(double R, const std::vector<double>& forces) {
-    Spectrum s;
-    s.L = 1, s.sigma = 1e-3, s.L_lambda_l = 4, s.L_lambda_s = 16;
+    Spectrum s{.L = 1, .L_lambda_l = 4, .L_lambda_s = 16, .sigma = 1e-3};
     const HeightMap map = synthesize(s, 128, Normalise::sample, 1, 1);
     const Indenter tip{1e5, R, 0.5, 0.5};
     const auto under_force = [](Contact& contact, double N) { return contact.at_force(N); };

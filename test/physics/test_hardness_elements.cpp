@@ -27,10 +27,7 @@ SolverOptions options(double H0, double tolerance = 1e-10) {
 }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
-    Spectrum spectrum;
-    spectrum.L_lambda_l = 4;
-    spectrum.L_lambda_s = L_lambda_s;
-    spectrum.sigma = kSigma;
+    Spectrum spectrum{.L_lambda_l = 4, .L_lambda_s = L_lambda_s, .sigma = kSigma};
     return synthesize(spectrum, n, Normalise::sample, seed, 1);
 }
 

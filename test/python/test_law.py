@@ -120,12 +120,14 @@ class WholeText(unittest.TestCase):
         spring = [[-row[1], -row[0]] for row in rows[::-1]] + [[0, 0], [0, 7]]
         for flag in ("--calculix", "--abaqus"):
             self.assertTrue(np.allclose(points(run(file, flag)), spring, rtol=1e-9))
+            self.assertIn("\n*SPRING, ELSET=ROUGH, NONLINEAR\n\n", run(file, flag))
 
     def test_flats(self):
         file = made("whole_flats", self.Z, self.N, self.A / 1e5, self.STATUS, flats=True)
         rows = self.points(self.Z, self.N, self.A / 1e5)
         self.assertTrue(np.allclose(self.rows(file), np.vstack([np.zeros(6), rows]), rtol=1e-11))
         self.assertTrue(np.allclose(points(run(file, "--calculix")), np.vstack([[0, 0], rows[:, [1, 0]]]), rtol=1e-9))
+        self.assertIn("\n*SURFACE INTERACTION, NAME=ROUGH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n", run(file, "--calculix"))
 
     def test_loads_prescribed(self):
         """Separations are averaged, scatter, and are given in any order; no level is without contact, no area in the file."""

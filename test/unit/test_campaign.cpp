@@ -191,6 +191,10 @@ void test_rewrite(const Folder& folder) {
         const rlimit little{10, usual.rlim_max};
         CHECK(setrlimit(RLIMIT_FSIZE, &little) == 0);
         checkpoint.rewrite("newer sums", {});
+        // No room for a whole record: what is written of it is taken away.
+        const rlimit some{bytes(state).size() + 20, usual.rlim_max};
+        CHECK(setrlimit(RLIMIT_FSIZE, &some) == 0);
+        CHECK_THROWS(checkpoint.append(std::string(100, 'x')), Error);
         CHECK(setrlimit(RLIMIT_FSIZE, &usual) == 0);
         checkpoint.append("and on");
     }

@@ -58,6 +58,10 @@ void bad_heights_from_netcdf() {
             "there is no variable height(y, x), and");
     REFUSED(read_heights(of({{"t", 2}, {"y", 4}, {"x", 4}}, {{"height", NC_DOUBLE, {"t", "y", "x"}}}), 1.0),
             ": height(y, x), numeric, was expected, not height(t = 2, y = 4, x = 4)");
+    REFUSED(read_heights(of({{"y", 4}, {"x", 4}}, {{"height", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1), {{"scale_factor", "2"}}}}), 1.0),
+            "attribute height:scale_factor is text; a number was expected");
+    REFUSED(read_asperities(of({{"y", 4}, {"x", 4}}, {{"asperity_x", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1)}})),
+            "asperity_x, numeric over one dimension, was expected, not asperity_x(y = 4, x = 4)");
     const std::string none = of({{"t", 2}}, {{"t", NC_DOUBLE, {"t"}}});
     REFUSED(read_heights(none, 1.0), ": there is no variable height(y, x) and no other of two dimensions");
     REFUSED(read_asperities(none), "there is no variable asperity_x; asperity_x,");

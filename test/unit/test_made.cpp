@@ -13,10 +13,7 @@ using namespace rsc;
 namespace {
 
 Spectrum model(double aspect, double direction, double hurst = 0.8) {
-    Spectrum s;
-    s.L_lambda_l = 4, s.L_lambda_s = 32, s.hurst = hurst;
-    s.aspect = aspect, s.direction = direction;
-    return s;
+    return {.hurst = hurst, .L_lambda_l = 4, .L_lambda_s = 32, .aspect = aspect, .direction = direction};
 }
 
 HeightMap made(const Spectrum& s, int n, Moments* sampled = nullptr, int threads = 1) {

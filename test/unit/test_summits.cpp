@@ -66,11 +66,7 @@ Waves waves_of(const Spectrum& s, std::int64_t seed, std::int64_t realization) {
     return w;
 }
 
-Spectrum small_spectrum(double L_lambda_l, double L_lambda_s) {
-    Spectrum s;
-    s.L = 2, s.L_lambda_l = L_lambda_l, s.L_lambda_s = L_lambda_s;
-    return s;
-}
+Spectrum small_spectrum(double L_lambda_l, double L_lambda_s) { return {.L = 2, .L_lambda_l = L_lambda_l, .L_lambda_s = L_lambda_s}; }
 
 double rms(const std::vector<double>& v) {
     double sum = 0;
