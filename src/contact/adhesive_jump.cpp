@@ -56,8 +56,12 @@ bool AdhesivePath::settle(double Z, Vector s) {
 // Remembers the state before a jump. Until the end of the jump the gaps are changed by its residuals, so that it is an exact equilibrium.
 void AdhesivePath::hold() {
     set_gaps(here.Z);
-    solver.rest_on(set, 0.1 * kInJump, here.s);
+    solver.rest_on(set, kNoiseBeforeJump, here.s);
     read_solution(here);
+    keep();
+}
+
+void AdhesivePath::keep() {
     held_before.clear(), free_before.resize(asperities.size());
     for (std::size_t k = 0; k < active.size(); ++k)
         held_before.push_back({set.asperity[at(active[k])], here.states[k], solver.residuals()[k]});
@@ -147,16 +151,21 @@ void AdhesivePath::detach(std::size_t k, Vector& s) {
 }
 
 // From hold() to the equilibrium of the attached asperities near s. The jump takes place at Z + ahead, where the energy before it is
-// W - power ahead - bend/2 change.power ahead^2, and is computed at Z.
-void AdhesivePath::jump(Vector s, double ahead, double bend) {
-    const double power = here.power, rate_of_power = bend * here.change.power;
+// W - power ahead - bend/2 change.power ahead^2, and is computed at Z. An asperity `event` has been put exactly where it jumps by a change of its
+// gap; then only the others change along `ahead`, and they lift the surface there at the rate `lifts`.
+void AdhesivePath::jump(Vector s, double ahead, double bend, int event, double lifts) {
+    double power = 0;  // after the jump less before it, minus dW/dZ
+    const double rate_of_power = bend * here.change.power;
+    const auto add = [&](int asperity, double f) { power -= f * (asperity == event ? lifts : rate[at(place[at(asperity)])]); };
+    for (const Held& held : held_before) add(held.asperity, -held.state.f);
     now.least_force = std::min(now.least_force, here.force);
     ++jumps;
     if (!settle(here.Z, std::move(s))) {
         lost_way = true;
         return held_before.clear();
     }
-    now.lost += ahead * (here.power - power + 0.5 * ahead * (here.change.power - rate_of_power)) - energy_gained();
+    for (std::size_t k = 0; k < active.size(); ++k) add(set.asperity[at(active[k])], here.states[k].f);
+    now.lost += ahead * (power + (bend > 0 ? 0.5 * ahead * (here.change.power - rate_of_power) : 0.0)) - energy_gained();
     now.least_force = std::min(now.least_force, here.force);
     held_before.clear();
 }

@@ -35,11 +35,6 @@ void AdhesivePath::hold_gaps() {
     for (const Held& held : held_before) set.g0[at(place[at(held.asperity)])] -= held.residual;
 }
 
-void AdhesivePath::set_power(Point& point) const {
-    point.power = 0;
-    for (std::size_t k = 0; k < active.size(); ++k) point.power -= solver.states()[k].f * rate[at(active[k])];
-}
-
 // Follows the accepted state while the tip moves on a straight line at the accepted separation. Returns false if the path is lost; the
 // accepted state and the tip are then unchanged, as after an exception. On a surface that repeats the way is the shortest one, and is
 // taken in pieces that are short against the period, so that images of asperities are the nearest ones all along.

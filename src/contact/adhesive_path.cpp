@@ -47,7 +47,7 @@ void AdhesivePath::cover(double lowest) {
     for (int p : active) attached.push_back(set.asperity[at(p)]);
     const Vector s = here.s;
     for (int i : set.asperity) place[at(i)] = -1;
-    set = {}, clearance.clear();
+    set = {}, clearance.clear(), trend = {};
     covered = motion ? -kInfinity : lowest - margin;
     std::vector<int> fresh;
     const std::size_t last = motion ? 0 : ranking.above(covered, fresh);
@@ -110,7 +110,6 @@ bool AdhesivePath::find(double Z, Vector s, Point& point, double accuracy, int l
 
 void AdhesivePath::read_solution(Point& point) {
     point.states = solver.states();
-    set_power(point);
     point.force = solver.force(), point.energy = solver.energy(), point.residual = solver.residual();
     point.u.clear();
     for (int p : products->passive()) point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)] - sticking.touches());
@@ -185,7 +184,7 @@ bool AdhesivePath::begin(double target) {
 bool AdhesivePath::go(double target, std::optional<double> wanted) {
     const double direction = target > here.Z ? 1 : -1;
     Point before;  // previous state with the same attached asperities
-    bool known = false;
+    bool known = false, direct = true;
     double shorter = 1;  // reduction of the step after a failure
     double unstable_at = kInfinity;
     long left_there = 0;  // number of asperities detached at this separation because no step was short enough
@@ -210,6 +209,11 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             known = false, shorter = 1;
             continue;
         }
+        if (direct && leap(target, wanted)) {
+            known = false, shorter = 1;
+            continue;
+        }
+        direct = false;
         // Limits the step to a part of the distance to the next detachment; very close to it, the asperity is detached.
         double way = kInfinity;
         std::size_t weakest = 0;
@@ -347,7 +351,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         now.least_force = std::min(now.least_force, there.force);
         before = std::move(here);
         here = std::move(there);
-        known = true;
+        known = direct = true;
     }
     if (here.exact) return true;
     if (!find(target, here.s, here)) return lost_way = true;

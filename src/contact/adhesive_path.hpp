@@ -12,6 +12,8 @@
 
 namespace rsc {
 
+constexpr double kNoiseBeforeJump = 1e-7;  // error of the products of the state before a jump; it does not change in the jump
+
 struct AdhesivePath : ContactBodies {
     using Vector = std::vector<double>;
 
@@ -62,7 +64,6 @@ struct AdhesivePath : ContactBodies {
         Vector u;  // penetrations of the others, relative to attachment
         std::vector<Sticking::State> states;
         double force = 0, energy = 0, residual = 0;
-        double power = 0;  // -dW/dZ
         bool exact = false;
         AttachedSolver::Change change;
         Vector left;  // expected distances of the attached to detachment
@@ -78,6 +79,12 @@ struct AdhesivePath : ContactBodies {
     std::vector<Held> held_before;
     Vector free_before;
 
+    // Rates of all penetrations with respect to Z at an earlier state with nearly the same attached asperities, by position in the set.
+    struct Trend {
+        double Z = 0;
+        Vector rate;
+    } trend;
+
     // As AdhesiveContact.
     AdhesivePath(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_);
 
@@ -89,19 +96,21 @@ struct AdhesivePath : ContactBodies {
     double raised() const;
     void read_solution(Point& point);
     void hold();
+    void keep();
     void hold_more(double Z);
     double energy_gained() const;
     bool settle(double Z, Vector s);
+    bool leap(double target, std::optional<double> wanted);
+    bool others_apart(const Point& point, std::size_t k) const;
     void attach_one(int position, double ahead);
     void let_go(std::size_t weakest, double ahead);
-    void jump(Vector s, double ahead, double bend);
+    void jump(Vector s, double ahead, double bend, int event = -1, double lifts = 0);
     void attach_at(int position, double u, Vector& s);
     void detach(std::size_t k, Vector& s);
     bool go(double target, std::optional<double> wanted);
     bool begin(double target);
     void set_gaps(double Z);
     void hold_gaps();
-    void set_power(Point& point) const;
     double clearance_at(int asperity, double share);  // with the tip at this share of its way
     bool move(double x0, double y0);
     bool move_piece(Vec2 from, Vec2 to);

@@ -56,6 +56,7 @@ void minres(Multiply&& multiply, const Vector& b, double accuracy, Vector& x) {
 double AttachedSolver::miss(const WorkingSet& set, const Vector& res) const {
     double error2 = 0, size2 = 0, own = 0;
     for (std::size_t k = 0; k < res.size(); ++k) {
+        if (k == held_) continue;
         const auto i = static_cast<std::size_t>(products_->active()[k]);
         const Sticking::State& now = state_[k];
         const double error = now.stiffness * res[k], gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
@@ -63,7 +64,7 @@ double AttachedSolver::miss(const WorkingSet& set, const Vector& res) const {
         error2 += error * error, size2 += size;
         own = std::max(own, std::abs(error) / (std::sqrt(size) + kRounding * now.stiffness * gap));
     }
-    return res.empty() ? 0.0 : std::max(std::sqrt(error2 / size2), kOwn * own);
+    return size2 == 0 ? 0.0 : std::max(std::sqrt(error2 / size2), kOwn * own);
 }
 
 void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full) {
@@ -128,6 +129,7 @@ void AttachedSolver::weigh(double mu) {
         p_[k] = sign * std::sqrt(now.stiffness * slope / (slope + q));
         to_s_[k] = p_[k] / (sign * slope);
     }
+    if (held_ < n) diagonal_[held_] = 1, p_[held_] = to_s_[held_] = 0;
 }
 
 void AttachedSolver::multiply(const Vector& y, Vector& image) {
@@ -181,7 +183,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
             in_[k] = 0;
-            if (df >= 0) continue;
+            if (df >= 0 || k == held_) continue;
             if (!(du > 0)) return false;
             in_[k] = proof_[place(k)] > 0 ? proof_[place(k)] : 1 / du, any = true;
         }
@@ -220,7 +222,7 @@ bool AttachedSolver::stable(const WorkingSet& set) {
         double lowest = 1;
         for (std::size_t k = 0; k < n; ++k) {
             if (std::isnan(ds[k])) return false;
-            if (state_[k].df < 0 && sign * ds[k] < lowest) lowest = sign * ds[k], weakest_ = k;
+            if (state_[k].df < 0 && k != held_ && sign * ds[k] < lowest) lowest = sign * ds[k], weakest_ = k;
         }
         return lowest > 0;
     };
@@ -239,8 +241,8 @@ void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
     }
 }
 
-void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s) {
-    evaluate(set, s, false);
+void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s, bool solved) {
+    if (!solved) held_ = ~std::size_t{0}, evaluate(set, s, false);
     if (noise_ > noise) return evaluate(set, s, true);
     add_passive();
     const double shift = products_->kernel().shift() * force_;
@@ -250,12 +252,19 @@ void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& 
 
 void AttachedSolver::release(std::size_t k) {
     if (products_->active() != reference_) return;
-    Vector alone(f_reference_.size(), 0.0), part(phi_reference_.size());
-    alone[k] = f_reference_[k];
-    products_->inner_everywhere(alone.data(), part.data());
+    Vector part(phi_reference_.size());
+    products_->set_active({reference_[k]});
+    products_->inner_everywhere(&f_reference_[k], part.data());
     for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= part[i];
     reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
     f_reference_.erase(f_reference_.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
+double AttachedSolver::elevation(const WorkingSet& set, int position) {
+    const auto i = static_cast<std::size_t>(position);
+    double more = 0;
+    if (!df_.empty()) products_->elsewhere(df_.data(), 1, &set.x[i], &set.y[i], &more);
+    return phi_[i] + more;
 }
 
 // Adds the change of the forces to phi_ at the others.
@@ -267,14 +276,17 @@ void AttachedSolver::add_passive() {
     for (std::size_t k = 0; k < more.size(); ++k) phi_[static_cast<std::size_t>(passive[k])] += more[k];
 }
 
-bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s, int least) {
+bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s, int least, int held, bool whole) {
+    held_ = static_cast<std::size_t>(held);
     double best = 1e300;
     int worse = 0;
     for (int k = 0;; ++k) {
         evaluate(set, s, false);
-        const bool near = residual_ <= tolerance + 2 * noise_, stuck = residual_ >= 0.9 * best;
-        if ((near && noise_ > (exact ? 0.0 : 0.1 * tolerance)) || (stuck && noise_ > 0)) evaluate(set, s, true);
+        const double noise = least > 0 ? noise_ - noise_reference_ : noise_;
+        const bool near = residual_ <= tolerance + 2 * noise, stuck = residual_ >= 0.9 * best;
+        if ((near && noise > (exact ? 0.0 : 0.1 * tolerance)) || (stuck && noise > 0)) evaluate(set, s, true);
         if (residual_ <= tolerance && k >= least) {
+            if (!whole) return true;
             if (!stable(set)) return false;
             add_passive();
             return true;

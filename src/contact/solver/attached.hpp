@@ -43,11 +43,16 @@ public:
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false if none was found near; s is then
     // undefined, and weakest() is the position among the attached of the one that becomes unstable.
     // `exact`: forces, phi() and energy() are those of a full product; otherwise its error is below a tenth of the tolerance.
-    // `least`: smallest number of Newton steps.
-    bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s, int least = 0);
+    // `least`: smallest number of Newton steps; if positive, s is the state of rest_on() but for a jump, and the noise of that does not count. `held`: the state of this one of the attached does not change, and its residual is not judged.
+    bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s, int least = 0, int held = -1,
+               bool whole = true);
+    // After solve() with whole = false, which leaves these out: whether the equilibrium is stable, and B f at one of the others.
+    bool stable(const WorkingSet& set);
+    double elevation(const WorkingSet& set, int position);
     // Takes the forces in the states s as those from whose change further products are found, if the error of their product is below
     // `noise`; otherwise after a full product. The next states then differ from s without that error.
-    void rest_on(const WorkingSet& set, double noise, const std::vector<double>& s);
+    // `solved`: s is the last equilibrium at the same gaps.
+    void rest_on(const WorkingSet& set, double noise, const std::vector<double>& s, bool solved = false);
     // Must be called before the k-th of the attached is removed from the active points: its force is taken away from rest_on().
     void release(std::size_t k);
     std::size_t weakest() const { return weakest_; }
@@ -88,7 +93,6 @@ private:
     void weigh(double mu);               // computes the coefficients of the symmetric systems
     bool apart(const WorkingSet& set);   // S is positive definite
     bool proved(const WorkingSet& set);  // stable by the cheaper proof
-    bool stable(const WorkingSet& set);
 
     const Sticking& law_;
     Products* products_ = nullptr;
@@ -97,6 +101,7 @@ private:
     double force_ = 0, energy_ = 0, residual_ = 0, noise_ = 0;
     std::size_t weakest_ = 0;
     double mu_ = 0;                       // of weigh()
+    std::size_t held_ = ~std::size_t{0};  // of solve()
     std::vector<double> stiffest_;        // by position in the set: D up to which S is known to be positive definite
     std::vector<double> before_, proof_;  // by position in the set: the last ds/dZ0 and v, starting points
     // Last full product or rest_on(): active positions, forces, B f over the set, without shift(), and its noise; and the present change of
