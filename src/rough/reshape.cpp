@@ -3,6 +3,7 @@
 #include <boost/math/special_functions/erf.hpp>
 
 #include "error.hpp"
+#include "rough/dispatch.hpp"
 #include "rough/height_distribution.hpp"
 #include "rough/library_lock.hpp"
 #include "rough/surface.hpp"
@@ -24,6 +25,51 @@ HeightShape usable(HeightShape shape) {
     const double skewness = std::clamp(shape.skewness, -6.0, 6.0);
     return {skewness, std::clamp(shape.kurtosis, 1.2 * skewness * skewness + 1.3, 90.0)};
 }
+
+// Sums go by lanes, so that loops vectorise, and modes by batches.
+constexpr int kLanes = 16, kBatch = 256;
+
+double sum(const float* lanes) { return std::accumulate(lanes, lanes + kLanes, 0.0f); }
+
+// Adds the squares, cubes and fourth powers of `count` numbers, a multiple of kLanes, to sums in lanes.
+RSC_ALWAYS_INLINE void add_powers_body(const float* z, std::ptrdiff_t count, float* second, float* third, float* fourth) {
+    for (std::ptrdiff_t i = 0; i < count; i += kLanes)
+        for (int l = 0; l < kLanes; ++l) {
+            const float square = z[i + l] * z[i + l];
+            second[l] += square, third[l] += z[i + l] * square, fourth[l] += square * square;
+        }
+}
+RSC_DISPATCH(add_powers, add_powers_body, (const float* z, std::ptrdiff_t count, float* second, float* third, float* fourth),
+             (z, count, second, third, fourth))
+
+// Tangents and cosines of the angles by which a change p x + q y across a batch of modes rotates them; inverse: of their squared amplitudes.
+RSC_ALWAYS_INLINE void angles(const float* x, const float* y, const float* inverse, float p, float q, float* tangent, float* cosine) {
+    for (int i = 0; i < kBatch; ++i) {
+        tangent[i] = (p * x[i] + q * y[i]) * inverse[i];
+        cosine[i] = 1 + tangent[i] * tangent[i];
+    }
+    vector_math::square_roots(cosine, kBatch);
+    for (int i = 0; i < kBatch; ++i) cosine[i] = 1 / cosine[i];
+}
+
+// Adds up, over a batch of modes rotated by these angles, the changes x and y across them in products, and the losses of u and v along them.
+RSC_ALWAYS_INLINE void add_rotated_body(const float* x, const float* y, const float* u, const float* v, const float* inverse, float p,
+                                        float q, double* total) {
+    alignas(64) float tangent[kBatch], cosine[kBatch];
+    angles(x, y, inverse, p, q, tangent, cosine);
+    float sums[5][kLanes] = {};
+    for (int j = 0; j < kBatch; j += kLanes)
+        for (int l = 0; l < kLanes; ++l) {
+            const int m = j + l;
+            const float weight = cosine[m] * inverse[m], wx = weight * x[m], wy = weight * y[m], lost = 1 - cosine[m];
+            sums[0][l] += wx * x[m], sums[1][l] += wx * y[m], sums[2][l] += wy * y[m];
+            sums[3][l] += lost * u[m], sums[4][l] += lost * v[m];
+        }
+    for (int i = 0; i < 5; ++i) total[i] += sum(sums[i]);
+}
+RSC_DISPATCH(add_rotated, add_rotated_body,
+             (const float* x, const float* y, const float* u, const float* v, const float* inverse, float p, float q, double* total),
+             (x, y, u, v, inverse, p, q, total))
 
 // Modes of the half plane within an ellipse (and the band of the surface), stored in the columns of the caller.
 struct Modes {
@@ -60,6 +106,9 @@ public:
         heights_ = allocate(static_cast<std::size_t>(m_) * static_cast<std::size_t>(row_stride_) / 2);
         std::fill_n(heights_.get(), m_ * row_stride_ / 2, Complex());
         line_ = allocate(static_cast<std::size_t>(row_stride_) / 2);
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
+            runs_.emplace_back(kx * stride_ + (ky < 0 ? ky + m_ : ky), count);
+        });
         plans_ = plans();
     }
 
@@ -129,8 +178,8 @@ private:
             if (points == m_) return p;
         const auto p = std::make_shared<Plans>();
         auto *const c = fftw(store_.get()), *const row = fftw(rows_.get());
-        p->up.reset(fftwf_plan_dft_1d(m_, c, c, FFTW_BACKWARD, FFTW_ESTIMATE));
-        p->down.reset(fftwf_plan_dft_1d(m_, c, c, FFTW_FORWARD, FFTW_ESTIMATE));
+        p->up.reset(fftwf_plan_dft_1d(m_, row, c, FFTW_BACKWARD, FFTW_ESTIMATE));
+        p->down.reset(fftwf_plan_dft_1d(m_, row, c, FFTW_FORWARD, FFTW_ESTIMATE));
         p->to_heights.reset(fftwf_plan_dft_c2r_1d(m_, row, numbers(heights_), FFTW_ESTIMATE));
         p->to_modes.reset(fftwf_plan_dft_r2c_1d(m_, numbers(line_), row, FFTW_ESTIMATE));
         if (!p->up || !p->down || !p->to_heights || !p->to_modes)
@@ -140,15 +189,15 @@ private:
         return p;
     }
     static constexpr int kBlock = 16;  // rows at a time
-    static constexpr int kLanes = 16;  // of sums, so that loops vectorise
-    static constexpr std::size_t kBatch = 64;
     static constexpr int kBins = 1024;
     static constexpr double kLongest = 0.5;
 
+    // From a copy of each column, because FFTW takes longer in place.
     void transform(const FftwfPlan& plan) {
         for (int kx = 0; kx < columns_; ++kx) {
-            auto* const c = fftw(store_.get() + kx * stride_);
-            fftwf_execute_dft(plan.get(), c, c);
+            Complex* const c = store_.get() + kx * stride_;
+            std::copy_n(c, m_, rows_.get());
+            fftwf_execute_dft(plan.get(), fftw(rows_.get()), fftw(c));
         }
     }
 
@@ -156,10 +205,10 @@ private:
     template <class Visit>
     void each(Visit visit) const {
         std::size_t k = 0;
-        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
-            visit(k, store_.get() + kx * stride_ + (ky < 0 ? ky + m_ : ky), static_cast<std::size_t>(count));
-            k += static_cast<std::size_t>(count);
-        });
+        for (const auto& [place, count] : runs_) {
+            visit(k, store_.get() + place, count);
+            k += count;
+        }
     }
 
     // The heights of the modes, and their moments.
@@ -177,17 +226,12 @@ private:
             }
             for (int r = 0; r < count; ++r) {
                 Complex* const row = rows_.get() + r * row_stride_ / 2;
-                float* const z = numbers(heights_) + (j + r) * row_stride_;
                 std::fill(row + columns_, row + m_ / 2 + 1, Complex());
-                fftwf_execute_dft_c2r(plans_->to_heights.get(), fftw(row), z);
-                float s2[kLanes] = {}, s3[kLanes] = {}, s4[kLanes] = {};
-                for (int i = 0; i < row_stride_; i += kLanes)  // zeros at the end of a row add nothing
-                    for (int l = 0; l < kLanes; ++l) {
-                        const float square = z[i + l] * z[i + l];
-                        s2[l] += square, s3[l] += z[i + l] * square, s4[l] += square * square;
-                    }
-                m2 += sum(s2), m3 += sum(s3), m4 += sum(s4);
+                fftwf_execute_dft_c2r(plans_->to_heights.get(), fftw(row), numbers(heights_) + (j + r) * row_stride_);
             }
+            float second[kLanes] = {}, third[kLanes] = {}, fourth[kLanes] = {};
+            add_powers(numbers(heights_) + j * row_stride_, count * row_stride_, second, third, fourth);  // rows end with zeros
+            m2 += sum(second), m3 += sum(third), m4 += sum(fourth);
         }
         const double points = static_cast<double>(m_) * m_, variance = m2 / points;
         return {m3 / points / (variance * std::sqrt(variance)), m4 / points / (variance * variance)};  // the mean is 0: no mode (0, 0)
@@ -231,17 +275,6 @@ private:
         });
     }
 
-    // Tangents and cosines of the angles by which p z^2 + q z^3 rotates a batch of modes.
-    void angles(std::size_t k, float p, float q, float* tangent, float* cosine) const {
-        const float *const x = &second_.across[k], *const y = &third_.across[k], *const inverse = &inverse_[k];
-        for (std::size_t i = 0; i < kBatch; ++i) {
-            tangent[i] = (p * x[i] + q * y[i]) * inverse[i];
-            cosine[i] = 1 + tangent[i] * tangent[i];
-        }
-        vector_math::square_roots(cosine, kBatch);
-        for (std::size_t i = 0; i < kBatch; ++i) cosine[i] = 1 / cosine[i];
-    }
-
     // Newton's method for both moments with the smallest change of heights that phases allow: p z^2 + q z^3 without the parts along the modes.
     // The rotation of a mode, and the loss along its old direction, are not linearised, because modes of small amplitude rotate far.
     void step(HeightShape wish) {
@@ -254,21 +287,10 @@ private:
         alignas(64) float tangent[kBatch], cosine[kBatch];
         float p = 0, q = 0;
         for (int i = 0; i < kSteps; ++i) {
-            double a = 0, b = 0, c = 0, s1 = s, t1 = t;
-            for (std::size_t k = 0; k < mode_.size(); k += kBatch) {
-                angles(k, p, q, tangent, cosine);
-                const float *const x = &second_.across[k], *const y = &third_.across[k], *const inverse = &inverse_[k];
-                const float *const u = &second_.along[k], *const v = &third_.along[k];
-                float sums[5][kLanes] = {};
-                for (std::size_t j = 0; j < kBatch; j += kLanes)
-                    for (std::size_t l = 0; l < kLanes; ++l) {
-                        const std::size_t m = j + l;
-                        const float weight = cosine[m] * inverse[m], wx = weight * x[m], wy = weight * y[m], lost = 1 - cosine[m];
-                        sums[0][l] += wx * x[m], sums[1][l] += wx * y[m], sums[2][l] += wy * y[m];
-                        sums[3][l] += lost * u[m], sums[4][l] += lost * v[m];
-                    }
-                a += sum(sums[0]), b += sum(sums[1]), c += sum(sums[2]), s1 += sum(sums[3]), t1 += sum(sums[4]);
-            }
+            double sums[5] = {0, 0, 0, s, t};
+            for (std::size_t k = 0; k < mode_.size(); k += kBatch)
+                add_rotated(&second_.across[k], &third_.across[k], &second_.along[k], &third_.along[k], &inverse_[k], p, q, sums);
+            const auto [a, b, c, s1, t1] = sums;
             const double determinant = a * c - b * b;
             if (!(determinant > 0)) return;
             p = static_cast<float>((c * s1 - b * t1) / determinant), q = static_cast<float>((a * t1 - b * s1) / determinant);
@@ -276,7 +298,7 @@ private:
             if (const float most = static_cast<float>(kLongest / size); most < 1) p *= most, q *= most;
         }
         for (std::size_t k = 0; k < mode_.size(); k += kBatch) {
-            angles(k, p, q, tangent, cosine);
+            angles(&second_.across[k], &third_.across[k], &inverse_[k], p, q, tangent, cosine);
             for (std::size_t i = 0; i < kBatch; ++i) {
                 const float x = cosine[i] * mode_[k + i].real(), y = cosine[i] * mode_[k + i].imag();
                 mode_[k + i] = {x - tangent[i] * y, y + tangent[i] * x};
@@ -296,7 +318,6 @@ private:
         });
     }
 
-    static double sum(const float* lanes) { return std::accumulate(lanes, lanes + kLanes, 0.0f); }
     static constexpr int kSteps = 3;
 
     // Bins over +-kRange rms heights; the outermost include all larger heights.
@@ -335,6 +356,7 @@ private:
     int m_, columns_;
     std::ptrdiff_t stride_, row_stride_;  // strides of columns (complex numbers) and rows (real numbers)
     Memory store_, rows_, heights_, line_;
+    std::vector<std::pair<std::ptrdiff_t, std::size_t>> runs_;  // places in the columns and lengths of the runs of modes
     std::shared_ptr<const Plans> plans_;
     HeightShape now_;
     std::vector<Complex> mode_, kept_;  // for an rms height of 1; kept_: those nearest to the wish
@@ -379,23 +401,13 @@ std::pair<Band, double> long_waves(const Modes& modes, double share) {
             total += e;
         }
     });
-    std::size_t b = 0;
-    while (b < bins && found < share * total) found += energy[b++];
+    int b = 0;
+    while (b < bins && found < share * total) found += energy[static_cast<std::size_t>(b++)];
     const double q = static_cast<double>(b) / bins;
     return {ellipse(modes.whole, modes.band.stretched, modes.band.highest_q2 * q * q), found / total};
 }
 
 }  // namespace
-
-int fast_size(double least) {
-    int n = static_cast<int>(std::ceil(least));
-    for (n += n % 2;; n += 2) {
-        int rest = n;
-        for (int factor : {2, 3, 5, 7})
-            while (rest % factor == 0) rest /= factor;
-        if (rest == 1) return n;
-    }
-}
 
 HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* columns, std::ptrdiff_t stride, int n) {
     const Band whole = band(spectrum);
@@ -404,8 +416,7 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
         // The table of a measured map ends with its grid, and its spectrum often before that.
         const Stretch form = power_ellipse(spectrum);
         all.band = ellipse(whole, form, whole.highest_q2 * (form.xx + form.yy));
-        constexpr double all_of_it = 1 - 1e-12;
-        all.band = long_waves(all, all_of_it).first;
+        all.band = long_waves(all, 1 - 1e-12).first;
     }
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
     // At first only the long waves are changed. The short ones remain Gaussian and uncorrelated with them, so the skewness and excess
@@ -420,14 +431,14 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
     Field coarse(longest, points(band)), fine(all, points(all.band));
     constexpr int coarse_rounds = 10, corrections = 3, fine_rounds = 20;
     constexpr double far = 4;  // beyond, all waves are changed at once
-    coarse.take();
     double off = 0;
+    coarse.take();
     for (int i = 0; i < corrections && (i == 0 || (off > 1 && off < far)); ++i) {
         coarse.run(usable(ask), nullptr, i == 0 ? 0.6 : 1, coarse_rounds, 0.75);
         got = fine.take();
         off = distance(got, wish);
-        const HeightShape more = of_long_waves(wish.skewness - got.skewness, wish.kurtosis - got.kurtosis);
-        ask.skewness += more.skewness, ask.kurtosis += more.kurtosis;
+        const auto [skewness, kurtosis] = of_long_waves(wish.skewness - got.skewness, wish.kurtosis - got.kurtosis);
+        ask.skewness += skewness, ask.kurtosis += kurtosis;
     }
     if (off > 1 || spectrum.heights) got = fine.run(wish, spectrum.heights.get(), spectrum.heights ? 0.3 : 1, fine_rounds, HUGE_VAL);
     for (int ky = 1; ky <= whole.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0

@@ -6,7 +6,15 @@
 namespace rsc {
 
 // The smallest even size >= least with a fast Fourier transform.
-int fast_size(double least);
+inline int fast_size(double least) {
+    int n = static_cast<int>(std::ceil(least));
+    for (n += n % 2;; n += 2) {
+        int rest = n;
+        for (int factor : {2, 3, 5, 7})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
 
 // Changes only the phases of a surface's modes until its heights have the skewness and kurtosis, or the distribution, given in the
 // Spectrum: by Newton's method for both moments, at first of the waves that hold 92 % of the mean square height, of all waves if that does

@@ -6,6 +6,10 @@
 #include "rough/parallel.hpp"
 #include "rough/reshape.hpp"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace rsc {
 namespace {
 
@@ -25,16 +29,38 @@ HeightMap empty_map(double L, int n) {
     return map;
 }
 
+// Four numbers, and their storage at places aligned to 16 bytes. A map of more than kCached heights is better written past the cache, which
+// would read it first.
+constexpr std::size_t kCached = 1200 * 1200;
+using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+struct ToCache {
+    static void store(double* to, const Four& v) { reinterpret_cast<Four&>(*to) = v; }
+    static void end() {}
+};
+#if defined(__SSE2__)
+struct PastCache {
+    static void store(double* to, const Four& v) {
+        _mm_stream_pd(to, __m128d{v[0], v[1]});
+        _mm_stream_pd(to + 2, __m128d{v[2], v[3]});
+    }
+    static void end() { _mm_sfence(); }
+};
+#else
+using PastCache = ToCache;
+#endif
+
 // Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`. n and rows must be even.
+template <class Target>
 RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance) {
-    using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
     const int rows4 = rows - rows % 4, n4 = n - n % 4;
     for (int i = 0; i < n4; i += 4) {
         double* const out = to + i * distance;
-        // The distance is too large for the hardware prefetcher.
-        const double* const soon = to + std::min(i + 4, n - 4) * distance;
-        for (int k = 0; k < 4; ++k)
-            for (int r = 0; r < rows; r += 8) __builtin_prefetch(soon + k * distance + r, 1);
+        if constexpr (std::is_same_v<Target, ToCache>) {
+            // The distance is too large for the hardware prefetcher.
+            const double* const soon = to + std::min(i + 4, n - 4) * distance;
+            for (int k = 0; k < 4; ++k)
+                for (int r = 0; r < rows; r += 8) __builtin_prefetch(soon + k * distance + r, 1);
+        }
         for (int r = 0; r < rows4; r += 4) {
             const double* const in = from + r * stride + i;
             const Four &a = reinterpret_cast<const Four&>(in[0]), &b = reinterpret_cast<const Four&>(in[stride]);
@@ -42,18 +68,28 @@ RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride,
             const Four ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
             const Four cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
             double* const place = out + r;
-            reinterpret_cast<Four&>(place[0]) = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5);
-            reinterpret_cast<Four&>(place[distance]) = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
-            reinterpret_cast<Four&>(place[2 * distance]) = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
-            reinterpret_cast<Four&>(place[3 * distance]) = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
+            Target::store(place, __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5));
+            Target::store(place + distance, __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5));
+            Target::store(place + 2 * distance, __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7));
+            Target::store(place + 3 * distance, __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7));
         }
     }
     for (int r = 0; r < rows; ++r)
         for (int i = r < rows4 ? n4 : 0; i < n; ++i) to[i * distance + r] = from[r * stride + i];
+    Target::end();
 }
-RSC_DISPATCH(transpose_rows, transpose_body,
+RSC_DISPATCH(transpose_to_cache, transpose_body<ToCache>,
              (const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance),
              (from, stride, rows, n, to, distance))
+RSC_DISPATCH(transpose_past_cache, transpose_body<PastCache>,
+             (const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance),
+             (from, stride, rows, n, to, distance))
+
+// Columns are too far apart for the hardware prefetcher: what a row takes from a column is requested kAhead columns before.
+constexpr int kAhead = 6;
+void prefetch(const double* p, int count) {
+    for (int i = 0; i < count; i += 8) __builtin_prefetch(p + i);
+}
 
 }  // namespace
 
@@ -117,7 +153,8 @@ void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::in
         double* const rows = block[worker].get();
         const int first = b * wide, count = std::min(wide, n_ - first);
         other.rows(first, count, rows, stride, scratch[worker]);
-        transpose_rows(rows, stride, count, n_, whole_.row(0) + first, whole_.stride);
+        (static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) > kCached ? transpose_past_cache : transpose_to_cache)(
+            rows, stride, count, n_, whole_.row(0) + first, whole_.stride);
     });
 }
 
@@ -194,6 +231,7 @@ void RowSource::make_pairs(int j, int count, double* out, std::ptrdiff_t stride,
     const double factor = factor_;
     for (int kx = 0; kx < columns_; ++kx) {
         const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + first);
+        prefetch(from + std::min(kAhead, columns_ - 1 - kx) * 2 * column_stride_, 2 * rows);
         const bool real = kx == 0 || 2 * kx == n_;  // the coefficients of a row are its own mirror image here
         double *to = parts + kx, *mirror = parts + (real ? kx : n_ - kx);
         for (int r = 0; r < rows; r += 2, to += 2 * apart, mirror += 2 * apart) {
@@ -223,6 +261,7 @@ void RowSource::make_rows(int j, int count, double* out, std::ptrdiff_t stride, 
     const double factor = factor_;
     for (int kx = 0; kx < columns_; ++kx) {
         const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + j);
+        prefetch(from + std::min(kAhead, columns_ - 1 - kx) * 2 * column_stride_, 2 * count);
         double* const to = coefficients + 2 * kx;
         for (int r = 0; r < count; ++r) {
             to[r * row_stride_] = factor * from[2 * r];

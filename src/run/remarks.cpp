@@ -256,6 +256,24 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
         out << "  " << crowded << " map cells (over all levels) have an area fraction above pi/16 = 19.6 %, where contacts would merge.\n";
 }
 
+void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics> surfaces, const Job& job) {
+    if (!job.spectrum || job.spectrum->gaussian()) return;
+    constexpr double near_skewness = 0.02, near_kurtosis = 0.05;
+    const HeightShape wish = job.spectrum->heights ? job.spectrum->heights->shape() : job.spectrum->shape;
+    HeightShape mean{0, 0};
+    const double all = static_cast<double>(surfaces.size());
+    long missed = 0;
+    for (const SurfaceStatistics& s : surfaces) {
+        mean.skewness += s.skewness / all, mean.kurtosis += s.kurtosis / all;
+        missed += std::abs(s.skewness - wish.skewness) > near_skewness || std::abs(s.kurtosis - wish.kurtosis) > near_kurtosis;
+    }
+    if (missed > 0)
+        out << format(
+            "  %ld of %zu surfaces miss skewness %.3f or kurtosis %.3f by more than %g or %g, because few waves carry the heights; "
+            "means %.3f and %.3f.\n",
+            missed, surfaces.size(), wish.skewness, wish.kurtosis, near_skewness, near_kurtosis, mean.skewness, mean.kurtosis);
+}
+
 const char* slope_remark(double rms_slope) {
     if (rms_slope <= 0.5) return "";
     if (rms_slope <= 2)

@@ -46,6 +46,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
     if (const double slope = std::sqrt(2 * s.m2); slope > 0)
         out << format("surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, job.settings.run.length_unit.c_str(), slope,
                       slope_remark(slope));
+    tell_unreached_heights(out, {&s, 1}, job);
     print_remarks(out, levels, job);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
@@ -119,11 +120,16 @@ static std::string other_slopes(const Measured& m) {
                     : tabulated_spectrum(std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)), L, sigma);
     const double slope = theoretical_moments(twin).rms_slope(), held = (directional ? twin.plane->sigma() : twin.table->sigma()) / sigma;
     if (std::abs(slope / m.parameters.sdq - 1) < kTold) return said;
+    said += format("\nwarning: the rms slope of the twins is %.3g, the map's %.3g", slope, m.parameters.sdq);
+    if (exponent < 0 && exponent > -kMostExponent * (1 - 1e-9))  // which makes the slopes by first differences equal
+        return said +
+               ": by first differences with the step of the map both are equal, but this step smooths the shortest waves; elements see the "
+               "twins, on their finer grid, steeper than the map";
     return said +
            format(
-               "\nwarning: the rms slope of the twins is %.3g, the map's %.3g, and their contact area at a given force differs about as much in "
-               "the opposite direction: the spectrum holds %.0f %% of the mean square height and is scaled to 100 %%",
-               slope, m.parameters.sdq, 100 * held * held);
+               ", and their contact area at a given force differs about as much in the opposite direction: the spectrum holds %.0f %% of "
+               "the mean square height and is scaled to 100 %%",
+               100 * held * held);
 }
 
 // Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also reports a file

@@ -247,6 +247,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
         for (const SurfaceStatistics& surface : o.surface) m2 += surface.m2 / static_cast<double>(o.surface.size());
         out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2)) << slope_remark(std::sqrt(2 * m2)) << '\n';
     }
+    tell_unreached_heights(out, o.surface, job);
     print_remarks(out, o.rows, job);
     print_result(out, file, replaces);
 }

@@ -22,6 +22,9 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
 // A remark on rms slopes too large for the theory; empty for small ones.
 const char* slope_remark(double rms_slope);
 
+// Reports synthetic surfaces that miss the skewness or kurtosis asked for.
+void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics> surfaces, const Job& job);
+
 // The last lines: the result file, a note if it replaced another one, and the command for pictures.
 void print_result(std::ostream& out, const std::string& file, bool replaces);
 

@@ -72,5 +72,9 @@ TESTS {
     CHECK(screen(folder, n, steeper).find("times that of the whole") != std::string::npos);
     CHECK(quiet.find("times that of the whole") == std::string::npos);
     // Long waves so high that no exponent within the bounds would do.
-    CHECK(screen(folder, n, map_with(1, 0)).find(kWarning) != std::string::npos);
+    const std::string kCause = "this step smooths", far = screen(folder, n, map_with(1, 0));
+    CHECK(far.find(kWarning) != std::string::npos && far.find(kCause) == std::string::npos);
+    // Three points in the shortest wave: first differences miss a tenth of the slope, of the map as of its twins.
+    const HeightMap sharp = synthesize({.L = 1, .L_lambda_l = 12, .L_lambda_s = 42, .sigma = 0.005}, n, Normalise::sample, 4, 1);
+    CHECK(screen(folder, n, sharp).find(kCause) != std::string::npos);
 }

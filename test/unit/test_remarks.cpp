@@ -48,6 +48,24 @@ void thresholds() {
     CHECK(std::string(slope_remark(0.5)).empty() && !std::string(slope_remark(std::nextafter(0.5, 1.0))).empty());
 }
 
+// Surfaces beyond 0.02 in skewness or 0.05 in kurtosis are counted; for Gaussian heights nothing is said.
+void heights_missed() {
+    Job job;
+    job.spectrum.emplace();
+    const auto remark = [&](double skewness, double kurtosis) {
+        std::vector<SurfaceStatistics> surfaces(2);
+        for (auto& s : surfaces) s.skewness = -1, s.kurtosis = 4;
+        surfaces[1].skewness = skewness, surfaces[1].kurtosis = kurtosis;
+        std::ostringstream out;
+        tell_unreached_heights(out, surfaces, job);
+        return out.str();
+    };
+    CHECK(remark(-0.5, 4).empty());
+    job.spectrum->shape = {-1, 4};
+    CHECK(remark(-0.981, 4.049).empty());
+    CHECK(remark(-0.979, 4).find("1 of 2") != std::string::npos && remark(-1, 4.051).find("1 of 2") != std::string::npos);
+}
+
 // Pastewka and Robbins' criterion for two flats: h' z0/(2 l) (h'^2/(h'' z0))^(2/3) < pi (3/16)^(2/3), l = w/E*.
 void sticks() {
     Job job;
@@ -135,6 +153,7 @@ void forecast(const Folder& folder) {
 TESTS {
     const Folder folder;
     thresholds();
+    heights_missed();
     sticks();
     edges();
     forecast(folder);
