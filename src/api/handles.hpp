@@ -2,9 +2,9 @@
 #pragma once
 
 #include "case/case.hpp"
+#include "contact/answers.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/friction.hpp"
-#include "contact/lateral.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
 

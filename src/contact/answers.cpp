@@ -1,6 +1,47 @@
 #include "contact/answers.hpp"
 
 namespace rsc {
+namespace {
+
+// Calls add(dx, dy, f) for every force of a level, with its offset from the tip. The forces are those of pixels, if any; for smooth
+// periodic flats those of contacts, which lie within one period, and of points that attract without contact.
+template <class Add>
+void for_each_force(const Indenter& indenter, const Level& level, Add add) {
+    const LevelPixels& pixels = level.pixels;
+    const bool by_contacts = indenter.period.finite() && indenter.shape->flat();
+    for (std::size_t k = 0; k < pixels.index.size() && !by_contacts; ++k)
+        add(pixels.x(k) - indenter.x0, pixels.y(k) - indenter.y0, pixels.pressure[k] * pixels.dx * pixels.dy);
+    for (const std::int32_t k : pixels.cohesive)
+        add(pixels.x_of(k) - indenter.x0, pixels.y_of(k) - indenter.y0, pixels.tension * pixels.dx * pixels.dy);
+    if (!by_contacts && !(pixels.index.empty() && pixels.cohesive.empty())) return;
+    const LevelTractions& t = level.tractions;  // also of asperities that attract before contact
+    for (std::size_t k = 0; k < t.x.size(); ++k) add(t.x[k] - indenter.x0, t.y[k] - indenter.y0, t.pressed[k] + t.pulled[k]);
+    for (std::size_t k = 0; k < level.f.size() && t.x.empty(); ++k) add(level.x[k] - indenter.x0, level.y[k] - indenter.y0, level.f[k]);
+}
+
+}  // namespace
+
+Vec2 lateral_force(const Indenter& indenter, const Level& level) {
+    Vec2 sum;
+    if (indenter.shape->flat()) return sum;
+    for_each_force(indenter, level, [&](double dx, double dy, double f) {
+        const Vec2 slope = indenter.shape->gradient(dx, dy);
+        sum.x -= f * slope.x;
+        sum.y -= f * slope.y;
+    });
+    return sum;
+}
+
+Vec2 tip_moment(const Indenter& indenter, const Level& level) {
+    Vec2 sum;
+    for_each_force(indenter, level, [&](double dx, double dy, double f) {
+        const double s = indenter.shape->height(dx, dy);
+        const Vec2 slope = indenter.shape->gradient(dx, dy);
+        sum.x += f * (dy + s * slope.y);
+        sum.y -= f * (dx + s * slope.x);
+    });
+    return sum;
+}
 
 double conductance_length(double stiffness, double E_star) { return 0 - 2 * stiffness / E_star; }
 

@@ -11,7 +11,6 @@
 #include "contact/solver/dgesv.hpp"
 #include "contact/solver/uniqueness.hpp"
 #include "contact/start.hpp"
-#include "contact/working_set.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -135,18 +134,10 @@ NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_
 }
 
 NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
-    const WorkingSet& set = candidates.set;
     auto& [v, force, slope] = solution;
     const PaperMethod paper{options.delta0 * options.sigma, options.delta_cut, options.tolerance, options.max_iterations};
-    const auto outcome = solve_by_dgesv(*law, *kernel, set, paper, v, force);
-    slope.resize(v.size());
-    Vector target(v.size()), work(v.size());
-    law->respond(set.size(), set.asperity.data(), v.data(), target.data(), slope.data(), work.data());
-    NewtonOutcome result;
-    result.converged = outcome.converged;
-    result.iterations = outcome.iterations;
-    result.residual = outcome.residual;
-    if (!outcome.converged) why_not = outcome.singular ? Fallback::dgesv_singular : Fallback::dgesv_not_converged;
+    const PaperOutcome result = solve_by_dgesv(*law, *kernel, candidates.set, paper, v, force, slope);
+    if (!result.converged) why_not = result.singular ? Fallback::dgesv_singular : Fallback::dgesv_not_converged;
     return result;
 }
 
@@ -250,7 +241,7 @@ Level AsperityContact::pass(double Z0) {
     my.outcome = my.solve_from(start, false);
     if (!my.outcome.converged) return solve(Z0);
     my.passed = true;
-    my.earlier.remember_passed(Z0, my.candidates, my.solution.v);
+    my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
     Level level;
     level.separation = Z0;
     for (double f : my.solution.force) level.force += f / my.scale();

@@ -27,4 +27,86 @@ Candidates select_candidates(Ranking& ranking, const Asperities& asperities, con
     return candidates;
 }
 
+NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Products& products, const WorkingSetOptions& options,
+                               const std::vector<double>& start, Solution& solution) {
+    using Vector = std::vector<double>;
+    const auto n = static_cast<std::size_t>(candidates.size());
+    std::vector<char> in(n);
+    const auto draw = [&](const Vector& penetration) {
+        const double highest = *std::max_element(penetration.begin(), penetration.end());
+        for (std::size_t k = 0; k < n; ++k) in[k] = penetration[k] > -0.03 * highest;
+    };
+    draw(start);
+    bool settle = !options.rough_start;
+    bool saddle = false;  // all touching candidates are included, but the solution is not a minimum
+    auto& [v, force, slope] = solution;
+    v = start;
+    NewtonOutcome total;
+    WorkingSet working;
+    Vector working_v;
+    std::vector<std::size_t> inside, outside;
+    Vector xo, yo, phi;
+    for (;;) {
+        inside.clear();
+        outside.clear();
+        working = {};
+        working_v.clear();
+        for (std::size_t k = 0; k < n; ++k) {
+            if (!in[k]) {
+                outside.push_back(k);
+                continue;
+            }
+            inside.push_back(k);
+            working.asperity.push_back(candidates.asperity[k]);
+            working.x.push_back(candidates.x[k]);
+            working.y.push_back(candidates.y[k]);
+            working.g0.push_back(candidates.g0[k]);
+            working_v.push_back(v[k]);
+        }
+        products.set_points(working.size(), working.x.data(), working.y.data());
+        const double tolerance = settle ? options.tolerance : std::max(options.tolerance, 0.1);
+        const bool ask = settle && options.rough_start && (outside.empty() || saddle);
+        const auto outcome = newton.solve(working, tolerance, options.max_iterations - total.iterations, working_v, ask);
+        total.iterations += outcome.iterations;
+        total.converged = outcome.converged;
+        total.minimum = outcome.minimum;
+        total.residual = outcome.residual;
+        force.assign(n, 0.0);
+        slope.assign(n, 0.0);
+        for (std::size_t k = 0; k < inside.size(); ++k) {
+            force[inside[k]] = newton.force()[k];
+            slope[inside[k]] = newton.slope()[k];
+            v[inside[k]] = working_v[k] > 0 ? working_v[k] : candidates.g0[inside[k]] - newton.phi()[k];
+        }
+        if (outside.empty() && settle) break;
+        xo.clear();
+        yo.clear();
+        for (std::size_t k : outside) {
+            xo.push_back(candidates.x[k]);
+            yo.push_back(candidates.y[k]);
+        }
+        phi.resize(outside.size());
+        newton.potential_at(outside.size(), xo.data(), yo.data(), phi.data());
+        for (std::size_t k = 0; k < outside.size(); ++k) v[outside[k]] = candidates.g0[outside[k]] - phi[k];
+        if (!settle) {
+            settle = true;
+            draw(v);
+            continue;
+        }
+        bool complete = true;
+        for (std::size_t k = 0; k < outside.size(); ++k) {
+            // Points within the error of single precision of touching are added to the working set.
+            if (v[outside[k]] > -1e-4 * phi[k]) {
+                in[outside[k]] = 1;
+                complete = false;
+            }
+        }
+        if (!total.converged) break;
+        if (!complete) continue;
+        if (ask || !options.rough_start || newton.at_minimum(working)) break;
+        saddle = true;
+    }
+    return total;
+}
+
 }  // namespace rsc

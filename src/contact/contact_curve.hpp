@@ -3,7 +3,6 @@
 
 #include "contact/contact.hpp"
 #include "contact/friction.hpp"
-#include "contact/load_curve.hpp"
 
 namespace rsc {
 

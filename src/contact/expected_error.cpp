@@ -23,9 +23,14 @@ constexpr const char* kCauses[kErrorPredictors + 3] = {
     "contacts not much smaller than the top layer is thick",
 };
 
+// Mean contact radius, weighted by the forces.
+double mean_radius(const Level& level) {
+    return std::inner_product(level.f.begin(), level.f.end(), level.a.begin(), 0.0) / std::accumulate(level.f.begin(), level.f.end(), 0.0);
+}
+
 Predictors predictors(const Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     const double contacts = level.contacts;
-    double elongation = 0, pressed = 0, radius = 0, force = 0;
+    double elongation = 0, pressed = 0, force = 0;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
         const auto i = static_cast<std::size_t>(level.asperity[k]);
         const bool round = asperities.kappa1.empty();
@@ -36,7 +41,6 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             const double waves = level.a[k] / std::numbers::pi, q2 = asperities.biharmonic[i] / curvatures;
             pressed += level.f[k] * std::clamp(q2 * waves * waves, 0.0, 1.0);
         }
-        radius += level.f[k] * level.a[k];
         force += level.f[k];
     }
     const double slope = std::isnan(level.slope_ratio) ? 0.0 : std::min(level.slope_ratio / 0.2, 50.0);
@@ -45,7 +49,7 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             pressed / force,
             std::log1p(static_cast<double>(level.overlapping_pairs) / contacts),
             elongation / force,
-            std::log(std::max(radius / force / options.mean_spacing, 1e-3)),
+            std::log(std::max(mean_radius(level) / options.mean_spacing, 1e-3)),
             1 / std::sqrt(contacts),
             options.points_per_wave > 0 ? std::min(4 / options.points_per_wave, 1.5) : 1.0,
             level.plastic_contacts / contacts,

@@ -30,26 +30,19 @@ Node node_at(LoadCurve& curve, double s, Slide u) {
     return {s, load.force, load.energy, u};
 }
 
-// Integral of S'(s) q(s) ds over pieces on which q is quadratic: [S q - N q' + W q''] on each. q is continuous, and q or S vanishes at both
-// ends of the whole range, so that the terms in S cancel. q is given by its values at the ends and in the middle of each piece.
-class QuadraticIntegral {
-public:
-    template <class Q>
-    void add(const Node& begin, const Node& end, Q&& q) {
-        const double h = end.approach - begin.approach;
-        if (!(h > 0)) return;
-        const double q0 = q(begin.approach), q1 = q(begin.approach + 0.5 * h), q2 = q(end.approach);
-        const double slope = (-3 * q0 + 4 * q1 - q2) / h, bend = 4 * (q0 - 2 * q1 + q2) / (h * h);
-        // Differences of neighbouring levels suffer from cancellation and are limited by their bounds for an increasing load.
-        const double growth = end.load - begin.load;
-        const double area = std::clamp(end.energy - begin.energy - h * end.load, std::min(0.0, -h * growth), 0.0);
-        sum_ += bend * area - slope * growth;
-    }
-    double value() const { return sum_; }
-
-private:
-    double sum_ = 0;
-};
+// Integral of S'(s) q(s) ds over a piece on which q is quadratic: [S q - N q' + W q''] without the terms in S, which cancel in the sum over the
+// pieces, because q is continuous, and q or S vanishes at both ends of the whole range.
+template <class Q>
+double integral(const Node& begin, const Node& end, Q&& q) {
+    const double h = end.approach - begin.approach;
+    if (!(h > 0)) return 0;
+    const double q0 = q(begin.approach), q1 = q(begin.approach + 0.5 * h), q2 = q(end.approach);
+    const double slope = (-3 * q0 + 4 * q1 - q2) / h, bend = 4 * (q0 - 2 * q1 + q2) / (h * h);
+    // Differences of neighbouring levels suffer from cancellation and are limited by their bounds for an increasing load.
+    const double growth = end.load - begin.load;
+    const double area = std::clamp(end.energy - begin.energy - h * end.load, std::min(0.0, -h * growth), 0.0);
+    return bend * area - slope * growth;
+}
 
 // Tolerance for a spring at its friction limit.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
@@ -249,26 +242,26 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
     // Dissipated work: a spring slips by `over` in the direction n, at the rate e along the step, while its limit changes.
     const double e = dot(direction, dxi) - c * dd;
     if (c > 0 && e > 0) {
-        QuadraticIntegral lost;
+        double lost = 0;
         const auto over = [&](std::size_t k, double s) { return dot(direction, between(free[k], free[k + 1], s)) - limit(s); };
         Node begin = after.back();
         for (std::size_t k = std::max<std::size_t>(inside, 1) - 1; k + 1 < n && edge < delta; ++k) {
             const Node& end = free[k + 1];
             if (dd > 0 && begin.approach >= old_delta)  // springs that touched during the step slip from the beginning
-                lost.add(begin, end, [&](double s) { return 0.5 * e * limit(s) * limit(s) / (c * dd); });
+                lost += integral(begin, end, [&](double s) { return 0.5 * e * limit(s) * limit(s) / (c * dd); });
             else
-                lost.add(begin, end, [&](double s) { return over(k, s) * (limit(s) - 0.5 * c * dd * over(k, s) / e); });
+                lost += integral(begin, end, [&](double s) { return over(k, s) * (limit(s) - 0.5 * c * dd * over(k, s) / e); });
             begin = end;
         }
         if (dd < 0) {  // springs released during the step slip until their limit is 0
             const std::size_t k = before.size() - 2;
-            lost.add(top, before.back(), [&](double s) {
+            lost += integral(top, before.back(), [&](double s) {
                 const double still = (c * (old_delta - s) - dot(direction, between(before[k], before[k + 1], s))) / e;
                 const double limit_then = c * (old_delta - s + still * dd);
                 return -0.5 * e * limit_then * limit_then / (c * dd);
             });
         }
-        state.step_lost += m * lost.value();
+        state.step_lost += m * lost;
     }
     after.push_back(top);
     state.nodes = std::move(after);
@@ -282,15 +275,15 @@ Slide FrictionHistory::tangential_force() const {
 }
 
 double FrictionHistory::tangential_energy() const {
-    QuadraticIntegral square;
+    double square = 0;
     const auto& nodes = now_.nodes;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        square.add(nodes[k], nodes[k + 1], [&](double s) {
+        square += integral(nodes[k], nodes[k + 1], [&](double s) {
             const Slide u = between(nodes[k], nodes[k + 1], s);
             return dot(u, u);
         });
     }
-    return 0.5 * friction_.ratio * square.value();
+    return 0.5 * friction_.ratio * square;
 }
 
 double FrictionHistory::stick_approach() const {

@@ -98,10 +98,4 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     return static_cast<std::size_t>(next - numbers.data());
 }
 
-void recall_loads(LoadMemory& loads, const std::vector<double>& memory, const HeightMap& map) {
-    if (memory.empty() || loads.read(std::span(memory).subspan(1)) + 1 != memory.size() ||
-        (!loads.places().empty() && loads.places().back() / map.nx >= map.ny))
-        throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
-}
-
 }  // namespace rsc

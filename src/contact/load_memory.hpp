@@ -5,7 +5,6 @@
 #pragma once
 
 #include "contact/law/relaxation.hpp"
-#include "rough/surface.hpp"
 
 namespace rsc {
 
@@ -46,8 +45,5 @@ private:
     double ff_ = 0, lost_ = 0;
     std::vector<double> yf_, yy_;
 };
-
-// Restores the loads on the pixels of a map from `memory` without its first number. Throws Error(bad_input) if they do not lie on the map.
-void recall_loads(LoadMemory& loads, const std::vector<double>& memory, const HeightMap& map);
 
 }  // namespace rsc

@@ -37,7 +37,10 @@ std::vector<double> PixelContact::memory() const {
 
 void PixelContact::recall(const std::vector<double>& memory, const Level* level) {
     if (relaxes()) {
-        recall_loads(*loads_, memory, heights_);
+        const auto& places = loads_->places();
+        if (memory.empty() || loads_->read(std::span(memory).subspan(1)) + 1 != memory.size() ||
+            (!places.empty() && places.back() / heights_.nx >= heights_.ny))
+            throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
         recall_time(memory[0]);
         step(0);
     } else {

@@ -5,7 +5,6 @@
 #include "contact/candidates.hpp"
 #include "contact/interaction/products.hpp"
 #include "contact/law/relaxing.hpp"
-#include "contact/working_set.hpp"
 
 namespace rsc {
 

@@ -11,20 +11,15 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v, bool unique) {
+void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v, bool unique, bool passed) {
     unique_ = unique;
     ++solved_;
     if (!past_.empty() && past_.front().passed) past_.pop_front();
     const auto& rank = candidates.rank;
-    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown)};
+    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown), passed};
     for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
     past_.push_front(std::move(level));
     if (past_.size() > 4) past_.pop_back();
-}
-
-void EarlierLevels::remember_passed(double Z0, const Candidates& candidates, const Vector& v) {
-    remember(Z0, candidates, v, false);
-    past_.front().passed = true;
 }
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities, Vec2 from, Vec2 to) {

@@ -10,11 +10,9 @@ namespace rsc {
 // Earlier levels, from which B F of the next level is extrapolated.
 class EarlierLevels {
 public:
-    // Stores the level at Z0 with penetrations v over the candidates. `unique`: its solution is proved to be unique.
-    void remember(double Z0, const Candidates& candidates, const std::vector<double>& v, bool unique);
-
-    // Stores an intermediate solution, which is replaced by the next one and need not be unique.
-    void remember_passed(double Z0, const Candidates& candidates, const std::vector<double>& v);
+    // Stores the level at Z0 with penetrations v over the candidates. `unique`: its solution is proved to be unique. `passed`: an
+    // intermediate solution, which is replaced by the next one and need not be unique.
+    void remember(double Z0, const Candidates& candidates, const std::vector<double>& v, bool unique, bool passed = false);
 
     // To be called when the tip moves from one place to another and ranks become invalid: stores the last level by asperity as the start of
     // the next level. On a way straight on, the next level is extrapolated from the last levels of two places.
@@ -33,7 +31,7 @@ private:
     struct Past {
         double separation;
         std::vector<double> phi;  // B F by rank; NaN: unknown
-        bool passed = false;
+        bool passed;
     };
     std::deque<Past> past_;
     std::size_t solved_ = 0;

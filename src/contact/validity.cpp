@@ -65,6 +65,14 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
     if (options.marks && p.index.empty()) level.edge_contacts += border_contacts(level, indenter, *options.marks);
 }
 
+// Sets large_contacts, edge_contacts and nominal_area.
+void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
+    const auto large = [&](double a) { return options.mean_spacing > 0 && a > options.mean_spacing / 4; };
+    level.large_contacts = static_cast<std::int32_t>(std::count_if(level.a.begin(), level.a.end(), large));
+    count_edges(level, indenter, options);
+    level.nominal_area = nominal_area(level, indenter, options.surface);
+}
+
 }  // namespace
 
 bool exceeds_nominal_area(const LevelValues& level) {
@@ -73,12 +81,7 @@ bool exceeds_nominal_area(const LevelValues& level) {
 }
 
 void judge_range(Level& level, const Indenter& indenter, const SolverOptions& options) {
-    level.large_contacts = 0;
-    for (std::size_t k = 0; k < level.x.size() && options.mean_spacing > 0; ++k) {
-        level.large_contacts += level.a[k] > options.mean_spacing / 4;
-    }
-    count_edges(level, indenter, options);
-    level.nominal_area = nominal_area(level, indenter, options.surface);
+    count_contacts(level, indenter, options);
     if (indenter.layers.count > 0) {
         const double widest = indenter.layers.layer[0].thickness / 5;
         const auto wide = std::count_if(level.a.begin(), level.a.end(), [&](double a) { return a > widest; });
@@ -93,12 +96,7 @@ void judge_range(Level& level, const Indenter& indenter, const SolverOptions& op
 }
 
 void judge_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
-    level.large_contacts = 0;
-    for (std::size_t k = 0; k < level.x.size(); ++k) {
-        level.large_contacts += options.mean_spacing > 0 && level.a[k] > options.mean_spacing / 4;
-    }
-    count_edges(level, indenter, options);
-    level.nominal_area = nominal_area(level, indenter, options.surface);
+    count_contacts(level, indenter, options);
     if (level.edge_contacts > 0) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

@@ -132,20 +132,19 @@ void bench_pairs() {
             y[k] = uniform(random);
             f[k] = uniform(random);
         }
-        const std::vector<float> f_single(f.begin(), f.end());
-        std::vector<float> phi_single(n);
-        PairSet set;
-        set.assign(n, x.data(), y.data());
+        const auto kernel = make_kernel(Interaction::point, 1 / std::numbers::pi);
+        PairSums sums(*kernel);
+        sums.assign(n, x.data(), y.data());
         const double pairs = static_cast<double>(n) * static_cast<double>(n);
         const int repeat = static_cast<int>(1 + 2e8 / pairs);
         const double t_double = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i) set.apply(f.data(), phi.data());
+            for (int i = 0; i < repeat; ++i) sums.among(false, f.data(), phi.data());
         });
         const double t_single = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i) set.apply_single(f_single.data(), phi_single.data());
+            for (int i = 0; i < repeat; ++i) sums.among(true, f.data(), phi.data());
         });
         const double t_apart = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i) pair_potential(n, x.data(), y.data(), n, x.data(), y.data(), f.data(), phi.data());
+            for (int i = 0; i < repeat; ++i) sums.onto(false, n, x.data(), y.data(), f.data(), phi.data());
         });
         std::printf("  n = %5zu: float %.2f G/s, double %.2f G/s, double with targets apart %.2f G/s (wanted: 5 and 2)\n", n,
                     1e-9 * pairs * repeat / t_single, 1e-9 * pairs * repeat / t_double, 1e-9 * pairs * repeat / t_apart);

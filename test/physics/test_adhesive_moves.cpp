@@ -1,8 +1,8 @@
 // A tip that moves sideways over attached asperities that interact: its work over a closed cycle is the energy lost.
 #include "adhesive_paths.hpp"
 #include "check.hpp"
+#include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
-#include "contact/lateral.hpp"
 
 using namespace rsc;
 

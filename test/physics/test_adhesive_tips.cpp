@@ -1,9 +1,9 @@
 // A tip that moves sideways over points that attract (contact/adhesive_elements.hpp).
 #include "adhesive_paths.hpp"
 #include "check.hpp"
+#include "contact/answers.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/indenter/shapes.hpp"
-#include "contact/lateral.hpp"
 #include "error.hpp"
 
 using namespace rsc;

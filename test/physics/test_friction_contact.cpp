@@ -1,8 +1,8 @@
 // Friction, conductance and lateral force of asperities in contact against problems solved on their own.
 #include "check.hpp"
+#include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
-#include "contact/lateral.hpp"
 #include "physics/elimination.hpp"
 #include "physics/random_asperities.hpp"
 

@@ -74,25 +74,27 @@ double single_tolerance(const Points& p) {
     return kSingle + 0x1p-31 * std::sqrt(extent2 / closest2);
 }
 
-// in_single: lengths and potentials are within the range of float.
+// The sums of 1/d.
+const Kernel& unit_kernel() {
+    static const auto kernel = make_kernel(Interaction::point, 1 / std::numbers::pi);
+    return *kernel;
+}
+
+// in_single: potentials are within the range of float.
 void check_all_products(const Points& p, const char* name, bool in_single = true) {
     const std::size_t n = p.size();
-    const double tolerance = single_tolerance(p);
     const int before = check::failures;
     std::vector<double> phi(n), exact, size;
     truth(p, p, exact, size);
-    pair_potential(n, p.x.data(), p.y.data(), n, p.x.data(), p.y.data(), p.f.data(), phi.data());
-    CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
-    pair_potential_single(n, p.x.data(), p.y.data(), n, p.x.data(), p.y.data(), p.f.data(), phi.data());
-    CHECK_CLOSE(distance(phi, exact, size), 0, tolerance);
-    PairSet set;
-    set.assign(n, p.x.data(), p.y.data());
-    set.apply(p.f.data(), phi.data());
-    CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
-    if (in_single) {
-        std::vector<float> f(p.f.begin(), p.f.end()), phi_single(n);
-        set.apply_single(f.data(), phi_single.data());
-        CHECK_CLOSE(distance(phi_single, exact, size), 0, tolerance);
+    PairSums sums(unit_kernel());
+    sums.assign(n, p.x.data(), p.y.data());
+    for (const bool single : {false, true}) {
+        const double tolerance = single ? single_tolerance(p) : kDouble;
+        sums.onto(single, n, p.x.data(), p.y.data(), p.f.data(), phi.data());
+        CHECK_CLOSE(distance(phi, exact, size), 0, tolerance);
+        if (single && !in_single) continue;
+        sums.among(single, p.f.data(), phi.data());
+        CHECK_CLOSE(distance(phi, exact, size), 0, tolerance);
     }
     if (check::failures > before) std::printf("  (in %s, n = %zu)\n", name, n);
 }
@@ -118,10 +120,10 @@ void coincident() {
     check_all_products(p, "coincident pairs");
     for (std::size_t i = 0; i < p.size(); ++i) p.x[i] = 0.1, p.y[i] = -7;
     check_all_products(p, "one place");
-    PairSet set;
-    set.assign(100, p.x.data(), p.y.data());
+    PairSums sums(unit_kernel());
+    sums.assign(100, p.x.data(), p.y.data());
     std::vector<double> phi(100, 1.0);
-    set.apply(p.f.data(), phi.data());
+    sums.among(false, p.f.data(), phi.data());
     CHECK(std::all_of(phi.begin(), phi.end(), [](double v) { return v == 0; }));
 }
 
@@ -262,14 +264,15 @@ void instruction_sets() {
 void bad_coordinates() {
     Points p = random_points(5, 15);
     p.y[3] = std::nan("");
-    PairSet set;
-    CHECK_THROWS(set.assign(5, p.x.data(), p.y.data()), Error);
+    PairSums sums(unit_kernel());
+    CHECK_THROWS(sums.assign(5, p.x.data(), p.y.data()), Error);
     std::vector<double> phi(5);
-    CHECK_THROWS(pair_potential(5, p.x.data(), p.y.data(), 5, p.x.data(), p.x.data(), p.f.data(), phi.data()), Error);
+    sums.assign(5, p.x.data(), p.x.data());
+    CHECK_THROWS(sums.onto(false, 5, p.x.data(), p.y.data(), p.f.data(), phi.data()), Error);
     // A force that is not a number does not vanish on the way.
     p.y[3] = 0.5, p.f[2] = std::nan("");
-    set.assign(5, p.x.data(), p.y.data());
-    set.apply(p.f.data(), phi.data());
+    sums.assign(5, p.x.data(), p.y.data());
+    sums.among(false, p.f.data(), phi.data());
     CHECK(std::isnan(phi[0]) && std::isnan(phi[4]));
 }
 

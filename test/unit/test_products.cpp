@@ -35,6 +35,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
     Vector x, y, force, xo, yo;
     for (std::size_t k = 0; k < size; ++k)
         x.push_back(5 + kWide * uniform(random)), y.push_back(-3 + kHigh * uniform(random)), force.push_back(uniform(random) + 0.1);
+    for (std::size_t k = 5; k < size; k += 5) x[k] = x[k - 1];  // as points of a grid have the same x
     for (std::size_t k = 0; k < others; ++k)
         xo.push_back(4.9 + 1.2 * kWide * uniform(random)), yo.push_back(-3.05 + kHigh * uniform(random));
     Kind kinds[] = {{"direct", make_direct_products(kernel), 1e-13, 1e-6, 1e-5},

@@ -1,8 +1,8 @@
 // What the contact spots do beside N: the lowering of the surface around them, and the lateral force on the sphere.
 #include "check.hpp"
+#include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "contact/interaction/lattice.hpp"
-#include "contact/lateral.hpp"
 
 using namespace rsc;
 using std::numbers::pi;

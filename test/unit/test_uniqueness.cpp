@@ -3,7 +3,6 @@
 
 #include "check.hpp"
 #include "contact/law/law.hpp"
-#include "contact/solver/lanczos.hpp"
 #include "contact/solver/lapack.hpp"
 #include "contact/spots.hpp"
 
@@ -167,7 +166,7 @@ void lanczos_finds_the_lowest() {
             (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) = shift;
         }
         Vector vector;
-        const double found = lanczos_lowest(
+        const double found = lapack::lanczos_lowest(
             n,
             [&](const Vector& in, Vector& out) {
                 for (std::size_t i = 0; i < n; ++i) {

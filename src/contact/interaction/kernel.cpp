@@ -147,19 +147,8 @@ double SmoothPart::corner(double s, double t) const {
 template <unsigned n>
 double SmoothPart::by_points(double x, double y, double a, double b) const {
     using Rule = boost::math::quadrature::gauss<double, n>;
-    double place[n], weight[n];
-    for (unsigned k = 0; k < n; ++k) {  // the rule lists the points from the middle of its interval to one end
-        const unsigned i = n % 2 == 1 ? (k + 1) / 2 : k / 2;
-        place[k] = k % 2 == n % 2 ? Rule::abscissa()[i] : -Rule::abscissa()[i];
-        weight[k] = Rule::weights()[i];
-    }
-    double sum = 0;
-    for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j) {
-            const double dx = x + a * place[i], dy = y + b * place[j];
-            sum += weight[i] * weight[j] * at_square(dx * dx + dy * dy);
-        }
-    return a * b * sum;
+    const auto along_y = [&](double u) { return Rule::integrate([&](double v) { return at_square(u * u + v * v); }, y - b, y + b); };
+    return Rule::integrate(along_y, x - a, x + a);
 }
 
 double SmoothPart::over_rectangle(double x, double y, double a, double b) const {
@@ -190,45 +179,22 @@ double Substrate::under_pixel(double x, double y, double dx, double dy) const {
 
 Substrate substrate_of(const Indenter& indenter) { return {indenter.E_star, layers_of(indenter.layers, indenter.E_star)}; }
 
-namespace {
+Kernel::Kernel(Interaction interaction, Substrate substrate, Period period) : substrate_(std::move(substrate)) {
+    if (interaction == Interaction::none) return;
+    near_ = substrate_.near();
+    if (period.finite()) lattice_.emplace(period, smooth(), near_);
+    shift_ = lattice_ ? -near_ * lattice_->least() : substrate_.bulge();
+}
 
-class FreeKernel final : public Kernel {
-public:
-    explicit FreeKernel(Substrate substrate) : Kernel(substrate, substrate.near()) {}
-    double at(double dx, double dy) const override {
-        const double d2 = dx * dx + dy * dy, point = near() / std::sqrt(d2);
-        return smooth() ? point + smooth()->at_square(d2) + shift() : point;
-    }
-    double self() const override { return substrate().smooth_at(0) + shift(); }
-    double shift() const override { return substrate().bulge(); }
-};
-
-class NoKernel final : public Kernel {
-public:
-    explicit NoKernel(Substrate substrate) : Kernel(std::move(substrate), 0) {}
-    double at(double, double) const override { return 0; }
-    double self() const override { return substrate().smooth_at(0); }
-    double shift() const override { return 0; }
-};
-
-class PeriodicKernel final : public Kernel {
-public:
-    PeriodicKernel(const Substrate& substrate, Period period) : Kernel(substrate, substrate.near()), lattice_(period, smooth(), near()) {}
-    double at(double dx, double dy) const override { return near() * (lattice_.at(dx, dy) - lattice_.least()); }
-    double self() const override { return near() * (lattice_.self() - lattice_.least()); }
-    double shift() const override { return -near() * lattice_.least(); }
-    const Lattice* lattice() const override { return &lattice_; }
-
-private:
-    Lattice lattice_;
-};
-
-}  // namespace
+double Kernel::at(double dx, double dy) const {
+    if (none()) return 0;
+    if (lattice_) return near_ * (lattice_->at(dx, dy) - lattice_->least());
+    const double d2 = dx * dx + dy * dy, point = near_ / std::sqrt(d2);
+    return smooth() ? point + smooth()->at_square(d2) + shift_ : point;
+}
 
 std::shared_ptr<const Kernel> make_kernel(Interaction interaction, Substrate substrate, Period period) {
-    if (interaction == Interaction::none) return std::make_shared<NoKernel>(std::move(substrate));
-    if (period.finite()) return std::make_shared<PeriodicKernel>(std::move(substrate), period);
-    return std::make_shared<FreeKernel>(std::move(substrate));
+    return std::make_shared<const Kernel>(interaction, std::move(substrate), period);
 }
 
 }  // namespace rsc

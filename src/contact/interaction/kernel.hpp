@@ -86,20 +86,27 @@ private:
 Substrate substrate_of(const Indenter& indenter);
 
 // G(dx, dy): deflection of the surface at an offset from a unit force [length/force]. B_ij = G(x_i - x_j, y_i - y_j), B_ii = self().
+//
+// Interaction::point: G = 1/(pi E* d) + s(d) + shift() of the free body (Boussinesq; paper, section 4). Interaction::none: G = 0, self() =
+// s(0). Finite period: G = Gamma/(pi E*) + shift(), where Gamma is the sum over images minus its mean (lattice.hpp). A pressure mode exp(i
+// k x) deflects by 2/(E* |k|), a uniform pressure not at all, because Z0 is measured from the mean plane of the deformed surface. The
+// smallest value of G is 0, and self() = -2.28472/(pi E* L) on a square.
 class Kernel {
 public:
-    virtual ~Kernel() = default;
+    Kernel(Interaction interaction, Substrate substrate, Period period);
+    Kernel(const Kernel&) = delete;
+    Kernel& operator=(const Kernel&) = delete;
 
     // G at a nonzero offset.
-    virtual double at(double dx, double dy) const = 0;
+    double at(double dx, double dy) const;
     // Deflection at the point of the force beyond that of the contact law, due to layers and periodic images.
-    virtual double self() const = 0;
+    double self() const { return lattice_ ? near_ * (lattice_->self() - lattice_->least()) : substrate_.smooth_at(0) + shift(); }
     // Constant added to G so that no force raises other points; then only points above the separation can touch. 0 for a free half-space,
     // bulge() for a free layered body. A solution with this G at Z0' equals the solution with the true G at Z0 = Z0' + shift() N.
-    virtual double shift() const = 0;
+    double shift() const { return shift_; }
     // The lattice of periodic boundaries, with G = near() Gamma + shift(), or null.
-    virtual const Lattice* lattice() const { return nullptr; }
-    Period period() const { return lattice() ? lattice()->period() : Period{}; }
+    const Lattice* lattice() const { return lattice_ ? &*lattice_ : nullptr; }
+    Period period() const { return lattice_ ? lattice_->period() : Period{}; }
 
     // Singular part of G: G - near()/d is bounded. 1/(pi E*), or 0 without interaction.
     double near() const { return near_; }
@@ -108,18 +115,12 @@ public:
     double modulus() const { return substrate_.modulus(); }           // E*
     const SmoothPart* smooth() const { return substrate_.smooth(); }  // null: none
 
-protected:
-    Kernel(Substrate substrate, double near) : substrate_(std::move(substrate)), near_(near) {}
-
 private:
     Substrate substrate_;
-    double near_;
+    double near_ = 0, shift_ = 0;
+    std::optional<Lattice> lattice_;
 };
 
-// Interaction::point: G = 1/(pi E* d) + s(d) + shift() of the free body (Boussinesq; paper, section 4). Interaction::none: G = 0, self() =
-// s(0). Finite period: G = Gamma/(pi E*) + shift(), where Gamma is the sum over images minus its mean (lattice.hpp). A pressure mode exp(i
-// k x) deflects by 2/(E* |k|), a uniform pressure not at all, because Z0 is measured from the mean plane of the deformed surface. The
-// smallest value of G is 0, and self() = -2.28472/(pi E* L) on a square.
 std::shared_ptr<const Kernel> make_kernel(Interaction interaction, Substrate substrate, Period period = {});
 
 }  // namespace rsc

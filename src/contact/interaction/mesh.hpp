@@ -10,12 +10,10 @@
 // number of threads.
 #pragma once
 
-#include "contact/interaction/kernel.hpp"
+#include "contact/interaction/mesh_far.hpp"
+#include "contact/interaction/pairs.hpp"
 
 namespace rsc {
-
-class FarField;
-struct MeshDesign;
 
 // Far fields of periodic meshes by design and spacing; for one lattice they do not depend on the points. Not thread-safe.
 using FarFields = std::map<std::pair<const MeshDesign*, double>, std::shared_ptr<const FarField>>;
@@ -29,28 +27,50 @@ public:
     // are removed when they take too much memory.
     MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr,
                   FarFields* kept = nullptr);
-    ~MeshPotential();
-    MeshPotential(MeshPotential&&) noexcept;
-    MeshPotential& operator=(MeshPotential&&) noexcept;
 
-    std::size_t size() const;
-    // phi[i] = sum_j f[j] G_ij, in the order the points were given. A const object may be used by
-    // several threads at once. Uses threads (rough/parallel.hpp); the bits do not depend on their
+    // phi[i] = sum_j f[j] G_ij, in the order the points were given. Uses threads (rough/parallel.hpp); the bits do not depend on their
     // number.
-    void apply(const double* f, double* phi) const;
+    void apply(const double* f, double* phi);
 
-    // For reports and the choice of the method.
-    std::size_t bytes() const;        // memory, including the work space of one product
-    std::size_t mesh_points() const;  // points of the doubled mesh; 0: direct sums
-    double cutoff() const;            // radius of the near field [length]
-    double near_pairs() const;        // estimated directed pairs of the near field
-    double cost() const;              // estimated seconds per product on one core of 3.4 GHz with AVX2
-    // Cost for n points spread uniformly over a rectangle, with a smooth part that changes little within `scale` times the longer side.
+    std::size_t mesh_points() const { return far_ ? far_->points() : 0; }  // of the doubled mesh; 0: direct sums
+    // Estimated seconds per product on one core of 3.4 GHz with AVX2, for n points spread uniformly over a rectangle and a smooth part that
+    // changes little within `scale` times the longer side.
     static double estimated_cost(std::size_t n, double relative_error, double aspect_ratio = 1, double scale = 1e300);
 
 private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    int threads() const;
+    double resolved() const;
+    void make_periodic(const double* x, const double* y, FarFields* kept);
+    void make_strips(const double* x, const double* y, double x0, double y0, double length_y);
+    void near_strip(std::size_t s);
+    void near_field();
+    void spread();
+
+    std::size_t n_;
+    std::shared_ptr<const Kernel> kernel_;
+    const Lattice* lattice_;  // null unless periodic
+    PairSums direct_;         // used instead of the mesh for few or coinciding points, and if a mesh would be too fine
+
+    const MeshDesign* design_;
+    double spacing_ = 0;  // of the mesh [length]
+    double scale_ = 1;    // near-field coordinate units per length, a power of two
+    NearKernel near_part_;
+    MeshWindow window_;
+    std::shared_ptr<const FarField> far_;
+
+    // Points are sorted in strips along the longer side (x), by x within a strip. Strips are padded for the pair loops. With periodic
+    // boundaries the first `strips_` strips are followed by copies: of the two lowest strips beyond the upper border, then of the left ends
+    // of all these strips beyond the right border.
+    std::size_t strips_ = 0;
+    std::vector<std::size_t> strip_begin_, strip_size_;
+    std::vector<std::uint32_t> point_;  // [strip_begin_[s] + k] index of the caller, k < strip_size_[s]
+    std::vector<double> x_, y_;         // for the near field, scaled
+    std::vector<double> u_, v_;         // on the mesh
+    std::size_t spread_band_ = 1;       // number of strips whose windows reach only into the next band
+
+    // Work space of a product, in the order of the strips.
+    std::vector<double> f_, near_phi_, far_phi_;
+    FftwArray mesh_;
 };
 
 }  // namespace rsc

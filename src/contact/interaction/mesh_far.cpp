@@ -134,6 +134,9 @@ NearKernel near_kernel(const MeshDesign& design, double cutoff) {
 
 MeshWindow mesh_window(const MeshDesign& design) { return tables(design).window; }
 
+namespace {
+
+// Fourier transform of the window at wavenumber k, and the sum of its squares at k + 2 pi m over all m.
 double window_transform(const MeshDesign& design, double k) {
     const double z = design.shape * design.shape - std::pow(design.width * k / 2, 2), root = std::sqrt(std::abs(z));
     const double value = root < 1e-6 ? 1 : z > 0 ? std::sinh(root) / root : std::sin(root) / root;
@@ -146,9 +149,10 @@ double window_alias_sum(const MeshDesign& design, double k) {
     return sum;
 }
 
+// A smooth periodic function that equals x^2 for |x| <= period/2 - bend. It replaces (x_i - x_j)^2 on a periodic mesh, so that the kernel
+// has no kink where it wraps around: the kink is smoothed by the bell over +- bend. Around it the squared distance to the nearest multiple
+// of the period is x^2 - 2 period (x - period/2)_+, and the ramp is replaced by its mean over the bell.
 double periodic_square(const MeshDesign& design, double x, double period, double bend) {
-    // Squared distance to the nearest multiple of the period, with its kink at period/2 smoothed by the bell over +- bend. Around the kink
-    // it is x^2 - 2 period (x - period/2)_+, and the ramp is replaced by its mean over the bell.
     x = std::abs(std::remainder(x, period));
     const double from = (x - period / 2) / bend;  // in [-period/(2 bend), 0]
     if (from <= -1) return x * x;
@@ -156,8 +160,6 @@ double periodic_square(const MeshDesign& design, double x, double period, double
     const double ramp = integral(-1, from, [&](double t) { return bell(design.beta, t) * (from - t); }) / whole;
     return x * x - 2 * period * bend * ramp;
 }
-
-namespace {
 
 // The smallest even number >= n with no prime factor above 7.
 std::size_t transform_length(double n) {

@@ -31,13 +31,6 @@ const MeshDesign& mesh_design(double relative_error);
 NearKernel near_kernel(const MeshDesign& design, double cutoff);
 
 MeshWindow mesh_window(const MeshDesign& design);
-// Fourier transform of the window at wavenumber k, and the sum of its squares at k + 2 pi m over all m.
-double window_transform(const MeshDesign& design, double k);
-double window_alias_sum(const MeshDesign& design, double k);
-
-// A smooth periodic function that equals x^2 for |x| <= period/2 - bend. It replaces (x_i - x_j)^2 on a periodic mesh, so that the kernel
-// has no kink where it wraps around.
-double periodic_square(const MeshDesign& design, double x, double period, double bend);
 
 // Convolution with the smooth far kernel F on a mesh with free boundary, by pruned Fourier transforms.
 

@@ -78,16 +78,16 @@ RSC_ALWAYS_INLINE void singular_body(const Singular& given) {
 }
 RSC_DISPATCH(add_singular, singular_body, (const Singular& s), (s))
 
-std::size_t hash(double x, double y) {
-    const std::uint64_t a = std::bit_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15, b = std::bit_cast<std::uint64_t>(y);
+}  // namespace
+
+std::size_t PairMatrix::Hash::operator()(const Place& place) const {
+    const std::uint64_t a = std::bit_cast<std::uint64_t>(place.first) * 0x9e3779b97f4a7c15, b = std::bit_cast<std::uint64_t>(place.second);
     const std::uint64_t mixed = (a ^ (a >> 29) ^ b) * 0xbf58476d1ce4e5b9;
     return static_cast<std::size_t>(mixed ^ (mixed >> 32));
 }
 
-}  // namespace
-
 void PairMatrix::forget() {
-    points_.clear(), table_.clear(), active_.clear(), x_.clear(), y_.clear();
+    points_.clear(), numbers_.clear(), active_.clear(), x_.clear(), y_.clear();
     unit_ = 0, values_ = 0, small_ = 0;
 }
 
@@ -99,27 +99,10 @@ bool PairMatrix::stale(std::size_t active) {
     return small_ > often || values_ > kMostKeptValues;
 }
 
-void PairMatrix::grow() {
-    table_.assign(std::max<std::size_t>(1024, 4 * points_.size()), kNone);
-    table_.resize(std::bit_ceil(table_.size()), kNone);
-    for (std::uint32_t k = 0; k < points_.size(); ++k) {
-        std::size_t place = hash(points_[k].x, points_[k].y) & (table_.size() - 1);
-        while (table_[place] != kNone) place = (place + 1) & (table_.size() - 1);
-        table_[place] = k;
-    }
-}
-
 std::uint32_t PairMatrix::find(double x, double y) {
-    if (table_.size() < 2 * points_.size() + 2) grow();
-    for (std::size_t place = hash(x, y);; ++place) {
-        std::uint32_t& number = table_[place & (table_.size() - 1)];
-        if (number == kNone) {
-            number = static_cast<std::uint32_t>(points_.size());
-            points_.push_back({x, y, kNone, {}, {}});
-            return number;
-        }
-        if (points_[number].x == x && points_[number].y == y) return number;
-    }
+    const auto [at, fresh] = numbers_.try_emplace({x, y}, static_cast<std::uint32_t>(points_.size()));
+    if (fresh) points_.push_back({x, y, kNone, {}, {}});
+    return at->second;
 }
 
 // Computes the missing values of a point that is not a source.

@@ -35,6 +35,10 @@ public:
 
 private:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+    using Place = std::pair<double, double>;
+    struct Hash {
+        std::size_t operator()(const Place& place) const;
+    };
     struct Point {
         double x, y;
         std::uint32_t source = kNone;  // place among the sources
@@ -55,7 +59,6 @@ private:
         std::vector<Real> force, back;  // by source
     };
 
-    void grow();
     void extend(Point& point);
     template <class Real>
     double begin(Sums<Real>& sums, const double* f);
@@ -68,15 +71,15 @@ private:
 
     const Kernel* kernel_;
     std::vector<Point> points_;
-    std::vector<std::uint32_t> table_;   // hash table: numbers of points
-    std::vector<std::uint32_t> active_;  // numbers of points
-    std::vector<std::uint32_t> place_;   // of each source in active_, or kNone
-    std::vector<std::uint32_t> order_;   // places in active_, by source
-    std::vector<double> x_, y_;          // of the sources
-    std::vector<double> total_;          // by source
-    double unit_ = 0;                    // of `rough` [length/force]
-    std::size_t values_ = 0;             // stored
-    int small_ = 0;                      // consecutive sets of active points much smaller than that of the sources
+    std::unordered_map<Place, std::uint32_t, Hash> numbers_;  // of the points
+    std::vector<std::uint32_t> active_;                       // numbers of points
+    std::vector<std::uint32_t> place_;                        // of each source in active_, or kNone
+    std::vector<std::uint32_t> order_;                        // places in active_, by source
+    std::vector<double> x_, y_;                               // of the sources
+    std::vector<double> total_;                               // by source
+    double unit_ = 0;                                         // of `rough` [length/force]
+    std::size_t values_ = 0;                                  // stored
+    int small_ = 0;                                           // consecutive sets of active points much smaller than that of the sources
     Sums<double> exact_;
     Sums<float> rough_;
 };

@@ -37,8 +37,6 @@ struct Pack {
     RSC_TARGET static C splat(X a) { return C{} + a; }
     RSC_TARGET static V splat_real(double a) { return V{} + static_cast<R>(a); }
     RSC_TARGET static V difference(C a, C b) { return __builtin_convertvector(a - b, V); }
-    // a b + c, contracted if the instruction set supports it.
-    RSC_TARGET static V fma(V a, V b, V c) { return a * b + c; }
     RSC_TARGET static R sum(V v) {
         R part[W];
         __builtin_memcpy(part, &v, sizeof v);
@@ -46,8 +44,6 @@ struct Pack {
             for (std::size_t k = 0; k < half; ++k) part[k] += part[k + half];
         return part[0];
     }
-    // w - smooth if `inside` is positive, else 0.
-    RSC_TARGET static V difference_where_positive(V w, V smooth, V inside) { return inside > V{} ? w - smooth : V{}; }
     // Replaces d2 by 1/d from an estimate r; for coinciding points r is 0 and remains 0.
     RSC_TARGET static void refine(V* d2, const V* r) {
         if constexpr (sizeof(R) == 8) {
@@ -94,10 +90,10 @@ struct NearWeight {
         V inside[rows], smooth[rows], r[rows];
         RSC_FOR_ROWS inside[k] = cutoff2 - d2[k];
         RSC_FOR_ROWS smooth[k] = c[degree];
-        for (int m = degree - 1; m >= 0; --m) RSC_FOR_ROWS smooth[k] = P::fma(smooth[k], inside[k], c[m]);
+        for (int m = degree - 1; m >= 0; --m) RSC_FOR_ROWS smooth[k] = smooth[k] * inside[k] + c[m];
         RSC_FOR_ROWS r[k] = root_estimate(d2[k]);
         P::refine(d2, r);
-        RSC_FOR_ROWS d2[k] = P::difference_where_positive(d2[k], smooth[k], inside[k]);
+        RSC_FOR_ROWS d2[k] = inside[k] > V{} ? d2[k] - smooth[k] : V{};
     }
 };
 
@@ -115,7 +111,7 @@ RSC_TARGET [[gnu::always_inline]] inline void block(const Weight& weight, const 
         x[k] = P::splat(xi[k]);
         y[k] = P::splat(yi[k]);
         if constexpr (kBoth) f[k] = P::splat_real(fi[k]);
-        sum[k] = P::splat_real(0);
+        sum[k] = V{};
     }
     for (std::size_t j = 0; j < nj; j += P::W) {
         const typename P::C xs = P::load(xj + j), ys = P::load(yj + j);
@@ -123,13 +119,13 @@ RSC_TARGET [[gnu::always_inline]] inline void block(const Weight& weight, const 
         RSC_FOR_ROWS dx[k] = P::difference(x[k], xs);
         RSC_FOR_ROWS w[k] = P::difference(y[k], ys);
         RSC_FOR_ROWS w[k] = w[k] * w[k];
-        RSC_FOR_ROWS w[k] = P::fma(dx[k], dx[k], w[k]);
+        RSC_FOR_ROWS w[k] = dx[k] * dx[k] + w[k];
         weight(w);
         const V fs = P::load_real(fj + j);
-        RSC_FOR_ROWS sum[k] = P::fma(w[k], fs, sum[k]);
+        RSC_FOR_ROWS sum[k] = w[k] * fs + sum[k];
         if constexpr (kBoth) {
             V back = P::load_real(phi_j + j);
-            RSC_FOR_ROWS back = P::fma(w[k], f[k], back);
+            RSC_FOR_ROWS back = w[k] * f[k] + back;
             P::store(phi_j + j, back);
         }
     }

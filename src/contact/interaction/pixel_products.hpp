@@ -8,7 +8,7 @@ namespace rsc {
 // A pixel of a grid, by column and row.
 struct Pixel {
     int x, y;
-    friend bool operator==(const Pixel&, const Pixel&) = default;
+    friend auto operator<=>(const Pixel&, const Pixel&) = default;
 };
 
 // Interface of products with K. Pressures and deflections are vectors over a set of pixels, in its order.

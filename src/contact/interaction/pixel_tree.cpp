@@ -207,8 +207,6 @@ public:
         return matrices_[generation];
     }
 
-    const std::vector<std::vector<double>>& made(std::size_t generation) const { return matrices_[generation]; }
-
 private:
     // Adds to[r*columns + c] the sum of rows_of(r, j) columns_of(c, i) point[j*q + i].
     void expand(const std::vector<double>& rows_of, int rows, const std::vector<double>& columns_of, int columns, const double* point,
@@ -431,7 +429,8 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
                 to.push_back(down_[l].data() + at(target) * points);
             }
             if (!from.empty())
-                kernels.translate(static_cast<int>(points), q * q, interpolation.made(l)[o].data(), from.size(), from.data(), to.data());
+                kernels.translate(static_cast<int>(points), q * q, interpolation.matrices(l)[o].data(), from.size(), from.data(),
+                                  to.data());
         }
     });
     const auto down = [&](std::size_t l, std::size_t k) {

@@ -2,7 +2,7 @@
 
 #include "contact/interaction/mesh.hpp"
 #include "contact/interaction/pair_matrix.hpp"
-#include "contact/interaction/pair_sums.hpp"
+#include "contact/interaction/pairs.hpp"
 
 namespace rsc {
 namespace {
@@ -22,8 +22,7 @@ public:
     void set_active(const std::vector<int>& active) override {
         if (!fresh_ && active == active_) return;
         const bool moved = std::exchange(fresh_, false);
-        active_ = active;
-        complement(static_cast<int>(x_.size()));
+        divide(active);
         stored_ = matrix_ && !matrix_->too_large(active_.size(), passive_.size());
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
@@ -44,13 +43,7 @@ public:
 
     void inner(const double* f, double* phi) override {
         ++count_;
-        const bool single = sums_.has_single();
-        if (stored_)
-            matrix_->among(single, f, phi);
-        else if (single)
-            sums_.apply_single(f, phi);
-        else
-            sums_.apply(f, phi);
+        among(sums_.has_single(), f, phi);
     }
 
     void inner_passive(const double* f, double* phi) override { onto_passive(sums_.has_single(), f, phi); }
@@ -70,10 +63,7 @@ public:
 
     void full(const double* f, double* phi) override {
         ++count_;
-        if (stored_)
-            matrix_->among(false, f, active_phi_.data());
-        else
-            sums_.apply(f, active_phi_.data());
+        among(false, f, active_phi_.data());
         onto_passive(false, f, passive_phi_.data());
         for (std::size_t k = 0; k < active_.size(); ++k) phi[active_[k]] = active_phi_[k];
         for (std::size_t k = 0; k < passive_.size(); ++k) phi[passive_[k]] = passive_phi_[k];
@@ -83,20 +73,18 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
+    void among(bool single, const double* f, double* phi) {
+        if (stored_)
+            matrix_->among(single, f, phi);
+        else
+            sums_.among(single, f, phi);
+    }
+
     void onto_passive(bool single, const double* f, double* phi) {
         if (stored_)
             matrix_->onto(single, f, passive_numbers_, phi);
         else
             sums_.onto(single, passive_.size(), xp_.data(), yp_.data(), f, phi);
-    }
-
-    void gather(const std::vector<int>& which, std::vector<double>& x, std::vector<double>& y) const {
-        x.resize(which.size());
-        y.resize(which.size());
-        for (std::size_t k = 0; k < which.size(); ++k) {
-            x[k] = x_[static_cast<std::size_t>(which[k])];
-            y[k] = y_[static_cast<std::size_t>(which[k])];
-        }
     }
 
     void number(std::size_t n, const double* x, const double* y, std::vector<std::uint32_t>& to) {
@@ -110,7 +98,7 @@ private:
 
     bool fresh_ = true;    // true until set_active() is called for the current points
     bool stored_ = false;  // the matrix is used for the current points
-    std::vector<double> x_, y_, xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
+    std::vector<double> xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
     PairSums sums_;
     std::optional<PairMatrix> matrix_;
@@ -126,10 +114,16 @@ void Products::inner_everywhere(const double* f, double* phi) {
     for (std::size_t k = 0; k < passive_.size(); ++k) phi[passive_[k]] = part_[k];
 }
 
-void Products::complement(int n) {
+void Products::gather(const std::vector<int>& which, std::vector<double>& x, std::vector<double>& y) const {
+    x.clear(), y.clear();
+    for (const int k : which) x.push_back(x_[static_cast<std::size_t>(k)]), y.push_back(y_[static_cast<std::size_t>(k)]);
+}
+
+void Products::divide(const std::vector<int>& active) {
+    active_ = active;
     passive_.clear();
     std::size_t next = 0;
-    for (int k = 0; k < n; ++k) {
+    for (int k = 0; k < static_cast<int>(x_.size()); ++k) {
         if (next < active_.size() && active_[next] == k)
             ++next;
         else
@@ -181,8 +175,7 @@ public:
     }
 
     void set_active(const std::vector<int>& active) override {
-        active_ = active;
-        complement(static_cast<int>(x_.size()));
+        divide(active);
         if (by_pairs_) by_pairs().set_active(active);
     }
 
@@ -208,10 +201,7 @@ public:
         if (by_pairs_) return by_pairs().elsewhere(f, n, x, y, phi);
         const std::size_t sources = active_.size(), targets = static_cast<std::size_t>(n);
         std::vector<double> xa, ya;
-        for (int k : active_) {
-            xa.push_back(x_[static_cast<std::size_t>(k)]);
-            ya.push_back(y_[static_cast<std::size_t>(k)]);
-        }
+        gather(active_, xa, ya);
         constexpr double making = 3;  // cost of setting up a mesh and of one product, in products
         const double pairs = static_cast<double>(sources) * static_cast<double>(targets);
         if (pairs / direct_rate(*kernel_, sources) < making * MeshPotential::estimated_cost(sources + targets, kElsewhere)) {
@@ -249,7 +239,7 @@ private:
         return *pair_products_;
     }
 
-    const MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
+    MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
         if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
         return *mesh;
     }
@@ -261,19 +251,16 @@ private:
         if (!exact)
             made(inner_, inner_error_).apply(f_.data(), phi_.data());
         else if (direct())
-            pairs_.apply(f_.data(), phi_.data());
+            pairs_.among(false, f_.data(), phi_.data());
         else
             made(exact_, full_error_).apply(f_.data(), phi_.data());
     }
 
     // Mesh of the active points only.
-    const MeshPotential& among() {
+    MeshPotential& among() {
         if (!among_ || among_active_ != active_) {
             std::vector<double> xa, ya;
-            for (int k : active_) {
-                xa.push_back(x_[static_cast<std::size_t>(k)]);
-                ya.push_back(y_[static_cast<std::size_t>(k)]);
-            }
+            gather(active_, xa, ya);
             among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_, &far_);
             among_active_ = active_;
         }
@@ -283,7 +270,7 @@ private:
     double full_error_, inner_error_;
     bool by_pairs_ = false;
     std::unique_ptr<Products> pair_products_;
-    std::vector<double> x_, y_, f_, phi_;
+    std::vector<double> f_, phi_;
     FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;
     std::vector<int> among_active_;  // active points for which among_ was created

@@ -38,8 +38,11 @@ public:
 
 protected:
     explicit Products(std::shared_ptr<const Kernel> kernel) : kernel_(std::move(kernel)) {}
-    // Sets passive_ to the positions below n that are not in active_.
-    void complement(int n);
+    // Sets active_, and passive_ to the other positions in the working set.
+    void divide(const std::vector<int>& active);
+    // Coordinates of some points of the working set.
+    void gather(const std::vector<int>& which, std::vector<double>& x, std::vector<double>& y) const;
+    std::vector<double> x_, y_;  // of the working set
     std::vector<int> active_, passive_;
     std::shared_ptr<const Kernel> kernel_;
     std::vector<double> part_;

@@ -3,7 +3,6 @@
 #include "error.hpp"
 #include "rough/dispatch.hpp"
 #include "rough/parallel.hpp"
-#include "rough/surface.hpp"
 
 namespace rsc {
 namespace {
@@ -36,7 +35,7 @@ RSC_DISPATCH(convolve_eight, convolve_body, (int reach, const float* taps, const
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // Cubic B-spline at the four nodes around a place t of the way from the second to the third.
-std::array<float, 4> spline(double t) {
+constexpr std::array<float, 4> spline(double t) {
     const double u = 1 - t;
     return {static_cast<float>(u * u * u / 6), static_cast<float>((4 - 6 * t * t + 3 * t * t * t) / 6),
             static_cast<float>((4 - 6 * u * u + 3 * u * u * u) / 6), static_cast<float>(t * t * t / 6)};
@@ -46,10 +45,7 @@ constexpr int kFactor = 4;      // sides of a coarse pixel over those of a pixel
 constexpr double kSplit = 1.5;  // s [pixels]
 constexpr int kNear = 7;        // reach of the near part: erfc(7/3) = 1e-3
 
-const std::array<std::array<float, 4>, kFactor>& splines() {
-    static const std::array<std::array<float, 4>, kFactor> all = {spline(0), spline(0.25), spline(0.5), spline(0.75)};
-    return all;
-}
+constexpr std::array<std::array<float, 4>, kFactor> kSplines = {spline(0), spline(0.25), spline(0.5), spline(0.75)};
 
 // 1/(square of the transform of the B-spline), averaged over directions, at a wavenumber times the side of the coarse pixel.
 double sharpened(double k) {
@@ -91,8 +87,6 @@ double PixelStencil::transform(double k) const {
 
 SparsePlane::SparsePlane(int nx, int ny) : nx_(nx), ny_(ny), stride_(at(nx + 2 * kMargin + 7) / 8 * 8) {}
 
-void SparsePlane::Free::operator()(float* p) const noexcept { HeightMap::Free()(reinterpret_cast<double*>(p)); }
-
 // Writes value(k) for the pixels k of row j, and repeats them in the margins.
 template <class F>
 void SparsePlane::place(float* row, int j, const PixelSet& set, F&& value) const {
@@ -107,16 +101,12 @@ void SparsePlane::place(float* row, int j, const PixelSet& set, F&& value) const
 
 // Works on bands of rows, each of which is copied together with the rows within reach, so that the values remain in the cache.
 void SparsePlane::convolve(const PixelStencil& stencil, const PixelSet& set, const float* x, float* y, int threads) {
-    for (std::size_t count = most_threads(threads); bands_.size() < count;) {
-        const std::size_t n = stride_ * at(kBand + 2 * kMostReach) / 2;
-        bands_.emplace_back(reinterpret_cast<float*>(allocate_doubles(n, "the pressures on some pixels")));
-        std::fill_n(bands_.back().get(), 2 * n, 0.0f);
-    }
+    while (bands_.size() < most_threads(threads)) bands_.emplace_back(stride_ * at(kBand + 2 * kMostReach), 0.0f);
     const int reach = stencil.reach();
     parallel_for((ny_ + kBand - 1) / kBand, 1, threads, [&](int band, std::size_t worker) {
         const int first = band * kBand, end = std::min(first + kBand, ny_);
         if (set.rows[at(first)] == set.rows[at(end)]) return;
-        const auto row = [&](int j) { return bands_[worker].get() + at(j - first + reach) * stride_ + kMargin; };
+        const auto row = [&](int j) { return bands_[worker].data() + at(j - first + reach) * stride_ + kMargin; };
         const auto of_plane = [&](int j) { return (j % ny_ + ny_) % ny_; };
         for (int j = first - reach; j < end + reach; ++j) place(row(j), of_plane(j), set, [&](std::size_t k) { return x[k]; });
         for (int j = first; j < end; ++j) {
@@ -176,7 +166,7 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
             const int q = set.column[k] / kFactor;
             if (q != last) store(), last = q;
-            const std::array<float, 4>& along_x = splines()[at(set.column[k] % kFactor)];
+            const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
             for (std::size_t u = 0; u < 4; ++u) sum[u] += x_[k] * along_x[u];
         }
         store();
@@ -186,7 +176,7 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         std::fill_n(row, mx, 0.0f);
         for (int t = 0; t < 4; ++t)
             for (int m = 0; m < kFactor; ++m) {
-                const float along_y = splines()[at(m)][at(t)] / (kFactor * kFactor);
+                const float along_y = kSplines[at(m)][at(t)] / (kFactor * kFactor);
                 const float* const line = lines_.data() + at(((J + 1 - t + my) % my) * kFactor + m) * length + 1;
                 for (int i = 0; i < mx; ++i) row[i] += along_y * line[i];
             }
@@ -194,7 +184,7 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
     coarse_.apply(load, [](int, const float*) {});
     parallel_for(ny_, kRows, threads, [&](int j) {
         if (set.rows[at(j)] == set.rows[at(j) + 1]) return;
-        const std::array<float, 4>& along_y = splines()[at(j % kFactor)];
+        const std::array<float, 4>& along_y = kSplines[at(j % kFactor)];
         const float* rows[4];
         for (int t = 0; t < 4; ++t) rows[t] = coarse_.row((j / kFactor - 1 + t + my) % my);
         thread_local std::vector<float> line;
@@ -203,7 +193,7 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
             line[at(i) + 1] = along_y[0] * rows[0][i] + along_y[1] * rows[1][i] + along_y[2] * rows[2][i] + along_y[3] * rows[3][i];
         line[0] = line[at(mx)], line[at(mx) + 1] = line[1], line[at(mx) + 2] = line[2];
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
-            const std::array<float, 4>& along_x = splines()[at(set.column[k] % kFactor)];
+            const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
             const float* const from = line.data() + set.column[k] / kFactor;
             float far = 0;
             for (int u = 0; u < 4; ++u) far += along_x[at(u)] * from[u];

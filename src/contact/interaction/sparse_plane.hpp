@@ -32,22 +32,19 @@ public:
     static constexpr int kMostReach = 16;
     SparsePlane(int nx, int ny);
     // y = stencil * x for x on the pixels of the set and y on the same pixels. Results do not depend on the number of threads. The memory is
-    // allocated by the first call, which may throw Error(no_memory).
+    // allocated by the first call.
     void convolve(const PixelStencil& stencil, const PixelSet& set, const float* x, float* y, int threads);
 
 private:
     static constexpr int kMargin = kMostReach + 8;
     static constexpr int kBand = 32;
-    struct Free {
-        void operator()(float* p) const noexcept;
-    };
     template <class F>
     void place(float* row, int j, const PixelSet& set, F&& value) const;
 
     int nx_, ny_;
     std::size_t stride_;
     // Some rows for each thread, zero between calls; margins repeat the columns of the other side.
-    std::vector<std::unique_ptr<float[], Free>> bands_;
+    std::vector<std::vector<float>> bands_;
 };
 
 // K of PeriodicPixels with dx = 1, to 0.3 % of the largest product (2 % with an aspect of 1.2, 3 % with layers): the part of each mode with erfc(s k)

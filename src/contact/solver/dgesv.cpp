@@ -1,6 +1,6 @@
 #include "contact/solver/dgesv.hpp"
 
-#include "contact/interaction/pair_sums.hpp"
+#include "contact/interaction/pairs.hpp"
 #include "contact/solver/lapack.hpp"
 #include "error.hpp"
 #include "rough/parallel.hpp"
@@ -53,7 +53,7 @@ void paper_equations(const Law& law, const Kernel& kernel, const WorkingSet& set
 }
 
 PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set, const PaperMethod& method, Vector& v,
-                            Vector& force) {
+                            Vector& force, Vector& slope) {
     const int n = set.size();
     const std::size_t size = static_cast<std::size_t>(n);
     const auto K = allocate_matrix(size);
@@ -61,9 +61,9 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     PairSums pairs(kernel);
     pairs.assign(size, set.x.data(), set.y.data());
 
-    Vector slope(size), R(size), work(size), target(size);
+    Vector R(size), work(size), target(size);
     const auto penetrations = [&] {  // v = g0 - B F
-        pairs.apply(force.data(), v.data());
+        pairs.among(false, force.data(), v.data());
         for (std::size_t i = 0; i < size; ++i) v[i] = set.g0[i] - v[i];
     };
     const auto residual = [&] {
@@ -72,8 +72,7 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
         return relative_residual(target, force);
     };
 
-    v.resize(size);
-    force.resize(size);
+    v.resize(size), force.resize(size), slope.resize(size);
     law.respond(n, set.asperity.data(), set.g0.data(), force.data(), slope.data(), work.data());
     penetrations();
 
@@ -81,7 +80,6 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
     double delta = method.delta0;
     while (outcome.iterations < method.max_iterations) {
         stopping_point();
-        outcome.delta = delta;
         paper_equations(law, kernel, set, delta, force, v, R, K.get());
         ++outcome.iterations;
         if (!lapack::solve(n, K.get(), R.data(), pivots)) {

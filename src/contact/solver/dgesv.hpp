@@ -14,12 +14,8 @@ struct PaperMethod {
     int max_iterations;
 };
 
-struct PaperOutcome {
-    bool converged = false;
-    bool singular = false;  // dgesv reported a singular matrix
-    int iterations = 0;     // dgesv solves
-    double residual = 0;    // |F - f(<g0 - B F>)| / |F|, unregularised
-    double delta = 0;       // of the last iteration [length]
+struct PaperOutcome : NewtonOutcome {  // iterations: dgesv solves
+    bool singular = false;             // dgesv reported a singular matrix
 };
 
 // Equations of one iteration at the forces F, v = g0 - B F. The residual is R = F - f(m(v, delta)), where the smooth and positive m(x,
@@ -27,9 +23,9 @@ struct PaperOutcome {
 void paper_equations(const Law& law, const Kernel& kernel, const WorkingSet& set, double delta, const std::vector<double>& force,
                      const std::vector<double>& v, std::vector<double>& R, double* K);
 
-// Solves for the forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F. Throws Error(no_memory)
+// Solves for the forces of all points of the set from the no-interaction start F0 = f(<g0>); v receives g0 - B F, and slope df/dv. Throws Error(no_memory)
 // if the 8 n^2 bytes cannot be allocated.
 PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set, const PaperMethod& method, std::vector<double>& v,
-                            std::vector<double>& force);
+                            std::vector<double>& force, std::vector<double>& slope);
 
 }  // namespace rsc

@@ -48,6 +48,18 @@ private:
     std::unique_lock<std::mutex> turn_;
 };
 
+// Lowest eigenvalue and its unit eigenvector of the symmetric tridiagonal matrix with the diagonal alpha and off-diagonal beta.
+double lowest_of_tridiagonal(std::vector<double> alpha, std::vector<double> beta, std::vector<double>& vector) {
+    const int n = static_cast<int>(alpha.size());
+    beta.resize(alpha.size());
+    std::vector<double> z(alpha.size() * alpha.size()), work(2 * alpha.size());
+    int info = 0;
+    dstev_("V", &n, alpha.data(), beta.data(), z.data(), &n, work.data(), &info, 1);
+    if (info != 0) throw Error(Failure::internal, "dstev did not converge");
+    vector.assign(z.begin(), z.begin() + n);
+    return alpha.front();
+}
+
 }  // namespace
 
 bool solve(int n, double* A, double* b, std::vector<int>& pivots) {
@@ -67,15 +79,54 @@ bool is_positive_definite(int n, double* A) {
     return info == 0;
 }
 
-double lowest_of_tridiagonal(std::vector<double> alpha, std::vector<double> beta, std::vector<double>& vector) {
-    const int n = static_cast<int>(alpha.size());
-    beta.resize(alpha.size());
-    std::vector<double> z(alpha.size() * alpha.size()), work(2 * alpha.size());
-    int info = 0;
-    dstev_("V", &n, alpha.data(), beta.data(), z.data(), &n, work.data(), &info, 1);
-    if (info != 0) throw Error(Failure::internal, "dstev did not converge");
-    vector.assign(z.begin(), z.begin() + n);
-    return alpha.front();
+double lanczos_lowest(std::size_t n, const std::function<void(const std::vector<double>&, std::vector<double>&)>& multiply,
+                      std::vector<double>& vector) {
+    const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+        return sum;
+    };
+    const std::size_t most = std::min<std::size_t>(n, 300);
+    std::vector<std::vector<double>> basis;
+    std::vector<double> alpha, beta, image(n), ritz;
+    std::vector<double> q(n);
+    // A fixed start vector that is not orthogonal to any eigenvector by symmetry.
+    for (std::size_t k = 0; k < n; ++k) q[k] = std::sin(12.9898 * static_cast<double>(k + 1)) + 0.1;
+    double length = std::sqrt(dot(q, q)), lowest = 1;
+    while (basis.size() < most) {
+        for (double& x : q) x /= length;
+        basis.push_back(q);
+        multiply(q, image);
+        alpha.push_back(dot(q, image));
+        // Three-term recurrence, after which reorthogonalisation only removes rounding errors.
+        for (std::size_t k = 0; k < n; ++k) image[k] -= alpha.back() * q[k];
+        if (basis.size() > 1) {
+            const auto& before = basis[basis.size() - 2];
+            for (std::size_t k = 0; k < n; ++k) image[k] -= beta.back() * before[k];
+        }
+        for (const auto& b : basis) {
+            const double c = dot(b, image);
+            for (std::size_t k = 0; k < n; ++k) image[k] -= c * b[k];
+        }
+        q = image;
+        length = std::sqrt(dot(q, q));
+        const std::size_t m = basis.size();
+        const bool last = m == most || length < 1e-12;
+        if (last || m % 5 == 0) {
+            lowest = lowest_of_tridiagonal(alpha, beta, ritz);
+            const double error = last && length < 1e-12 ? 0.0 : length * std::abs(ritz.back());
+            if (last || error < 0.2 * std::abs(lowest)) {
+                if (lowest > 0) lowest -= std::min(error, 0.99 * lowest);
+                break;
+            }
+        }
+        beta.push_back(length);
+    }
+    vector.assign(n, 0.0);
+    for (std::size_t m = 0; m < ritz.size(); ++m) {
+        for (std::size_t k = 0; k < n; ++k) vector[k] += ritz[m] * basis[m][k];
+    }
+    return lowest;
 }
 
 }  // namespace rsc::lapack

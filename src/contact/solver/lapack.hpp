@@ -1,4 +1,4 @@
-// Wrappers of the LAPACK routines used by rsc.
+// Wrappers of the LAPACK routines used by rsc, and the lowest eigenvalue of an operator.
 #pragma once
 
 #include "std.hpp"
@@ -11,7 +11,10 @@ bool solve(int n, double* A, double* b, std::vector<int>& pivots);
 // True if the symmetric matrix A (n x n, overwritten) is positive definite, by dpotrf. A must be finite.
 bool is_positive_definite(int n, double* A);
 
-// Lowest eigenvalue and its unit eigenvector of the symmetric tridiagonal matrix with the diagonal alpha and off-diagonal beta.
-double lowest_of_tridiagonal(std::vector<double> alpha, std::vector<double> beta, std::vector<double>& vector);
+// Lowest eigenvalue of a symmetric operator, used to distinguish minima from saddles: Lanczos iteration with full reorthogonalisation and a
+// fixed start. It stops as soon as the sign of the lowest eigenvalue is certain. Returns the lowest Ritz value minus its error bound if that
+// is positive, the Ritz value itself if it is negative; `vector` receives the Ritz vector (unit length).
+double lanczos_lowest(std::size_t n, const std::function<void(const std::vector<double>&, std::vector<double>&)>& multiply,
+                      std::vector<double>& vector);
 
 }  // namespace rsc::lapack

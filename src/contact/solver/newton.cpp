@@ -1,6 +1,6 @@
 #include "contact/solver/newton.hpp"
 
-#include "contact/solver/lanczos.hpp"
+#include "contact/solver/lapack.hpp"
 #include "contact/solver/uniqueness.hpp"
 #include "rough/parallel.hpp"
 
@@ -272,7 +272,7 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
     products_->set_active(state.active);
     scale_active(state);
     Vector image(root_.size());
-    const double lowest = lanczos_lowest(
+    const double lowest = lapack::lanczos_lowest(
         root_.size(), [&](const Vector& in, Vector& out) { multiply(in, out); }, w);
     return lowest > 0;
 }

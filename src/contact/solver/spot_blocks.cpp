@@ -84,11 +84,6 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
     return count;
 }
 
-bool SpotBlocks::Less::operator()(const Shape& a, const Shape& b) const {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
-                                        [](const Pixel& p, const Pixel& q) { return std::tie(p.y, p.x) < std::tie(q.y, q.x); });
-}
-
 void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& products) {
     std::vector<int> label;
     const int spots = connected_sets(pixels, label);

@@ -23,9 +23,6 @@ public:
 
 private:
     using Shape = std::vector<Pixel>;  // relative to its first pixel
-    struct Less {
-        bool operator()(const Shape& a, const Shape& b) const;
-    };
     struct Inverse {
         std::vector<float> values;
         bool wanted = true;
@@ -34,7 +31,7 @@ private:
         std::size_t begin;
         const Inverse* inverse;
     };
-    std::map<Shape, Inverse, Less> known_;
+    std::map<Shape, Inverse> known_;
     std::vector<Block> blocks_;
     std::vector<int> members_;  // positions of the pixels of the blocks
 };
