@@ -68,13 +68,6 @@ constexpr double kAlone = 0.15;
 // others (test/README).
 constexpr double kEllipses = 0.6;
 
-// Mean contact radius, weighted by the forces.
-double mean_radius(const Level& level) {
-    double sum = 0, force = 0;
-    for (std::size_t k = 0; k < level.a.size(); ++k) sum += level.f[k] * level.a[k], force += level.f[k];
-    return sum / force;
-}
-
 // Summits of law 'hertz' are grid points, on average kappa h^2/12 lower than the summits between the points (grid step h, curvature kappa):
 // the relative changes 3/2 of that over the penetration u of N, and once of A, without the interaction.
 struct GridShare {

@@ -258,7 +258,7 @@ void ResultTable::compared() {
     add_absent("compare_force", dims, unit(0, 1), "normal force" + by, of(&C::force));
     add_absent("compare_contact_area", dims, unit(2), "true contact area" + by, of(&C::area));
     add_absent("compare_contact_area_pixels", dims, unit(2), "area of the pixels under pressure, without the correction at borders",
-        of(&C::area_pixels));
+               of(&C::area_pixels));
     add("compare_contacts", dims, "1", "number of contacts" + by, of(&C::contacts), comment("sets of pixels connected by their sides"));
     add("compare_residual", dims, "1", "residual of the contact conditions", of(&C::residual));
     if (r_.force_control())
