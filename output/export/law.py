@@ -5,9 +5,9 @@
     python3 output/export/law.py RESULT.nc --abaqus             for an input deck of Abaqus
     python3 output/export/law.py RESULT.nc --table              columns, with the scatter over realizations, for modules/example/uinter.f90
 
-A sphere becomes a nonlinear spring, force against approach; two flats (boundary='periodic') pressure against overclosure. The law is the mean
-over realizations and increases from level to level; levels that did not converge, or at which it would decrease, are excluded and
-counted. Approach and overclosure begin where the first asperity touches; a comment states this separation. Needs numpy and
+A sphere or another indenter becomes a nonlinear spring, force against approach; two flats (boundary='periodic') pressure against overclosure. The
+law is the mean over realizations and increases from level to level; levels that did not converge, or at which it would decrease, are excluded and
+counted, as are with solids%hardness the levels after the first loading. Approach and overclosure begin where the first asperity touches; a comment states this separation. Needs numpy and
 netCDF4 (Debian: python3-numpy python3-netcdf4).
 """
 
@@ -50,10 +50,11 @@ class Law:
             if "pull_off_force" in variables:
                 raise Refused(f"{path!r} has adhesion (solids%adhesion): loading and unloading differ, and a table has only one curve")
             self.flats = "pressure" in variables
-            case = re.search(r"boundary\s*=\s*'(\w+)'", getattr(file, "case", ""))
-            if not self.flats and not _finite(variables, "r_star"):
-                raise Refused(f"{path!r} is of two flats with a border ({'boundary = ' + repr(case[1]) if case else 'no boundary'}): a law of an interface needs "
-                              "&indentation boundary='periodic'")
+            if "time" in variables and "energy_lost" in variables:
+                raise Refused(f"{path!r} has bodies that relax (solids%relaxation_time): the load depends on time, and a table has only one curve")
+            if not self.flats and getattr(file, "indenter", "") == "flat":
+                raise Refused(f"{path!r} is of two flats with a border: a law of an interface needs &indentation boundary='periodic'")
+            self.yields = "plastic_contacts" in variables
             load, area = ("pressure", "area_fraction") if self.flats else ("force", "contact_area")
             self.realizations = len(file.dimensions["realization"])
             self.units = {"approach": _unit(variables["separation"]), "load": _unit(variables[load]), "area": _unit(variables[area]) if area in variables else "1"}
@@ -62,6 +63,10 @@ class Law:
         z, n = table["separation"], table[load]
         a = table.get(area, np.full_like(n, np.nan))
         bad = (table["status"] == NOT_CONVERGED).any(axis=0)
+        depth = -z.mean(axis=0)
+        later = self.yields & (depth <= np.fmax.accumulate(np.append(-np.inf, depth[:-1])))
+        self.later, bad, z, n, a = int(later.sum()), bad[~later], z[:, ~later], n[:, ~later], a[:, ~later]
+        table["status"] = table["status"][:, ~later]
         self.unconverged = int(bad.sum())
         worst = table["status"].max(axis=0).astype(int)[~bad & (n.mean(axis=0) > 0)]
         self.statuses = ", ".join(f"{(worst == k).sum()} {word}" for k, word in enumerate(meanings) if (worst == k).any())
@@ -108,7 +113,8 @@ class Law:
         lines = [f"{self.title or os.path.basename(self.path)}: {load} against {approach}, {many}", f"units: {load} {self.units['load']}, {approach} {self.units['approach']}",
                  f"{approach} = {self.origin:.9g} - separation of the {'mean planes' if self.flats else 'tip from the mean plane'}"
                  + (f" (no level without contact: continued to zero {load} by its 2/3 power)" if self.extrapolated else f" (the last level without contact)"),
-                 f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} levels not converged, {self.not_increasing} not increasing",
+                 f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} levels not converged, {self.not_increasing} not increasing"
+                 + (f", {self.later} after the first loading (solids%hardness): unloading differs" if self.yields else ""),
                  f"status of the levels, the worst of the realizations: {self.statuses}",
                  f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was computed: most programs keep the {load} constant there"]
         if self.realizations > 1:
@@ -118,10 +124,6 @@ class Law:
         lines.append(f"from {os.path.basename(self.path)}, {self.source}")
         # Texts of the file must neither end a comment nor contain terminal commands.
         return [re.sub(r"[\x00-\x1f\x7f-\x9f]", "?", line) for line in lines]
-
-
-def _finite(variables, name):
-    return name in variables and not np.ma.is_masked(variables[name][...]) and bool(np.isfinite(variables[name][...]))
 
 
 def _unit(variable):
@@ -167,7 +169,7 @@ def table(law, name):
 
 
 def main(words=None):
-    parser = argparse.ArgumentParser(description="A contact law for finite elements from a result file of rsc: a sphere as a nonlinear spring, flats as pressure against overclosure.")
+    parser = argparse.ArgumentParser(description="A contact law for finite elements from a result file of rsc: an indenter as a nonlinear spring, flats as pressure against overclosure.")
     parser.add_argument("result", help="result file (NetCDF)")
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--calculix", dest="write", action="store_const", const=calculix, help="keywords for a deck of CalculiX")

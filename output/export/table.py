@@ -45,6 +45,7 @@ class Table:
             if "force" not in variables or "status" not in variables:
                 raise Refused(f"{path!r} is no result of indentation: it lacks the variable 'force' or 'status'")
             self.meanings = variables["status"].flag_meanings.split()
+            self.remembers = "path" in file.ncattrs()  # levels depend on the levels before
             status = np.atleast_2d(np.ma.filled(variables["status"][:], NOT_CONVERGED)).astype(int)
             good = status != NOT_CONVERGED
             self.status = np.take_along_axis(status, GRAVITY[status].argmax(axis=0)[None], 0)[0]
@@ -73,17 +74,17 @@ class Table:
         self.columns[name], self.units[name] = values, unit
 
     def loading(self, by):
-        """The levels of the first loading, by increasing load, so that every interpolation is unique."""
+        """The levels by increasing load, so that every interpolation is unique; if levels depend on those before them, only the first loading."""
         load, depth = self.columns[self.load], -self.columns["separation"]
         levels = [k for k in range(load.size) if load[k] > 0 and np.isfinite(depth[k])]
-        if levels and load[levels[-1]] < load[levels[0]]:
-            levels.reverse()
+        if not self.remembers:
+            levels.sort(key=lambda k: depth[k])
         kept = []
         for k in levels:
             if not kept or load[k] > load[kept[-1]] and (by != "separation" or depth[k] > depth[kept[-1]]):
                 kept.append(k)
         if len(kept) < 2:
-            raise Refused(f"{self.path!r} has fewer than two levels with contact: nothing can be interpolated")
+            raise Refused(f"{self.path!r} has fewer than two levels of increasing load: nothing can be interpolated")
         return kept
 
     def at(self, wanted, by=None):

@@ -63,7 +63,7 @@ def _theories(page, result):
     near = np.isfinite(crossing) and ends[0] / 30 < crossing < ends[1] * 30 and not result.by_elements()
     if near:
         ends = np.array([min(ends[0], crossing / 2), max(ends[1], crossing * 2)])
-    laws = [("area_hertz", 2 / 3, ":", "smooth sphere (Hertz)")]
+    laws = [("area_hertz", {"cone": 1, "punch": 0}.get(result.shape(), 2 / 3), ":", result.smooth())]
     if not result.by_elements():  # the regimes hold for asperities far from merging
         laws += [("area_I", 2 / 3, "--", r"$A_I\propto N^{2/3}$, one asperity"), ("area_II", 1, "-.", r"$A_{II}\propto N$, many")]
     for name, exponent, line, text in laws:
@@ -83,7 +83,7 @@ def _elastic_until(page, axis, result):
     if not yields[at].any():
         page.entry(f"elastic up to {amount(force[at].max(), dimension)}: pressures below the hardness {hardness}", ls="none")
         return
-    begins = force[at[yields[at]]].min()
-    below = force[at][force[at] < begins]
+    first = at[np.argmax(yields[at])]  # in the order of the levels: a spot that yielded counts at lower forces after it too
+    begins, below = force[first], force[at[(at < first) & (force[at] < force[first])]]
     axis.axvspan(begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0)
     page.entry(f"contacts yield from {amount(begins, dimension)} on" + (f" (none at {amount(below.max(), dimension)})" if below.size else ""), color="#f2b400", alpha=0.3, lw=6)

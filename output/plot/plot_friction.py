@@ -41,7 +41,8 @@ def loop(results, options):
                   label="smooth sphere (Mindlin)")
     label(axis, "x", "tangential displacement", result.dimension("tangential_displacement"))
     label(axis, "y", "tangential force $Q$", result.dimension("tangential_force"))
-    return page.finish(result.heading(f"Friction at {result.level_name(step)}, $N$ = {amount(N, result.dimension('force'))}"))
+    force = "" if result.control() == "force" else f", $N$ = {amount(N, result.dimension('force'))}"
+    return page.finish(result.heading(f"Friction at {result.level_name(step)}{force}"))
 
 
 def stick(results, options):

@@ -9,7 +9,8 @@ MOST = 36  # maps of several results on one page
 
 
 def hertz_radius(result, step):
-    return float(np.sqrt(result["area_hertz"][step] / np.pi)) if result.has_sphere() else np.nan
+    """Radius of the contact of the smooth indenter; NaN if it is no circle."""
+    return float(np.sqrt(result["area_hertz"][step] / np.pi)) if result.has_sphere() and result.shape() != "paraboloid" else np.nan
 
 
 def shown(results, options):
@@ -34,7 +35,7 @@ def contact_window(x, y, field, side, margin=0.15):
 
 def maps(results, options):
     """Area fraction and pressure in the cells at some levels of one result, or the pressure of several results; cropped to the contact. The circle
-    is the contact of the smooth sphere under the same force."""
+    is the contact of the smooth indenter under the same force."""
     panels = shown([r for r in results if "map_pressure" in r], options)
     if not panels:
         return None
@@ -43,36 +44,40 @@ def maps(results, options):
         panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
     one = len(results) == 1
     quantities = [("map_area_fraction", "area fraction $A'$"), ("map_pressure", "pressure $p$")] if one else [("map_pressure", "pressure $p$")]
-    columns = len(panels) if one else int(np.ceil(np.sqrt((1.0 if len(panels) <= 9 else 1.6) * len(panels))))
+    beside = one and len(panels) == 1 and options.width >= 120  # both quantities in one row
+    columns = 2 if beside else len(panels) if one else int(np.ceil(np.sqrt((1.0 if len(panels) <= 9 else 1.6) * len(panels))))
     rows = -(-len(panels) // columns)
     size = options.width / columns
-    small = size < 46  # too small for its own colour bar and axes
-    figure, axes = plt.subplots(rows * len(quantities), columns, figsize=(options.width / 25.4, ((0.8 if not small else 1.05) * size * rows * len(quantities) + (14 if one else 8 * rows)) / 25.4),
+    small = size < 46 and not one  # too small for its own colour bar and axes
+    rows *= 1 if beside else len(quantities)
+    figure, axes = plt.subplots(rows, columns, figsize=(options.width / 25.4, ((0.8 if not small else 1.05) * size * rows + (14 if one else 8 * rows)) / 25.4),
                                 constrained_layout=True, squeeze=False)
     for axis in axes.ravel():
         axis.set_visible(False)
     images = []
     for k, (result, level, name) in enumerate(panels):
         for q, (variable, text) in enumerate(quantities):
-            axis = axes[k // columns + rows * q, k % columns]
+            axis = axes[0, q] if beside else axes[q if one else k // columns, k % columns]
             axis.set_visible(True)
             image = _map(axis, result, level, variable)
             images.append(image)
+            axis.locator_params(nbins=4 if size >= 46 else 2)
             if not small:
                 colour_bar(figure, image, axis, text, result.dimension(variable), extend=image.extend, fraction=0.06, pad=0.03, aspect=16)
                 label(axis, "y", "$y$", result.dimension("y"))
                 label(axis, "x", "$x$", result.dimension("x"))
             else:
                 axis.set(xticks=[], yticks=[])
-            if q == 0:
-                force = f"\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}" if not name.startswith("$N$") and not small else ""
+            if q == 0 or beside:
+                force = f"\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}" if result.control() != "force" and not small else ""
                 axis.set_title("\n".join(_wrapped(name, int(size / 1.5))) + force, fontsize=7 if not small else 5.5)
     if small:  # one scale for all
         end = max(image.get_clim()[1] for image in images)
         for image in images:
             image.set_clim(0, end)
         colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
-    what = ("Area fraction and pressure" if one else "Pressure") + ("; dashed: smooth sphere under the same force" if any(r.has_sphere() for r, _, _ in panels) else "")
+    smooth = sorted({result.smooth() for result, level, _ in panels if np.isfinite(hertz_radius(result, level))})
+    what = ("Area fraction and pressure" if one else "Pressure") + (f"; dashed: {', '.join(smooth)} under the same force" if smooth else "")
     figure.canvas.draw()  # the layout uses the width of tick labels of the previous drawing
     figure.suptitle("\n".join(part for line in (results[0].heading(what) if one else what).split("\n") if line for part in _wrapped(line, int(options.width / 1.65))))
     return figure
@@ -82,6 +87,8 @@ def _map(axis, result, level, name):
     field, x, y, side = result.window(name, level), result["x"], result["y"], float(result["map_cell_side"])
     # One per cent of the cells may be above the end of the scale, because they would hide the variation of all others.
     end = np.percentile(field[field > 0], 99) if (field > 0).any() else 1.0
+    if name == "map_area_fraction":
+        end = min(end, 1.0)  # above 1: a spot larger than the cell of its centre
     image = axis.imshow(np.ma.masked_where(~(field > 0), field), extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2], cmap=COLOURS, vmin=0, vmax=end,
                         interpolation="nearest")
     image.extend = "max" if np.nanmax(field, initial=0) > end else "neither"
@@ -90,5 +97,4 @@ def _map(axis, result, level, name):
         axis.add_patch(plt.Circle((float(result["tip_x"]), float(result["tip_y"])), radius, fill=False, ls="--", lw=1.0, color="r"))
     window = contact_window(x, y, result.window("map_pressure", level), side)
     axis.set(xlim=window[:2], ylim=window[2:])
-    axis.locator_params(nbins=4)
     return image

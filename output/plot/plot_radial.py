@@ -7,8 +7,12 @@ from plot_curves import panel_looks, title
 from plot_style import Page, amount, label
 
 
+def _of_sphere(result, level):
+    return "hertz_pressure" in result and bool(np.isfinite(result["hertz_pressure"][level]).all())
+
+
 def radial(results, options):
-    """Radial mean of the pressure, linear and logarithmic, with Hertz for the same force."""
+    """Radial mean of the pressure, linear and logarithmic, for a sphere with Hertz for the same force."""
     results = [r for r in results if "radial_pressure" in r and r.has_sphere()]
     panels = shown(results, options)
     if not panels:
@@ -16,16 +20,21 @@ def radial(results, options):
     if len({name for _, _, name in panels}) < len(panels):  # levels of equal separation
         panels = [(r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}") for r, level, name in panels]
     page = Page(options, 2)
-    end, all_pressures = 0.0, []
+    end, all_pressures, lines = 0.0, [], False
     for (result, level, _), (marker, line, colour) in zip(panels, panel_looks(page, [r for r, _, _ in panels], [name for _, _, name in panels])):
-        radius, pressure, a = result["radius"], result["radial_pressure"][level], hertz_radius(result, level)
+        radius, pressure, a = result["radius"], result["radial_pressure"][level], hertz_radius(result, level) if _of_sphere(result, level) else np.nan
+        lines = lines or np.isfinite(a)
         all_pressures.append(pressure[pressure > 0])
         end = max(end, radius[pressure > 0].max(initial=0), 1.3 * a)
         for axis, logarithmic in zip(page.axes, (False, True)):
             good = pressure > 0 if logarithmic else np.isfinite(pressure)
             axis.plot(radius[good], pressure[good], marker, ms=2.5, color=colour, mfc="none", mew=0.7)
+            if not np.isfinite(a):
+                continue
             r = a * np.sin(np.linspace(0, np.pi / 2, 200)[: -1 if logarithmic else None])
             axis.plot(r, 1.5 * result.mean("force")[level] / (np.pi * a * a) * np.sqrt(1 - (r / a) ** 2), line, color=colour, gid="hertz")
+    for entry in page.entries.values() if not lines else []:
+        entry.set_linestyle("none")
     positive = np.concatenate(all_pressures)
     page.axes[1].set_yscale("log")
     if positive.size:
@@ -37,4 +46,4 @@ def radial(results, options):
     page.axes[0].set_ylim(bottom=0)
     for axis in page.axes:
         label(axis, "y", "pressure $p$", results[0].dimension("radial_pressure"))
-    return page.finish(title(results, "Radial mean of the pressure; points: rsc, lines: smooth sphere (Hertz)"))
+    return page.finish(title(results, "Radial mean of the pressure" + ("; points: rsc, lines: smooth sphere (Hertz)" if lines else "")))

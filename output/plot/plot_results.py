@@ -96,16 +96,17 @@ class Result:
         return self.case.get("indentation%control", "separation").strip("'")
 
     def level_name(self, step):
-        """Name of a level: the separation, force or pressure of the case, or the time if that is constant."""
-        driven = {"force": "force", "pressure": "pressure"}.get(self.control(), "separation")
-        if "time" in self and driven in self and np.ptp(self.mean(driven)) <= 1e-9 * np.abs(self.mean(driven)).max():
-            return f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
-        if self.control() == "force" and "force" in self:
-            return f"$N$ = {amount(self.mean('force')[step], self.dimension('force'))}"
-        if self.control() == "pressure" and "pressure" in self:
-            return f"$p$ = {amount(self.mean('pressure')[step], self.dimension('pressure'))}"
+        """Name of a level: the separation, force or pressure of the case unless it is constant in time, and the time if the file has it."""
         values, text, dimension = self.depth()
-        return f"{text.partition(' ')[2]} = {amount(values[step], dimension)}"
+        symbol = text.partition(" ")[2]
+        if self.control() in ("force", "pressure") and self.control() in self:
+            values, symbol, dimension = self.mean(self.control()), {"force": "$N$", "pressure": "$p$"}[self.control()], self.dimension(self.control())
+        name = f"{symbol} = {amount(values[step], dimension)}"
+        if "time" not in self:
+            return name
+        time = f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
+        # A prescribed load is exact only to the solver's tolerance.
+        return time if np.nanmax(values) - np.nanmin(values) <= 1e-3 * np.nanmax(abs(values)) else f"{name}, {time}"
 
     def level_status(self):
         """The worst status of each level over realizations, 0 without contact, and the names of the numbers."""
@@ -152,8 +153,15 @@ class Result:
         return f"{what} ({many})\n{self.title}"
 
     def has_sphere(self):
-        """False for two flats, for which there is no Hertz solution."""
+        """True if the file has the contact of the smooth indenter."""
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
+
+    def shape(self):
+        return self.case.get("indenter%shape", "sphere").strip("'")
+
+    def smooth(self):
+        """Name of the smooth indenter."""
+        return f"smooth {self.shape()}" + (" (Hertz)" if self.shape() in ("sphere", "paraboloid") else "")
 
     def by_elements(self):
         model, source = (self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source"))
@@ -183,6 +191,11 @@ def key_label(key, result):
     symbol, kind = _SYMBOLS.get(key, (key.split("%")[1].replace("_", " "), ""))
     length, force = (result.case.get(f"run%{k}_unit", "").strip("'") for k in ("length", "force"))
     return symbol, {"length": length, "force": force, "modulus": f"{force} {length}$^{{-2}}$", "": ""}[kind]
+
+
+def axis_label(key, result):
+    symbol, unit = key_label(key, result)
+    return symbol + (f" [{unit}]" if unit else "")
 
 
 def value_text(value):
@@ -224,14 +237,15 @@ class Looks:
         values = lambda key: sorted({r.case.get(key, "") for r in results}, key=_in_order)
         if len(keys) in (1, 2) and len(values(keys[-1])) <= (len(STYLES) if len(keys) == 2 else len(results)):
             first, shown = keys[0], values(keys[0])
-            symbol, unit = key_label(first, results[0])
             texts, place = [value_text(v) for v in shown], [shown.index(r.case.get(first, "")) for r in results]
-            title = symbol + (f" [{unit}]" if unit else "")
+            title, second = axis_label(first, results[0]), keys[1] if len(keys) == 2 else None
         else:
-            texts, place, title = [str(k + 1) for k in range(len(results))], list(range(len(results))), "member"
+            second = None
+            texts, place, title = [", ".join(value_text(r.case.get(key, "")) for key in keys) for r in results], list(range(len(results))), ", ".join(axis_label(key, results[0]) for key in keys)
+            if not keys or max(map(len, [title, *texts])) > 60:
+                texts, title = [str(k + 1) for k in place], "member"
         colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(texts)))
         self.scale = title, texts, colours
-        second = keys[1] if len(keys) == 2 and title != "member" else None
         lines = [STYLES[values(second).index(r.case.get(second, ""))][1] if second else "-" for r in results]
         said = ["{} = {}{}".format(key_label(second, r)[0], value_text(r.case.get(second, "")), " " + key_label(second, r)[1] if key_label(second, r)[1] else "") if second else None for r in results]
         self.of = [(line, colours[k], text) for line, k, text in zip(lines, place, said)]

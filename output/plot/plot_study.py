@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plot_results import _in_order, differing_keys, key_label, value_text
+from plot_results import _in_order, axis_label, differing_keys, value_text
 from plot_style import Page, STYLES, colour_bar, label, short
 
 QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_sigma": r"separation $Z_0/\sigma$", "separation": "separation $Z_0$", "contact_area": "true contact area $A$",
@@ -50,8 +50,7 @@ def study(results, options):
             axis.plot(x[order], values[order], STYLES[0][0], ls="-", color=STYLES[0][2], ms=3.5)
             if x.min() > 0 and x.max() > 8 * x.min():
                 axis.set_xscale("log")
-            symbol, unit = key_label(keys[0], results[0])
-            label(axis, "x", symbol + (f" [{unit}]" if unit else ""))
+            label(axis, "x", axis_label(keys[0], results[0]))
             if x.size <= 5:  # the values themselves
                 axis.minorticks_off()
                 axis.set_xticks(x[order], [value_text(texts[k][0]) for k in order])
@@ -70,7 +69,6 @@ def study(results, options):
             if np.isfinite(value) and table.size <= 36:
                 axis.text(j, i, short(value / bar.size), ha="center", va="center", color="k" if value > middle else "w", fontsize=7)
         for key, shown, place, set_label in ((keys[0], ends[0], axis.set_yticks, axis.set_ylabel), (keys[1], ends[1], axis.set_xticks, axis.set_xlabel)):
-            symbol, unit = key_label(key, results[0])
             place(range(len(shown)), [value_text(t) for t in shown])
-            set_label(symbol + (f" [{unit}]" if unit else ""))
+            set_label(axis_label(key, results[0]))
     return page.finish(f"Study at {name}")

@@ -16,7 +16,7 @@ const char* const kPaper =
 
 void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("Conventions", "CF-1.10");
-    file_.attribute("title", r_.settings.run.title.empty() ? "Elastic contact of a rough sphere" : r_.settings.run.title);
+    file_.attribute("title", r_.settings.run.title.empty() ? "Contact of rough bodies" : r_.settings.run.title);
     file_.attribute("source", "rsc " RSC_VERSION ", deterministic multi-asperity model of rough spheres in elastic contact");
     file_.attribute("history", history);
     file_.attribute("references", kPaper);

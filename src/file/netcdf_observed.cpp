@@ -36,7 +36,7 @@ void ResultTable::maps() {
     add("map_cell_side", {}, unit(1), "side of the square cells of the map, w", std::vector<double>{g.side});
     const Names dims{"step", "y", "x"};
     add("map_area_fraction", dims, "1", "contact area over cell area, mean over realizations", o_.map_area_fraction,
-        comment("A' = sum of pi a^2/w^2 over the asperities in the cell"));
+        comment("A' = sum of pi a^2/w^2 over the asperities in the cell; above 1 where a spot is larger than the cell of its centre"));
     add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations", o_.map_pressure,
         comment("p = sum of f/w^2 over the asperities in the cell"));
     if (o_.realizations == 1) return;
@@ -52,7 +52,8 @@ void ResultTable::radial() {
     add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
         comment("middles of rings of equal width, from the tip to the largest circle in the map"));
     const Names dims{"step", "radius"};
-    const std::string how = "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres";
+    const std::string how =
+        "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres; it may be negative beside empty cells";
     add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
     add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
     if (r_.indenter.layers.count > 0) return;  // no closed form

@@ -120,7 +120,8 @@ HeightMap read_text_points(const std::string& path, std::optional<double> L, boo
     const TextTable table = read_table(path, 0, missing);
     if (table.columns == 3) return read_text_triples(path, table, L, missing, text);
     if (table.columns == 4) bad_input(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
-    if (!L && !text.pixel) bad_input(path + ": a text matrix has no spacing; L, its extent in x, must be given, or surface%pixel");
+    if (!L && !text.pixel)
+        bad_input(path + ": a text matrix has no spacing; surface%pixel must be given, or of body 1 surface%L, its extent in x");
     if (L) check_L(path, *L);
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
@@ -220,7 +221,9 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
         bad_input(path + ": " + variable.shape() + " has a coordinate variable for only one dimension; both or none were expected");
-    if (!x && !L) bad_input(path + ": " + variable.shape() + " has no coordinate variables; L, its extent in x, must be given");
+    if (!x && !L)
+        bad_input(path + ": " + variable.shape() +
+                  " has no coordinate variables; they must be given, or of body 1 surface%L, its extent in x");
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
     if (L) {
         check_L(path, *L);

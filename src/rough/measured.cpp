@@ -141,7 +141,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     return m;
 }
 
-std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
+std::vector<std::string> report(const Measured& m, const std::string& length_unit, bool by_summits) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
     lines.push_back(
@@ -151,8 +151,8 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
             "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) from the median of the 5 x 5 points around them",
             m.outliers.count, m.outliers.threshold, l, m.outlier_times));
     if (m.missing > 0)
-        lines.push_back(format("missing points%s: %ld (%.3g %%) filled; summits closer to them than the shortest wave are ignored",
-                               m.outliers.count > 0 ? " and outliers" : "", m.missing, 100 * m.missing_share));
+        lines.push_back(format("missing points%s: %ld (%.3g %%) filled%s", m.outliers.count > 0 ? " and outliers" : "", m.missing,
+                               100 * m.missing_share, by_summits ? "; summits closer to them than the shortest wave are ignored" : ""));
     if (m.missing > 0 && std::abs(m.without_form.height / m.form.rms - 1) > kMuchByFilled)
         lines.push_back(
             format("warning: filled points change the rms height from %.4g to %.4g %s: they continue outliers at their border, or a wide "

@@ -170,11 +170,18 @@ test_paths() {
 # What a surface does not hold or does not reach; the neighbour of each that is right is taken.
 test_surfaces() {
     from heights map.txt
-    refused "map.txt.*L.*must be given"
+    refused "map.txt.*surface%pixel must be given"
+    refused "map.txt.*surface%pixel must be given" -s surface%L=7 -s "indenter%shape='map'" -s "indenter%file='map.txt'"
+    taken -s surface%pixel=1 -s "indenter%shape='map'" -s "indenter%file='map.txt'"
     taken -s surface%L=7
     taken -s surface%L=7 -s "asperities%law='elliptic'"
     refused "indentation%centre.*x = 7.1, y = 3 .*from x = 0 to 7 and from y = 0 to 7" -s surface%L=7 -s indentation%centre=7.1,3
     taken -s surface%L=7 -s indentation%centre=7,0
+    sed '1s/0/nan/' map.txt > hole.txt
+    from heights hole.txt
+    # Only asperities have summits.
+    expect 0 "$rsc" case.nml -s surface%L=7 -s "surface%missing='fill'" -s "solver%model='elements'"; says "missing points: 1"; silent_on "summits closer"
+    expect 0 "$rsc" case.nml -s surface%L=7 -s "surface%missing='fill'" -s "solver%model='asperities'"; says "summits closer"
     head -n 6 map.txt > six.txt
     from heights six.txt
     refused "from x = 0 to 7 and from y = 0 to 6" -s surface%L=7 -s indentation%centre=3,6.5

@@ -6,7 +6,7 @@ import numpy as np
 
 
 def write_result(folder, name, case, variables, attributes=None, title="", source="rsc 0.0"):
-    """variables: {name: (dimensions in one text, values[, unit])}; attributes: {(variable, attribute): value}; case: {'group%key': value}. Texts stand in quotes."""
+    """variables: {name: (dimensions in one text, values[, unit])}; attributes: {(variable, or '' for the file, attribute): value}; case: {'group%key': value}. Texts stand in quotes."""
     path = os.path.join(folder, name + ".nc")
     if os.path.exists(path):  # it may be open still
         os.remove(path)
@@ -20,7 +20,7 @@ def write_result(folder, name, case, variables, attributes=None, title="", sourc
             variable[...] = np.where(np.isnan(values.astype(float)), 9.96920996838687e36, values)
             variable.units = unit[0] if unit else "1"
         for (key, attribute), value in (attributes or {}).items():
-            file[key].setncattr(attribute, value)
+            (file[key] if key else file).setncattr(attribute, value)
         groups = {}
         for key, value in case.items():
             group, word = key.split("%")

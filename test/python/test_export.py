@@ -27,12 +27,12 @@ FORCE = np.array([1.0, 4.0, 20.0, 100.0])
 MEANINGS = {("status", "flag_meanings"): "converged out_of_validity overlapping not_unique not_converged"}
 
 
-def result(folder, name="power", status=(0, 0, 2, 1), force=FORCE, area=None):
+def result(folder, name="power", status=(0, 0, 2, 1), force=FORCE, area=None, more={}):
     """A = 0.3 N^0.9, separation 0.01 - 0.002 ln N, which changes its sign."""
     return write_result(folder, name, {}, {
         "force": ("step", force, "N"), "contact_area": ("realization step", np.atleast_2d(0.3 * force**0.9 if area is None else area), "mm2"),
         "separation": ("step", 0.01 - 0.003 * np.log(force), "mm"), "status": ("realization step", np.atleast_2d(status)),
-        "force_error_expected": ("realization step", np.full(np.atleast_2d(status).shape, 0.07))}, MEANINGS)
+        "force_error_expected": ("realization step", np.full(np.atleast_2d(status).shape, 0.07))}, MEANINGS | more)
 
 
 class Tables(unittest.TestCase):
@@ -63,8 +63,13 @@ class Tables(unittest.TestCase):
             self.assertIn(words[1] if words[-1] != "pressure" else "pressure", str(ended.exception))
 
     def test_the_way_back_is_left_out(self):
-        read = table.Table(result(self.folder, "back", (0,) * 5, np.append(FORCE, 20.0), np.append(0.3 * FORCE**0.9, 9.0)))
+        read = table.Table(result(self.folder, "back", (0,) * 5, np.append(FORCE, 20.0), np.append(0.3 * FORCE**0.9, 9.0), {("", "path"): "each level depends on the previous ones"}))
         self.assertAlmostEqual(read.at([20.0])[0]["contact_area"][0], 0.3 * 20**0.9, 12)
+
+    def test_levels_in_any_order(self):
+        """Elastic levels do not depend on each other."""
+        read = table.Table(result(self.folder, "order", force=FORCE[[2, 0, 3, 1]]))
+        np.testing.assert_allclose(read.at([2.0, 50.0])[0]["contact_area"], 0.3 * np.array([2.0, 50.0]) ** 0.9, rtol=1e-12)
 
     def test_standard_error_over_the_realizations_that_converged(self):
         area = np.random.default_rng(3).uniform(1, 2, (6, 4))

@@ -83,16 +83,15 @@ class Springs(unittest.TestCase):
 MEANINGS = "converged out_of_validity overlapping not_unique not_converged"
 
 
-def made(name, z, load, area, status, flats=False, title="Made here", drop=(), boundary=None, sphere=True):
+def made(name, z, load, area, status, flats=False, title="Made here", drop=(), indenter="sphere R = 2500 um", **more):
     """A file in um and mN; z of the shape (step) or (realization, step), the others (realization, step)."""
     variables = {"separation": ("step" if np.ndim(z) == 1 else "realization step", z, "um"), "force": ("realization step", load if not flats else 7 * load, "mN"), "contact_area": ("realization step", area, "um2"),
                  "status": ("realization step", status)}
     if flats:
         variables |= {"pressure": ("realization step", load, "mN um-2"), "area_fraction": ("realization step", area, "1")}
-    elif sphere:
-        variables["r_star"] = ("", 2500.0, "um")
-    case = {"indentation%boundary": f"'{boundary}'"} if boundary else {}
-    return write_result(FOLDER, name, case, {key: v for key, v in variables.items() if key not in drop}, {("status", "flag_meanings"): MEANINGS} if "status" not in drop else {}, title, "rsc 1.2.3, a model")
+    variables |= more
+    attributes = {("", "indenter"): indenter} | ({("status", "flag_meanings"): MEANINGS} if "status" not in drop else {})
+    return write_result(FOLDER, name, {}, {key: v for key, v in variables.items() if key not in drop}, attributes, title, "rsc 1.2.3, a model")
 
 
 class WholeText(unittest.TestCase):
@@ -142,6 +141,13 @@ class WholeText(unittest.TestCase):
         self.assertTrue(np.allclose(rows[:, [0, 1, 2, 5]], np.column_stack(expected), rtol=1e-11))
         self.assertTrue(np.all(np.isnan(rows[1:, 3])) and rows[0, 3] == 0)
 
+    def test_first_loading(self):
+        """Of bodies that yield, levels at which the approach is below one before are excluded; reloading beyond it goes on."""
+        z, n = np.array([9.0, 7, 4, 6, 3.5, 5, 2]), np.array([[0, 1.0, 10, 0.5, 12, 2, 20]])
+        file = made("yielding", z, n, n, 0 * n, plastic_contacts=("realization step", n))
+        self.assertTrue(np.allclose(self.rows(file)[:, :2], [[0, 0], [2, 1], [5, 10], [5.5, 12], [7, 20]]))
+        self.assertIn("2 after the first loading", run(file, "--calculix"))
+
     def test_refused(self):
         none = np.zeros((3, 8))
         single = np.where(self.Z == 2, 5.0, none)
@@ -149,10 +155,12 @@ class WholeText(unittest.TestCase):
         two = lambda *drop: made("lacks_" + "".join(drop), self.Z, self.N, self.A, self.STATUS, drop=drop)
         for file, word in ((two("separation"), "'separation'"), (two("force"), "'force'"), (two("status"), "'status'"), (made("none", self.Z, none, none, 0 * self.STATUS), "0 levels"),
                            (made("single", self.Z, single, single, 0 * self.STATUS), "1 level"), (made("falls", self.Z, falls, falls, 0 * self.STATUS), "increase"),
-                           (made("bad", self.Z, self.N, self.A, 0 * self.STATUS + 4), "0 levels"), (made("plane", self.Z, self.N, self.A, self.STATUS, boundary="free", sphere=False), "flat"),
+                           (made("bad", self.Z, self.N, self.A, 0 * self.STATUS + 4), "0 levels"), (made("plane", self.Z, self.N, self.A, self.STATUS, indenter="flat"), "flats with a border"),
+                           (made("relaxing", self.Z, self.N, self.A, self.STATUS, time=("step", self.Z), energy_lost=("step", self.Z)), "relax"),
                            (path("nothing"), "nothing"), (__file__, "read")):
             said = run(file, "--table")
             self.assertTrue(said.startswith("law.py: ") and word in said and repr(file) in said, (word, said))
+        self.assertIn("force against approach", run(made("cone", self.Z, self.N, self.A, self.STATUS, indenter="cone of slope 0.05"), "--table"))
         # Two levels are enough.
         pair = np.where(self.Z == 4, 4.0, np.where(self.Z == 2, 5.0, none))
         self.assertIn("3 points, force increasing", run(made("pair", self.Z, pair, pair, 0 * self.STATUS), "--table"))

@@ -38,6 +38,9 @@ CASES = {
                "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
     "study": SURFACE + BALL + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 surface%hurst=0.5,0.8 /",
     "forced": SMALL + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
+    "cone": SMALL + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
+    "creep": SMALL + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
+    "keys": SMALL + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
     "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
 TO_SI = {"um": 1e-6, "mm": 1e-3, "mN": 1e-3, "N": 1.0, "ohm": 1.0, "radian": 1.0, "degree": np.pi / 180}
@@ -157,7 +160,7 @@ class Numbers(Drawn):
             force = v["force"][0, part]
             self.assertTrue(np.allclose(drawn[0].get_xdata(), force[force > 0]))
         texts = [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
-        first = v["force"][0][v["plastic_contacts"][0] > 0].min()
+        first = v["force"][0][np.argmax(v["plastic_contacts"][0] > 0)]  # in the order of the levels
         self.assertIn("unloading", texts)
         self.assertTrue(any(f"yield from {first:.3g} N" in text for text in texts), texts)
 
@@ -170,6 +173,25 @@ class Numbers(Drawn):
         self.assertLessEqual(x[0], force.min())
         x, y = next(data for label, data in drawn.items() if "A_{II}" in label)
         self.assertTrue(np.allclose(y, 0.2 * np.sqrt(np.pi / float(v["m2_theory"])) * x / float(v["e_star"]), rtol=1e-5))
+
+    def test_cone(self):
+        """A smooth cone carries the mean pressure E* slope/2; Hertz' pressures are of spheres. Levels before yielding have smaller forces."""
+        v, _ = raw("cone")
+        area = self.figure("area", "cone")
+        x, y = next(line.get_data() for line in area.axes[0].get_lines() if line.get_label() == "smooth cone")
+        self.assertTrue(np.allclose(y, 2 * x / (0.05 * float(v["e_star"]))))
+        said = next(text.get_text() for text in area.axes[-1].get_legend().get_texts() if "yield from" in text.get_text())
+        first = np.argmax(v["plastic_contacts"][0] > 0)
+        self.assertGreater(first, 0)
+        self.assertEqual(said, "contacts yield from {} on (none at {})".format(*(plot_style.amount(v["force"][0, k], "N") for k in (first, first - 1))))
+        self.assertFalse(any(line.get_gid() == "hertz" for axis in self.figure("radial", "cone").axes for line in axis.get_lines()))
+
+    def test_names_of_levels(self):
+        """Levels under one force are told apart by their times; members of a study by all keys that vary."""
+        texts = [text.get_text() for text in self.figure("radial", "creep").axes[-1].get_legend().get_texts()]
+        self.assertEqual([text.split(" (")[0] for text in texts], ["$t$ = 1 s", "$t$ = 10 s", "$t$ = 100 s"])
+        _, texts, _ = Looks(results(*members("keys", 8))).scale
+        self.assertEqual(texts, [f"{hurst}, {sigma}, {law}" for sigma in (0.01, 0.02) for hurst in (0.5, 0.8) for law in ("hertz", "elliptic")])
 
     def test_flats(self):
         v, _ = raw("pressed")
@@ -188,6 +210,9 @@ class Numbers(Drawn):
         figure = self.figure("map", "one", step=22)
         for name in ("map_pressure", "map_area_fraction"):
             self.has_image(figure, np.where(v[name][21] > 0, v[name][21], np.nan), extent)
+        self.assertGreater(*figure.get_size_inches())  # one level fills no page
+        self.assertGreater(raw("back")[0]["map_area_fraction"].max(), 1)  # spots larger than the cell of their centre
+        self.assertTrue(all(image.get_clim()[1] <= 1 for axis in self.figure("map", "back").axes[:3] for image in axis.get_images()))
         p, r = v["radial_pressure"][21], v["radius"]
         self.has_curve(self.figure("radial", "one", step=22), r[np.isfinite(p)], p[np.isfinite(p)])
         many = self.figure("map", *members("forced", 12))

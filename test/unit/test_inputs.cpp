@@ -77,7 +77,7 @@ void heights_from_text() {
     const HeightMap m = read_heights(RSC_TEST_DATA "/heights.txt", 8.0);
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 1.6 && m.dy == 1.6 && m.x0 == 0 && !m.periodic);
     CHECK(m(1, 0) == 1.5e-3 && m(3, 0) == 3 && m(2, 1) == 6.25 && m(3, 2) == -11);
-    REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt), "a text matrix has no spacing; L, its extent");
+    REFUSED(read_heights(RSC_TEST_DATA "/heights.txt", std::nullopt), "a text matrix has no spacing; surface%pixel must be given");
     // Windows' line ends, a byte order mark, no line end at the end, a number below the range of double.
     CHECK(read_heights(write("dos",
                              "\xef\xbb\xbf"
