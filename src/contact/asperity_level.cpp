@@ -59,6 +59,47 @@ double beside(const Asperities& asperities, const Indenter& indenter) {
     return highest;
 }
 
+// The points under the edge of the indenter, as dense as the grid of the surface.
+void find_edge(const ContactBodies& bodies, double radius) {
+    const Indenter& indenter = bodies.indenter;
+    EdgePoints& edge = bodies.edge;
+    if (edge.x0 == indenter.x0 && edge.y0 == indenter.y0) return;
+    edge = {indenter.x0, indenter.y0, {}};
+    constexpr double kFewest = 64, kMost = 1e5;
+    const double step = bodies.options.grid_step, round = 2 * std::numbers::pi * radius;
+    const int count = radius > 0 ? static_cast<int>(std::clamp(step > 0 ? round / step : kFewest, kFewest, kMost)) : 1;
+    std::vector<Vec2> places;
+    for (int k = 0; k < count; ++k) {
+        const double t = 2 * std::numbers::pi * k / count;
+        places.push_back({indenter.x0 + radius * std::cos(t), indenter.y0 + radius * std::sin(t)});
+    }
+    const std::vector<double> z = bodies.options.heights(places);
+    for (std::size_t k = 0; k < z.size(); ++k) edge.points.push_back({places[k].x, places[k].y, z[k] - indenter.shape->height(radius, 0)});
+}
+
+// Force that the edge of the indenter would carry where it is deeper than the surface, which is lowered by the contacts. Summits do not
+// represent the edge. Each point counts as if the whole edge were as deep.
+double carried_by_edge(const Level& level, const ContactBodies& bodies) {
+    const Indenter& indenter = bodies.indenter;
+    double blunt = 0;
+    for (const double r : bodies.of_surface.radius) blunt += r / static_cast<double>(bodies.of_surface.size());
+    const double radius = indenter.shape->edge(blunt);
+    if (!(radius >= 0) || !bodies.options.heights) return 0;
+    find_edge(bodies, radius);
+    const SmoothContact carried = indenter.shape->smooth(indenter.E_star).value_or(SmoothContact{2 * indenter.E_star * radius});
+    double sum = 0;
+    for (const auto& [x, y, touch] : bodies.edge.points) {
+        double gap = touch - level.separation;
+        for (std::size_t k = 0; k < level.x.size() && gap > 0 && bodies.kernel && !bodies.kernel->none(); ++k) {
+            const double d = std::hypot(indenter.around.nearest_x(level.x[k] - x), indenter.around.nearest_y(level.y[k] - y));
+            const double a = level.a[k], f = level.f[k] / indenter.E_star;
+            gap -= d < a ? 0.75 * f / a * (1 - 0.5 * d * d / (a * a)) : f / (std::numbers::pi * d);  // within a spot: of Hertz's pressure
+        }
+        if (gap > 0) sum += carried.force(gap);
+    }
+    return sum / static_cast<double>(bodies.edge.points.size());
+}
+
 // Summits of the difference between surface and indenter; absent if the given asperities are to be used.
 std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                   const SummitSearch& search) {
@@ -132,17 +173,22 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     bool ellipses = true;
     for (std::size_t k = 0; k < level.asperity.size() && ellipses; ++k) ellipses = law.spot(level.asperity[k], level.u[k]).has_value();
     if (!(options.adhesion.work > 0)) expect_error(level, asperities, indenter, options, ellipses);  // calibrated without adhesion
+    if (const double carried = carried_by_edge(level, bodies); carried > 0) {
+        if (carried > kMuchError * level.force) {
+            level.status = graver(level.status, LevelStatus::out_of_validity);
+            level.error_cause = kEdgeCause;
+        }
+        level.force_error_expected += carried / level.force, level.area_error_expected += carried / level.force;
+    }
     judge_range(level, indenter, options);
-    // Summits of the surface are the contact points only if the indenter is nearly flat beside them, and no summits of the difference are
-    // known to lie under a sharp tip.
+    // Summits of the surface are the contact points only if the indenter is nearly flat beside them.
     const bool of_surface = !bodies.of_difference;
     const auto flank_touches = [&] {
         FlankTouch& flanks = bodies.flanks;
         if (flanks.x0 != indenter.x0 || flanks.y0 != indenter.y0) flanks = {indenter.x0, indenter.y0, beside(bodies.of_surface, indenter)};
         return level.separation < flanks.Z0;
     };
-    if ((of_surface && level.slope_ratio > kMostSlopeRatio) ||
-        (level.contacts == 0 && (of_surface || indenter.shape->pointed()) && flank_touches()))
+    if ((of_surface && level.slope_ratio > kMostSlopeRatio) || (level.contacts == 0 && of_surface && flank_touches()))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

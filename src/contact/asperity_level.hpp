@@ -19,12 +19,19 @@ struct FlankTouch {
     double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0, Z0 = 0;
 };
 
+// Points of the surface under the edge of the indenter, stored for the last position of the tip.
+struct EdgePoints {
+    double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0;
+    std::vector<std::array<double, 3>> points;  // x, y and the Z0 at which the point touches
+};
+
 // The bodies of a contact of asperities. The asperities are those given, or the summits of the difference that `search` finds.
 struct ContactBodies {
     const Asperities& of_surface;
     SummitSearch search;
     std::optional<FoundSummits> of_difference;
     mutable FlankTouch flanks;
+    mutable EdgePoints edge;
     const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
     SolverOptions options;

@@ -2,6 +2,7 @@
 // many kinds (fitted and checked in input/trust).
 #pragma once
 
+#include "contact/expected_error_table.hpp"
 #include "contact/indentation.hpp"
 #include "contact/level.hpp"
 #include "rough/asperities.hpp"
@@ -10,6 +11,9 @@ namespace rsc {
 
 // A level with a larger bound on the error of N is out_of_validity.
 inline constexpr double kMuchError = 0.1;
+
+// The error_cause of a level in which the edge of the indenter may carry load.
+inline constexpr std::int32_t kEdgeCause = kErrorPredictors + 3;
 
 // Description of LevelValues::error_cause; empty for 0.
 const char* error_cause(std::int32_t cause);

@@ -90,6 +90,9 @@ struct MapMarks {
     double reach = 0;                           // a grid step [length]
 };
 
+// Heights of a surface at points of the plane, -Infinity outside; empty if only its summits are known.
+using SurfaceHeights = std::function<std::vector<double>(const std::vector<Vec2>&)>;
+
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
@@ -111,6 +114,7 @@ struct SolverOptions {
     Rectangle surface;           // the free surface, for counting contacts near its border; not counted if unknown
     bool measured = false;       // heights of either body from a file or a caller, for which expected errors are larger
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
+    SurfaceHeights heights = {};                      // of the surface between its summits, for indenters with an edge
 };
 
 }  // namespace rsc

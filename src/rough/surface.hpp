@@ -50,4 +50,7 @@ HeightMap every_second_point(const HeightMap& map);
 // The same without a copy: its heights are those of `map`, which must outlive it. Read it by (i, j), not by row().
 HeightMap every_second_point_of(const HeightMap& map);
 
+// Height at a point between those of a map, linear in x and in y; -Infinity outside.
+double height_at(const HeightMap& map, double x, double y);
+
 }  // namespace rsc

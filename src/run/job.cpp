@@ -80,6 +80,25 @@ double seam(const HeightMap& map) {
     return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
 }
 
+// Two elastic flats by elements have no level at the separation of their mean planes, where they are in full contact, nor below it.
+void require_open(const Job& job) {
+    if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) || job.levels.empty()) return;
+    double mean = 0;  // that of a synthetic surface
+    for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
+        const HeightMap& map = *job.given_heights;
+        double row = 0;
+        for (int i = 0; i < map.nx; ++i) row += job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)) / map.nx;
+        mean += row / map.ny;
+    }
+    constexpr double kRounding = 1e-12;
+    const double least = *std::min_element(job.levels.begin(), job.levels.end());
+    if (!(least > mean + kRounding * job.sigma))
+        bad_input(
+            format("indentation: a separation of %.9g %s is not above that of full contact, %.9g %s; give larger separations, or pressures",
+                   least, job.settings.run.length_unit.c_str(), std::abs(mean) > kRounding * job.sigma ? mean : 0.0,
+                   job.settings.run.length_unit.c_str()));
+}
+
 // The levels whose fields are requested, in ascending order: the nearest to each of output%field_levels.
 std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
@@ -192,6 +211,8 @@ Job prepare(const Case& settings) {
         job.level_unit = unit * job.indenter.period.area();
     }
     for (double& level : job.levels) level *= job.level_unit;
+    if (elements && indentation.control == Control::separation && (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
+        require_open(job);
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
@@ -232,6 +253,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         r.statistics = model.statistics;
         search = model.search;
         solver.rms_slope = model.domain.rms_slope;
+        solver.heights = model.domain.heights;
         contact = make_asperity_contact(r.asperities, job.indenter, solver, search);
     }
     std::unique_ptr<Contact> slid[2];  // with friction

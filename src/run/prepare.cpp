@@ -10,6 +10,7 @@
 #include "read/inputs.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
+#include "rough/parallel.hpp"
 #include "rough/reshape.hpp"
 #include "rough/synthesis.hpp"
 
@@ -283,6 +284,12 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
             if (measured) drop_near_filled(found.summits, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
         };
+    if (seen->data)
+        model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
+            std::vector<double> z;
+            for (const Vec2& p : points) z.push_back(height_at(*kept, p.x, p.y));
+            return z;
+        };
     require_summits(model, surface.name, map.periodic ? "" : " inside the map");
     if (!surface.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
     if (!map.periodic) model.domain.marks = marks_of(map, *breaks);
@@ -330,6 +337,26 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     s.m4_grid = differences.m4;
     count_summits(count, s);
     model.domain.rms_slope = std::sqrt(2 * s.m2);
+    model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads](const std::vector<Vec2>& points) {
+        const int n = summit_points(spectrum, keys.n);
+        RowSource source(spectrum, n, keys.normalise, seed, number, threads);
+        RowSource::Scratch scratch(source);
+        HeightMap rows;
+        if (source.whole())
+            rows = source.take();
+        else
+            rows.allocate(n, 2, (n + 7) / 8 * 8), rows.dx = rows.dy = spectrum.L / n, rows.periodic = true;
+        std::vector<double> z;
+        int made = -1;  // the first of the two rows
+        for (const Vec2& p : points) {
+            stopping_point();
+            const int j = static_cast<int>(std::floor(p.y / rows.dy));
+            if (rows.ny == 2 && (z.empty() || j != made)) source.rows(j, 2, rows.row(0), rows.stride, scratch), made = j;
+            if (rows.ny == 2) rows.y0 = j * rows.dy;
+            z.push_back(height_at(rows, p.x, p.y));
+        }
+        return z;
+    };
     if (detail_of(settings) == Detail::subgrid)
         model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
                         law = settings.asperities.law, threads, kept = std::make_shared<KeptHeights>()](const Indenter& indenter) {

@@ -55,6 +55,7 @@ struct SurfaceDomain : Domain {
     bool repeats = false;                             // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     std::shared_ptr<const MapMarks> marks = nullptr;  // of a measured map that is free at its border
     bool measured = false;                            // heights from a file or from the caller of the library
+    SurfaceHeights heights = {};                      // of surfaces whose summits are found
 };
 
 // The surface for contacts: asperities, or with solver%model = 'elements' the points of the surface.

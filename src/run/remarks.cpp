@@ -55,7 +55,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     if (!elements) {
         tell(count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
              "the surface may touch outside the summits of the model, so that N need not be 0; use solver%model = 'elements'" +
-                 std::string(job.indenter.shape && job.indenter.shape->pointed() ? "." : " or law = 'fourth_order'."));
+                 std::string(job.indenter.shape && job.indenter.shape->edge(HUGE_VAL) >= 0 ? "." : " or law = 'fourth_order'."));
         const bool list = job.settings.surface.source == Source::asperities;
         double steepest = 0;
         for (const LevelValues& l : levels) steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);

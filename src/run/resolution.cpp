@@ -15,6 +15,9 @@ constexpr double kOnePixel = 2;
 // finer grid, what is added for contacts of a few pixels, and for the area.
 constexpr double kFiner = 1.5, kOnePixelFiner = 0.1, kPixelArea = 0.5;
 
+// Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of pixel side to radius, in nine of ten cases.
+constexpr double kEdgeShare = 0.17;
+
 // Fewer points in the shortest wavelength than this cannot be halved, because a grid resolves wavelengths of more than two points.
 constexpr double kHalvedFrom = 5;
 
@@ -32,6 +35,8 @@ constexpr double kGrown = 2, kShrunk = 0.75;
 
 OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave)
     : read_(!job.spectrum) {
+    const double side = std::max(map.dx, map.dy), edge = job.indenter.shape->edge(side);
+    if (edge > 0) edge_ = kEdgeShare * side / edge;
     if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution (contact/adhesive_elements.cpp)
     // Points of the map itself on its grid of half as many points, if there is one. Two flats need the rows in memory.
     const auto half = [&] { return job.indenter.period.finite() ? every_second_point(map) : every_second_point_of(map); };
@@ -70,10 +75,13 @@ std::optional<GridError> OtherGrid::error(const LevelValues& level) {
     };
     const double force = change(level.force, other.force), area = change(level.area, other.area);
     // Fitted to maps solved on a grid of half the step (test/README, elements on maps): nine of ten are within these bounds.
-    if (read_) return GridError{force + 0.04 * area + 0.7 * std::pow(pixels, -1.5), 1.4 * area + 2 * force + std::pow(pixels, -0.75)};
+    if (read_)
+        return GridError{edge_ + force + 0.04 * area + 0.7 * std::pow(pixels, -1.5),
+                         edge_ + 1.4 * area + 2 * force + std::pow(pixels, -0.75)};
     // Contacts of a few pixels may have the same error on both grids, and their areas in whole pixels by chance.
     const double few = coarser_ ? kOnePixel * std::pow(pixels, -1.5) : kOnePixelFiner / pixels;
-    return GridError{coarser_ ? std::max(few, force) : few + force, std::max(few, area) + kPixelArea * std::pow(pixels, -0.75)};
+    return GridError{edge_ + (coarser_ ? std::max(few, force) : few + force),
+                     edge_ + std::max(few, area) + kPixelArea * std::pow(pixels, -0.75)};
 }
 
 void OtherGrid::visit(double separation) {

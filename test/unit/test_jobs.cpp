@@ -2,6 +2,7 @@
 // and what is refused just beyond its bound.
 #include "check.hpp"
 #include "contact/equivalent.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "error.hpp"
 #include "run/job.hpp"
 #include "run/prepare.hpp"
@@ -202,10 +203,47 @@ void pressures() {
     }
 }
 
+// Two elastic flats by elements are closed where their mean planes meet: that is known before they are solved.
+void closed_flats() {
+    Case c = synthetic();
+    c.solids.R[0] = c.solids.R[1] = HUGE_VAL, c.solver.model = Model::elements;
+    c.indentation.boundary = Boundary::periodic, c.indentation.levels = {2, 1, 0.1};
+    CHECK(accepted([&] { prepare(c); }));
+    c.indentation.levels = {2, 1, 0};
+    REFUSED(prepare(c), "that of full contact, 0 ");
+    c.solids.hardness = 5e3;  // pixels that yield have levels below
+    CHECK(accepted([&] { prepare(c); }));
+}
+
+// A sharp punch on a plane by elements: N = 2 a E* d. The edge lies between the points of the grid, in another way at each place: nine of
+// ten levels are within their expected error.
+void punch_on_plane() {
+    constexpr int n = 64, kPlaces = 10, kOutside = 1;
+    std::string text;
+    for (int j = 0; j < n; ++j, text += '\n')
+        for (int i = 0; i < n; ++i) text += (i * 7 + j * 3) % 5 == 0 ? " 1e-12" : " 0";
+    Case c = of_map(write("plane.txt", text));
+    c.surface.L = 0.4, c.surface.detrend = Detrend::none, c.output.pdf_levels = {}, c.solver.model = Model::elements;
+    c.indenter.shape = shape_number("punch");
+    c.indentation.control = Control::force, c.indentation.levels = {1};
+    for (const double a : {0.05, 0.1}) {
+        int outside = 0;
+        for (int k = 0; k < kPlaces; ++k) {
+            c.indenter.radius = a, c.indentation.centre[0] = 0.2 + 0.0007 * k, c.indentation.centre[1] = 0.2 - 0.0011 * k;
+            const Job job = prepare(c);
+            const Level level = realize(job, 1, 1).levels[0];
+            outside += !(std::abs(level.force / (-2 * a * job.indenter.E_star * level.separation) - 1) <= level.force_error_expected);
+        }
+        CHECK(outside <= kOutside);
+    }
+}
+
 }  // namespace
 
 TESTS {
+    punch_on_plane();
     times();
+    closed_flats();
     pressures();
     places();
     maps();

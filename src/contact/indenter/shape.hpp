@@ -75,8 +75,9 @@ public:
 
     // True for a plane: nothing depends on the position of the tip.
     virtual bool flat() const { return false; }
-    // True if s has a corner at its tip.
-    virtual bool pointed() const { return false; }
+    // Radius of the circle about the tip on which the face bends with a radius below `blunt` [length], so that it may press where the surface
+    // has no summit; 0: a corner at the tip; negative: none.
+    virtual double edge(double blunt) const { return (void)blunt, -1.0; }
     // True if s depends only on the distance from the tip.
     virtual bool round() const { return false; }
     // Radius R of a sphere; Infinity for a flat; NaN for any other shape.
