@@ -78,7 +78,10 @@ void rsc_contact::go_back(const State& state) {
 
 void rsc_contact::recall(const std::vector<double>& memory) {
     const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
-    if (known.level && !contact.pulls()) put_tip(*this, known.x0, known.y0);  // with adhesion the memory has the tip
+    if (known.level && !contact.pulls()) {                                                     // with adhesion the memory has the tip
+        if (contact.path_dependent() && (known.x0 != x0 || known.y0 != y0)) contact.forget();  // what it holds would follow the tip
+        put_tip(*this, known.x0, known.y0);
+    }
     contact.recall(memory, known.level ? &*known.level : nullptr);
     const bool moves = contact.indenter().x0 != x0 || contact.indenter().y0 != y0;
     if (known.level && moves && std::isnan(known.level->stiffness)) known.level->stiffness = contact.stiffness();  // lost by the move

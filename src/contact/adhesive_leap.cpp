@@ -14,16 +14,17 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-// True if the k-th attached asperity lets go where it would alone. Others with df/ds < 0 make it let go sooner, by a distance in du of this sum.
+// True if the k-th attached asperity lets go where it would alone. Its own deflection (layers, periodic images) and others with df/ds < 0 make
+// it let go elsewhere, by a distance in du of this sum.
 bool AdhesivePath::others_apart(const Point& point, std::size_t k) const {
     const int i = set.asperity[at(active[k])];
     const double own = std::abs(sticking.at(i, sticking.least(i)).df);
-    double sum = 0;
+    double sum = own * std::abs(kernel->self() - kernel->shift());
     for (std::size_t j = 0; j < active.size(); ++j) {
         if (j == k || point.states[j].df >= 0) continue;
         const double dx = indenter.repeats.nearest_x(set.x[at(active[j])] - set.x[at(active[k])]),
                      dy = indenter.repeats.nearest_y(set.y[at(active[j])] - set.y[at(active[k])]);
-        sum += own * std::abs(point.states[j].df) / point.states[j].du * kernel->near() * kernel->near() / (dx * dx + dy * dy);
+        sum += own * std::abs(point.states[j].df) / point.states[j].du * std::pow(kernel->at(dx, dy) - kernel->shift(), 2);
     }
     return sum < kApart;
 }

@@ -133,6 +133,7 @@ void Checkpoint::write(const std::string& bytes) {
 void Checkpoint::load(const Case& settings) {
     std::ifstream in(name_, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    if (!in.is_open() || in.bad()) throw Error(Failure::file_system, "cannot read '" + name_ + "': " + std::strerror(errno));
     std::string_view left = all;
     const auto refuse = [this](const std::string& text) { bad_input("'" + name_ + "' " + text); };
     const std::optional<Frame> header = take_frame(left);

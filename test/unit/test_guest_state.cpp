@@ -189,6 +189,14 @@ void test_steep(const std::string& memory) {
     double x0 = 0;
     OK(rsc_contact_tip(moved.contact, &x0, nullptr));
     CHECK(x0 == 0.5);
+    // A level at one place, a trial at another one.
+    const double above = force_at(moved.contact, 2 * touch + 1);
+    OK(rsc_contact_move_tip(moved.contact, 0.45, 0.52));
+    OK(rsc_contact_commit(moved.contact));
+    const double tried = force_at(moved.contact, touch - 1e-4);
+    OK(rsc_contact_rollback(moved.contact));
+    CHECK(above == 0 && value(moved.contact, "force") == above);
+    CHECK_RELATIVE(force_at(moved.contact, touch - 1e-4), tried, kTolerance);
 }
 
 TESTS {
