@@ -147,8 +147,19 @@ double SmoothPart::corner(double s, double t) const {
 template <unsigned n>
 double SmoothPart::by_points(double x, double y, double a, double b) const {
     using Rule = boost::math::quadrature::gauss<double, n>;
-    const auto along_y = [&](double u) { return Rule::integrate([&](double v) { return at_square(u * u + v * v); }, y - b, y + b); };
-    return Rule::integrate(along_y, x - a, x + a);
+    double place[n], weight[n];
+    for (unsigned k = 0; k < n; ++k) {  // the rule lists the points from the middle of its interval to one end
+        const unsigned i = n % 2 == 1 ? (k + 1) / 2 : k / 2;
+        place[k] = k % 2 == n % 2 ? Rule::abscissa()[i] : -Rule::abscissa()[i];
+        weight[k] = Rule::weights()[i];
+    }
+    double sum = 0;
+    for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < n; ++j) {
+            const double dx = x + a * place[i], dy = y + b * place[j];
+            sum += weight[i] * weight[j] * at_square(dx * dx + dy * dy);
+        }
+    return a * b * sum;
 }
 
 double SmoothPart::over_rectangle(double x, double y, double a, double b) const {
