@@ -83,12 +83,11 @@ private:
     Checkpoint& checkpoint_;
 };
 
-// True if an input file of the surfaces is not older than the result.
+// True if an input file is not older than the result.
 bool input_is_newer(const Case& settings) {
-    if (settings.surface.source == Source::synthetic) return false;
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(settings.output.file, error);
-    for (const std::string& input : matching_files(settings.surface.file))
+    for (const std::string& input : input_files(settings))
         if (!(fs::last_write_time(input, error) < written)) return true;
     return false;
 }

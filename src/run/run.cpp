@@ -18,10 +18,16 @@
 
 namespace rsc {
 
+std::vector<std::string> input_files(const Case& settings) {
+    std::vector<std::string> files;
+    if (settings.surface.source != Source::synthetic && !settings.surface.file.empty()) files = matching_files(settings.surface.file);
+    if (!settings.indenter.file.empty()) files.push_back(settings.indenter.file);
+    return files;
+}
+
 bool check_result_path(const Case& settings, const RunOptions& options) {
-    std::vector<std::string> inputs = options.inputs;
-    if (settings.surface.source != Source::synthetic && !settings.surface.file.empty())
-        for (const std::string& file : matching_files(settings.surface.file)) inputs.push_back(file);
+    std::vector<std::string> inputs = input_files(settings);
+    inputs.insert(inputs.end(), options.inputs.begin(), options.inputs.end());
     return check_output(settings.output.file, inputs);
 }
 

@@ -29,6 +29,10 @@ struct RunSummary {
     double force = 0, area = 0;
 };
 
+// The files that a case reads: heights, spectrum or asperities of the surface, and the map of the indenter. Throws Error(bad_input) if a
+// pattern matches none.
+std::vector<std::string> input_files(const Case& settings);
+
 // Applies check_output to the result of a case, which must not replace its input files. Returns true if an earlier result is replaced.
 bool check_result_path(const Case& settings, const RunOptions& options);
 

@@ -164,10 +164,22 @@ bool look_at(const Member& member, const RunOptions& options) {
     return there;
 }
 
-// Prepares a case, unless its map is among those that were read for other members.
-void prepare_once(const Case& settings, std::set<std::string>& files_read) {
-    const auto& surface = settings.surface;
-    if (surface.source == Source::synthetic || files_read.insert(surface.file).second) prepare(settings);
+// Prepares a case, unless its maps were read for other members.
+void prepare_once(const Case& settings, std::set<std::vector<std::string>>& files_read) {
+    const std::vector<std::string> files = input_files(settings);
+    if (settings.surface.source == Source::synthetic || files_read.insert(files).second) prepare(settings);
+}
+
+std::set<std::string> inputs_of(const std::vector<const Member*>& members) {
+    std::set<std::string> files;
+    for (const Member* member : members) {
+        try {
+            for (std::string& file : input_files(member->settings)) files.insert(std::move(file));
+        } catch (const Error& error) {
+            throw named(error, *member);
+        }
+    }
+    return files;
 }
 
 std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all, std::optional<int> only) {
@@ -184,10 +196,12 @@ std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Mem
 // Calls look_at and then `ready(member, true if a result exists)` for every member; errors name the member.
 template <class Ready>
 void look_at_all(const ReadCase& read, const std::vector<const Member*>& wanted, const RunOptions& options, Ready ready) {
-    if (read.study) check_manifest(read.settings.output.file, options.inputs);
+    RunOptions all = options;  // no result may replace an input of another member
+    for (const std::string& file : inputs_of(wanted)) all.inputs.push_back(file);
+    if (read.study) check_manifest(read.settings.output.file, all.inputs);
     for (const Member* member : wanted) {
         try {
-            ready(*member, look_at(*member, options));
+            ready(*member, look_at(*member, all));
         } catch (const Error& error) {
             throw named(error, *member);
         }
@@ -299,7 +313,7 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
     constexpr std::size_t samples = 20;  // members whose time is estimated; the others are assumed similar
     Forecast all_members;
     std::size_t timed = 0;
-    std::set<std::string> files_read;
+    std::set<std::vector<std::string>> files_read;
     look_at_all(read, wanted, options, [&](const Member& member, bool) {
         const bool campaign = member.settings.run.realizations > 1;
         if (timed == samples) return prepare_once(member.settings, files_read);
@@ -317,7 +331,7 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
-    std::set<std::string> files_read;
+    std::set<std::vector<std::string>> files_read;
     std::set<const Member*> there;  // members with an existing result
     look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);

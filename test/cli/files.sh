@@ -61,6 +61,12 @@ test_lost_maps() {
     expect 0 "$rsc" before.nml -s output%heights=T
     from heights out.nc
     refused "input of the run"
+    # So is the map of an indenter, and what another member of a study reads.
+    printf "&indenter shape = 'map' file = 'out.nc' /\n&solids R = 2*Infinity /\n" | cat before.nml - > case.nml
+    refused "input of the run"
+    cp out.nc out_002.nc && cp out.nc out_003.nc
+    printf "&study indenter%%file = 'out_003.nc', 'out_002.nc' /\n" >> case.nml
+    refused "member 2.*input of the run"
 }
 
 # A result takes the place of an older one, and the screen says so.
@@ -83,6 +89,11 @@ test_newer_input() {
     sed -i 's/0.012/0.013/' list.txt
     expect 0 "$rsc" case.nml -s surface%L=1 --resume; says "replaces"
     ! cmp -s out.nc first.nc || fail "the newer list was not read"
+    printf "&indenter shape = 'map' file = 'map.txt' /\n&solids R = 2*Infinity /\n" | cat before.nml - | sed "s/n = 128/n = 128 pixel = 0.2/" > case.nml
+    expect 0 "$rsc" case.nml
+    expect 0 "$rsc" case.nml --resume; says "complete"
+    sed -i 's/5/6/' map.txt
+    expect 0 "$rsc" case.nml --resume; says "replaces"
 }
 
 # A study: its manifest says what each member is, in the units of the case; what is in the way is refused.
