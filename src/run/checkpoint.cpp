@@ -10,6 +10,7 @@
 #include "case/registry.hpp"
 #include "error.hpp"
 #include "file/whole_file.hpp"
+#include "run/run.hpp"
 #include "version.h"
 
 namespace rsc {
@@ -29,9 +30,10 @@ constexpr double kSyncSeconds = 5;
 // Any file may be replaced here, because the process holds its lock, and load() refuses files that are no checkpoints.
 const FileKind kCheckpoint{"checkpoint", [](const std::string&) { return true; }};
 
+uLong add(uLong crc, const void* data, std::size_t n) { return crc32_z(crc, static_cast<const Bytef*>(data), n); }
+
 // CRC-32 of kind, length and bytes.
 std::uint32_t checksum_of(const FrameHead& head, std::string_view bytes) {
-    const auto add = [](uLong crc, const void* data, std::size_t n) { return crc32_z(crc, static_cast<const Bytef*>(data), n); };
     const uLong crc = add(add(0, &head.kind, sizeof head.kind), &head.length, sizeof head.length);
     return static_cast<std::uint32_t>(add(crc, bytes.data(), bytes.size()));
 }
@@ -74,13 +76,25 @@ bool still_named(int fd, const std::string& name) {
 
 std::string header_start() { return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n"; }
 
+// A comment of the namelist with the CRC-32 of the input files: realizations of changed inputs are not those of one campaign.
+std::string inputs_line(const Case& settings) {
+    uLong crc = 0;
+    for (const std::string& name : input_files(settings)) {
+        std::ifstream in(name, std::ios::binary);
+        std::vector<char> part(std::size_t{1} << 20);
+        while (in.read(part.data(), static_cast<std::streamsize>(part.size())), in.gcount() > 0)
+            crc = add(crc, part.data(), static_cast<std::size_t>(in.gcount()));
+    }
+    return "! inputs " + std::to_string(crc) + "\n";
+}
+
 }  // namespace
 
 std::string checkpoint_name(const std::string& result_file) { return result_file + ".checkpoint"; }
 
 Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, bool resume)
     : name_(checkpoint_name(result_file)),
-      header_(header_start() + effective_namelist(settings)),
+      header_(header_start() + inputs_line(settings) + effective_namelist(settings)),
       last_sync_(std::chrono::steady_clock::now()) {
     for (int attempt = 0; fd_ < 0; ++attempt) {
         if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty()) bad_input("'" + name_ + "': " + why);
@@ -155,6 +169,8 @@ void Checkpoint::load(const Case& settings) {
     if (!changed.empty())
         refuse("belongs to another case: it cannot be resumed with" + changed +
                "\nRestore the old values of these keys, or remove the file to start from the beginning.");
+    if (!header->bytes.substr(header_start().size()).starts_with(inputs_line(settings)))
+        refuse("belongs to other contents of the input files: restore them, or remove the checkpoint to start from the beginning");
     if (!left.empty() && kind_at(left) == kSums) {
         // Sums are written before the file gets its name, so incomplete sums are a disk error.
         const std::optional<Frame> sums = take_frame(left);
@@ -317,7 +333,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "2," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
+    return "3," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
 }
 
 }  // namespace rsc

@@ -141,6 +141,16 @@ test_refused() {
     says "another process"
     kill %1
     wait
+    # Another spectrum in the file that the case names.
+    rm out.nc.checkpoint
+    printf '6.3 1e-5\n200 1e-9\n' > table.txt
+    sed "s/&surface/\&surface source = 'spectrum' file = 'table.txt'/; s/ *L_lambda_[ls] *= *[0-9]*//g; s/ hurst *= *[0-9.]*//" long.nml > table.nml
+    kill_with_state "$rsc" -q table.nml
+    expect 2 "$rsc" --resume -s run%realizations=10 table.nml
+    says "run%realizations"
+    printf '6.3 1e-5\n200 2e-9\n' > table.txt
+    expect 2 "$rsc" --resume table.nml
+    says "input files"
     # Another number of threads, and another format, are the same case.
     rm out.nc.checkpoint
     expect 0 in_folder whole "$rsc" -q -s "output%format='classic'" ../case.nml
