@@ -77,14 +77,17 @@ double stiffness_of(rsc_contact& contact) {
 
 double conductance_length_of(rsc_contact& contact) {
     if (contact.contact.indenter().layers.count > 0) throw Outcome{RSC_NO_RESULT, "conductance is not available for a body with layers"};
-    return conductance_length(stiffness_of(contact), contact.contact.indenter().E_star);
+    double& known = contact.known.level->conductance_length;
+    const double stiffness = stiffness_of(contact);
+    if (std::isnan(known)) known = conductance_length(contact.contact, stiffness);
+    return known;
 }
 
 double resistance_of(rsc_contact& contact) {
     const auto& resistivity = contact.keys->solids.resistivity;
     if (!(resistivity[0] + resistivity[1] > 0))
         throw Outcome{RSC_NO_RESULT, "there is no resistance: solids%resistivity is 0 in the case of this contact"};
-    if (!(contact.known.level->force > 0)) throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
+    if (contact.known.level->contacts == 0) throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
     return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
@@ -177,9 +180,9 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         const rsc::Vec2 place = place_of(*contact, x0, y0);
         const rsc::Indenter& now = contact->contact.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
-        // Contacts with a memory follow the tip at once: the stiffness of the last level is kept.
+        // Contacts with a memory follow the tip at once: the stiffness and the conductance of the last level are kept.
         const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
-        if (remembers && contact->known.level) (void)stiffness_of(*contact);
+        if (remembers && contact->known.level) (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
         const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
         if (!remembers && contact->contact.asperities() != before)

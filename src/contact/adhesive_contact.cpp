@@ -17,6 +17,9 @@ public:
         : path_(std::make_unique<AdhesivePath>(asperities, indenter, options, std::move(search))) {}
 
     double stiffness() override { return slope_; }
+    double clamped_stiffness() override {
+        return std::isnan(slope_) || path_->active.empty() ? slope_ : path_->solver.clamped_stiffness(path_->here.states);
+    }
     double energy() const override { return energy_; }
     void move_tip(double x0, double y0) override;
     double first_touch() const override { return path_->ranking.highest(); }

@@ -43,7 +43,11 @@ Vec2 tip_moment(const Indenter& indenter, const Level& level) {
     return sum;
 }
 
-double conductance_length(double stiffness, double E_star) { return 0 - 2 * stiffness / E_star; }
+double conductance_length(Contact& contact, double stiffness) {
+    const Indenter& indenter = contact.indenter();
+    if (indenter.layers.count > 0) return kNotComputed;
+    return 2 * (contact.pulls() ? contact.clamped_stiffness() : 0 - stiffness) / indenter.E_star;
+}
 
 double constriction_resistance(double conductance_length, const double (&resistivity)[2]) {
     const double sum = resistivity[0] + resistivity[1];
@@ -58,7 +62,7 @@ void add_answers(Contact& contact, Level& level, const double (&resistivity)[2])
     const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
     level.lateral_x = force.x, level.lateral_y = force.y;
     level.moment_x = moment.x, level.moment_y = moment.y;
-    if (indenter.layers.count == 0) level.conductance_length = conductance_length(level.stiffness, indenter.E_star);
+    level.conductance_length = conductance_length(contact, level.stiffness);
     level.resistance = constriction_resistance(level.conductance_length, resistivity);
 }
 

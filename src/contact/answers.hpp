@@ -5,10 +5,10 @@
 
 namespace rsc {
 
-// Conductance length 2 S/E* [length], where `stiffness` is dN/dZ0 = -S (negative). The conductance of the contact is this length over
-// (rho_1 + rho_2) (Barber, Proc. R. Soc. A 459, 2003): 4 a/(rho_1 + rho_2) for one spot (Holm), and Greenwood's (1966) result for many
-// spots with point interaction.
-double conductance_length(double stiffness, double E_star);
+// Conductance length 2 S/E* [length] of the last level, where S is the stiffness at fixed contact areas; NaN with layers, whose conductance
+// does not follow from it. The conductance of the contact is this length over (rho_1 + rho_2) (Barber, Proc. R. Soc. A 459, 2003): 4 a/(rho_1
+// + rho_2) for one spot (Holm), and Greenwood's (1966) result for many spots with point interaction. `stiffness`: that of the level, negative.
+double conductance_length(Contact& contact, double stiffness);
 
 // Constriction resistance (rho_1 + rho_2)/conductance_length [resistivity/length]; NaN without contact or if both resistivities are 0.
 double constriction_resistance(double conductance_length, const double (&resistivity)[2]);

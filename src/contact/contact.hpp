@@ -27,6 +27,9 @@ public:
     // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].
     virtual double stiffness() = 0;
+    // Force that a unit approach adds at fixed contact areas [force/length], positive: -stiffness() except with adhesion, where areas change
+    // with the separation.
+    virtual double clamped_stiffness() { return -stiffness(); }
     // Elastic energy W, with dW/dZ0 = -N [force length]. The error is of the order of the square of the residual.
     virtual double energy() const = 0;
 

@@ -122,7 +122,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "moment of the contact forces on the indenter about its tip", .comment = "about the axes x and y through the tip",
      .always = false, .statistics = true, .plain = "moment about the tip"},
     {.name = "conductance_length", .member = &V::conductance_length, .length_power = 1,
-     .meaning = "conductance of the contact times the sum of the resistivities, -2 (dN/dZ0)/E*",
+     .meaning = "conductance of the contact times the sum of the resistivities, -2 (dN/dZ0)/E* at fixed contact areas",
      .comment = "electrical or thermal (Barber 2003); 4 a for a single spot", .always = false,
      .statistics = true, .plain = "conductance length"},
     {.name = "resistance", .member = &V::resistance, .unit = "ohm", .meaning = "constriction resistance of the contact",

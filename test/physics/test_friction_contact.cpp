@@ -1,5 +1,6 @@
 // Friction, conductance and lateral force of asperities in contact against problems solved on their own.
 #include "check.hpp"
+#include "contact/adhesive_contact.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
@@ -122,6 +123,19 @@ void conductance() {
         const Level level = contact.at_separation(Z0);
         CHECK(level.asperity.size() > 5);
         CHECK_RELATIVE(-2 * contact.stiffness() / kE, conductance_of_spots(a, level), 1e-10);
+    }
+    // With adhesion the separation changes the areas, too, and dN/dZ0 is not the conductance: down, and up again to where contacts are
+    // stretched. The spots are those of the levels, to the error of products in single precision.
+    for (const double range : {0.0, 2e-3}) {
+        SolverOptions options = tight();
+        options.tolerance = 1e-9;
+        options.adhesion = {2.0, range};
+        const auto sticking = make_adhesive_contact(a, {kE, 2.5, 0.5, 0.5}, options);
+        for (double Z0 : {0.012, 0.006, 0.003, 0.008, 0.011}) {
+            const Level level = sticking->at_separation(Z0);
+            CHECK(level.asperity.size() > 1);
+            CHECK_RELATIVE(conductance_length(*sticking, sticking->stiffness()), conductance_of_spots(a, level), 1e-6);
+        }
     }
 }
 

@@ -85,7 +85,7 @@ Sticking::State Sticking::bare(int asperity, double s) const {
     state.pressed = f0;
     state.du = 1 - lh;
     state.df = D * (1 - 3 * lh);
-    state.stiffness = D;
+    state.stiffness = state.clamped = D;
     state.energy = W0 - 2 * h * f0 + w_ * A;
     state.area = state.outer = A;
     return state;
@@ -119,6 +119,7 @@ Sticking::State Sticking::attracting(const Limits& of, double s) const {
     const double to_s = 0.5 * r / c, slope = apart ? c / r - 4 * s0 / (pi * E) : u_c + G_c * 0.5 * pi / beta;
     state.du = to_s * slope;
     state.df = to_s * (2 * E * a * slope - 4 * s0 * c * beta);
+    state.clamped = 2 * E * a;
     state.stiffness = 2 * E * std::max(a, kSoftest * c);
     state.area = pi * a * a;
     state.outer = pi * c * c;

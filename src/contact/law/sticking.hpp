@@ -39,7 +39,8 @@ public:
     struct State {
         double u = 0, f = 0;    // penetration [length], force
         double du = 0, df = 0;  // derivatives with respect to s; du > 0 except at s = least()
-        double stiffness = 0;   // D: df/du at a fixed contact area
+        double stiffness = 0;   // D: df/du at a fixed contact area, or the least that the solver needs
+        double clamped = 0;     // df/du at a fixed contact area
         double energy = 0;      // elastic energy minus w A; in equilibrium its derivative with respect to u is f
         double area = 0;
         double pressed = 0;   // force of the law at this area; f - pressed is the tension

@@ -344,6 +344,22 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
     return std::nullopt;
 }
 
+double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& states) {
+    constexpr double accuracy = 1e-9;
+    const double shift = products_->kernel().shift();
+    Vector root, y;  // roots of the stiffnesses D in y + D^1/2 B D^1/2 y = D^1/2
+    for (const Sticking::State& now : states) root.push_back(std::sqrt(now.clamped));
+    in_.resize(root.size()), out_.resize(root.size());
+    const auto multiply_clamped = [&](const Vector& v, Vector& image) {
+        double sum = 0;
+        for (std::size_t k = 0; k < v.size(); ++k) sum += in_[k] = root[k] * v[k];
+        products_->inner(in_.data(), out_.data());
+        for (std::size_t k = 0; k < v.size(); ++k) image[k] = v[k] + root[k] * (out_[k] - shift * sum);
+    };
+    minres(multiply_clamped, root, accuracy, y);
+    return dot(root, y);
+}
+
 AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accuracy) {
     Change c;
     const std::vector<int>&active = products_->active(), &passive = products_->passive();

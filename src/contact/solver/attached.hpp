@@ -80,6 +80,9 @@ public:
     };
     Change change(const std::vector<double>& rate, double accuracy);
 
+    // Force that a unit approach adds at fixed contact areas, those of the states of the attached: flat punches that interact.
+    double clamped_stiffness(const std::vector<Sticking::State>& states);
+
 private:
     // Products are those of the change of the forces since the last full product, with the error noise_ in the residual, unless `full`.
     void evaluate(const WorkingSet& set, const std::vector<double>& s, bool full);
