@@ -345,7 +345,8 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
 /* Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; without effect for others): between two levels
- * loads change linearly with time, and the first level is reached at once. The time is 0 initially, keeps its value until it is set
+ * the separation (rsc_contact_press: the force) changes linearly with time, computed in up to 16 steps if the shortest relaxation time is
+ * not much longer, and the first level is reached at once. The time is 0 initially, keeps its value until it is set
  * again, and is restored by rsc_contact_rollback. contact: the contact; time: t, not before that of the last level [time]. Errors:
  * -1 null; -2 not finite, or before the last level. */
 RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);

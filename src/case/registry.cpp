@@ -221,7 +221,7 @@ std::vector<Key> make_registry() {
         number(RSC_KEY(indentation, duration), "time", kPositive,
                "for a body that relaxes, time from the first to the last level, in equal steps; the first level is reached at once",
                "none"),
-        list(RSC_KEY(indentation, times), 10000, "time", kAny, "none", "time of each level, increasing, instead of `duration`"),
+        list(RSC_KEY(indentation, times), 10000, "time", kAny, "none", "time of each level, increasing, instead of `duration`; separations, or forces, change linearly in between"),
         number(RSC_KEY(indentation, centre), "length", kAny, "x and y of the tip of the indenter", "the middle of the surface"),
         choice(RSC_KEY(indentation, selection), kSelectionNames,
                "asperities in the system of equations: all that can touch, or those within selection_factor times the paper's radius"),

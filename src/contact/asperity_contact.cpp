@@ -286,7 +286,9 @@ void AsperityContact::accept(Level& level) {
     my.newton.take(set, my.solution.v);
 }
 
-bool AsperityContact::relaxes() const { return impl_->relaxing.has_value(); }
+double AsperityContact::shortest_time() const {
+    return impl_->relaxing ? std::ranges::min(impl_->options.relaxation.time) : Contact::shortest_time();
+}
 
 void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
 
@@ -316,7 +318,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
     if (relaxes()) {
         if (memory.empty()) throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
         my.relaxing->read(std::span(memory).subspan(1));
-        recall_time(memory[0]);
+        recall_time(memory[0], level);
     } else {
         std::vector<int> yielded;
         Vector deepest;

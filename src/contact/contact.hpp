@@ -18,11 +18,13 @@ public:
     // floating-point resolution of Z0, and accepts the level. Intermediate trial separations have no effect on later levels.
     Level at_force(double N);
 
-    // Sets the time of the following levels, used only if relaxes(). The load changes linearly from the last accepted level; the first
-    // level is applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the last level.
+    // Sets the time of the following levels, used only if relaxes(). The separation, or under force control the force, changes linearly from
+    // the last accepted level, in up to 16 steps; the first level is applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the last level.
     void set_time(double time);
     double time() const { return time_; }
-    virtual bool relaxes() const { return false; }
+    bool relaxes() const { return std::isfinite(shortest_time()); }
+    // The shortest relaxation time; Infinity: the body does not relax.
+    virtual double shortest_time() const { return std::numeric_limits<double>::infinity(); }
 
     // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].
@@ -94,7 +96,7 @@ protected:
     virtual void step(double dt) { (void)dt; }
     // Time of the last accepted level, the first number of memory(); NaN: none.
     double accepted_time() const { return accepted_.value_or(std::numeric_limits<double>::quiet_NaN()); }
-    void recall_time(double accepted);
+    void recall_time(double accepted, const Level* level);
 
     // For periodic flats, solve() uses a reference plane that no force raises (Kernel::shift()): the separation Z0 of the mean planes
     // corresponds to Z0 - shift() N in solve(). first_touch() is the same in both.
@@ -110,6 +112,12 @@ protected:
     virtual std::size_t levels_since_move() const { return 0; }             // number of levels since the tip was moved, at most a few
 
 private:
+    Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
+    Level to_force(double N);
+    // Reaches a level in steps of time, on which its separation, or its force, changes linearly `from` that of the last accepted level.
+    Level in_steps(double from, double to, Level (Contact::*reach)(double));
+    double separation_ = std::numeric_limits<double>::quiet_NaN(), force_ = separation_;  // of the last accepted level
+
     // Solves at the separation Z0 of the mean planes if shift() > 0.
     Level solve_between_planes(double Z0);
 

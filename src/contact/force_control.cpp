@@ -10,7 +10,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnresolved = 1e-6;  // accepted relative error of the force due to rounding of the separation
 constexpr double kFarAbove = 100;     // relative to the requested force
-constexpr int kPasses = 2;            // number of failures after which only full solves are used
+// Most steps of time of a level. A step is of second order: with 16 in the shortest relaxation time or more, or 16 in all, N of bodies with
+// one and four times, pressed, held and withdrawn, is within 1.1 %, mostly 0.4 %.
+constexpr double kTimeSteps = 16;
+constexpr int kPasses = 2;  // number of failures after which only full solves are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next separation by Newton's method,
 // -Infinity: none.
@@ -80,6 +83,37 @@ Level search(double begin, double below, double above, int most, Look&& look, Se
 
 Level Contact::at_separation(double Z0) {
     if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
+    return in_steps(separation_, Z0, &Contact::to_separation);
+}
+
+Level Contact::at_force(double N) {
+    if (!(N > 0 || pulls()) || !std::isfinite(N))
+        throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
+    return in_steps(force_, N, &Contact::to_force);
+}
+
+Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double)) {
+    const double start = accepted_.value_or(time_), end = time_;
+    const double steps = relaxes() && std::isfinite(from) ? std::ceil(kTimeSteps * std::min(1.0, (end - start) / shortest_time())) : 1.0;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    try {
+        for (double k = 1; k < steps; ++k) {
+            time_ = start + k / steps * (end - start);
+            const Level level = (this->*reach)(from + k / steps * (to - from));
+            iterations += level.iterations, products += level.products;
+        }
+    } catch (...) {
+        time_ = end;
+        throw;
+    }
+    time_ = end;
+    Level level = (this->*reach)(to);
+    level.iterations += iterations, level.products += products;
+    return level;
+}
+
+Level Contact::to_separation(double Z0) {
     begin();
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
     finish(level);
@@ -91,6 +125,7 @@ void Contact::finish(Level& level) {
     if (converged || level.fallback == Fallback::held) {
         accept(level);
         accepted_ = time_;
+        separation_ = level.separation, force_ = level.force;
     }
     // With a residual as large as the forces there is no valid state: its values are not returned.
     if (!converged && level.fallback != Fallback::held && !(level.residual < 1)) {
@@ -117,8 +152,9 @@ void Contact::set_time(double time) {
     time_ = time;
 }
 
-void Contact::recall_time(double accepted) {
+void Contact::recall_time(double accepted, const Level* level) {
     accepted_.reset();
+    if (level) separation_ = level->separation, force_ = level->force;
     if (std::isfinite(accepted)) accepted_ = time_ = accepted;
 }
 
@@ -163,9 +199,7 @@ Level Contact::solve_between_planes(double Z0) {
 }
 
 // Solves ln N(Z0) = ln N with the slope from the stiffness.
-Level Contact::at_force(double N) {
-    if (!(N > 0 || pulls()) || !std::isfinite(N))
-        throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
+Level Contact::to_force(double N) {
     begin();
     double above = first_touch();  // upper bound of the separation
     if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it cannot carry a force");

@@ -41,7 +41,7 @@ void PixelContact::recall(const std::vector<double>& memory, const Level* level)
         if (memory.empty() || loads_->read(std::span(memory).subspan(1)) + 1 != memory.size() ||
             (!places.empty() && places.back() / heights_.nx >= heights_.ny))
             throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
-        recall_time(memory[0]);
+        recall_time(memory[0], level);
         step(0);
     } else {
         Depths depths;

@@ -13,7 +13,7 @@ class PixelContact : public Contact, protected CutMap {
 public:
     double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
-    bool relaxes() const final { return loads_.has_value(); }
+    double shortest_time() const final { return loads_ ? std::ranges::min(options_.relaxation.time) : Contact::shortest_time(); }
     bool path_dependent() const final { return relaxes() || std::isfinite(options_.hardness.H0); }
     // Triples of column, row and residual depth of a yielded point; for relaxing bodies the time, followed by the loads.
     std::vector<double> memory() const final;
