@@ -6,6 +6,12 @@
 
 namespace rsc {
 
+// Number of steps in which a level of a relaxing body is reached after `duration`. A step is of second order: with 16 in the shortest
+// relaxation time or more, or 16 in all, N of bodies with one and four times, pressed, held and withdrawn, is within 1.1 %, mostly 0.4 %.
+inline double steps_of_time(double duration, double shortest_time) {
+    return std::max(1.0, std::ceil(16 * std::min(1.0, duration / shortest_time)));
+}
+
 class Contact {
 public:
     virtual ~Contact() = default;
@@ -25,6 +31,9 @@ public:
     bool relaxes() const { return std::isfinite(shortest_time()); }
     // The shortest relaxation time; Infinity: the body does not relax.
     virtual double shortest_time() const { return std::numeric_limits<double>::infinity(); }
+    // True if one step of time is exact under a force that does not decrease (Lee and Radok: a growing contact depends on the history of the
+    // force alone).
+    virtual bool exact_while_growing() const { return false; }
 
     // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].

@@ -10,10 +10,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnresolved = 1e-6;  // accepted relative error of the force due to rounding of the separation
 constexpr double kFarAbove = 100;     // relative to the requested force
-// Most steps of time of a level. A step is of second order: with 16 in the shortest relaxation time or more, or 16 in all, N of bodies with
-// one and four times, pressed, held and withdrawn, is within 1.1 %, mostly 0.4 %.
-constexpr double kTimeSteps = 16;
-constexpr int kPasses = 2;  // number of failures after which only full solves are used
+constexpr int kPasses = 2;            // number of failures after which only full solves are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next separation by Newton's method,
 // -Infinity: none.
@@ -89,12 +86,13 @@ Level Contact::at_separation(double Z0) {
 Level Contact::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
         throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
-    return in_steps(force_, N, &Contact::to_force);
+    const bool grows = N >= (1 - 10 * tolerance()) * force_;
+    return exact_while_growing() && grows ? to_force(N) : in_steps(force_, N, &Contact::to_force);
 }
 
 Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double)) {
     const double start = accepted_.value_or(time_), end = time_;
-    const double steps = relaxes() && std::isfinite(from) ? std::ceil(kTimeSteps * std::min(1.0, (end - start) / shortest_time())) : 1.0;
+    const double steps = std::isfinite(from) ? steps_of_time(end - start, shortest_time()) : 1.0;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
     try {

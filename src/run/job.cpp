@@ -235,7 +235,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
         contact = make_element_contact(map, job.indenter, job.solver);
-        if (settings.run.realizations == 1 && !relaxes(settings)) resolution.emplace(job, number, threads, map);
+        if (settings.run.realizations == 1) resolution.emplace(job, number, threads, map);
     } else {
         if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
             r.heights = make_surface(settings, *job.spectrum, number, threads).map;

@@ -61,6 +61,7 @@ OtherGrid::~OtherGrid() = default;
 
 std::optional<GridError> OtherGrid::error(const LevelValues& level) {
     if (!contact_) return {};
+    if (contact_->relaxes()) contact_->set_time(level.time);
     Level other;
     try {
         other = contact_->at_separation(level.separation);
@@ -92,11 +93,12 @@ ResolutionCheck::ResolutionCheck(const Job& job, std::int64_t number, int thread
     : job_(job), other_(job, number, threads, map, job.settings.elements.points_per_wave) {}
 
 void ResolutionCheck::judge(std::size_t step, Level& level) {
-    if (!other_.exists() || level.status == LevelStatus::not_converged || !(level.force > 0)) return;
+    const bool relaxing = relaxes(job_.settings);  // every level depends on all before it, also on those without contact
+    if (!other_.exists() || level.status == LevelStatus::not_converged || !(level.force > 0 || relaxing)) return;
     const auto& levels = job_.levels;
     const bool turns = std::isfinite(job_.settings.solids.hardness) && step > 0 && step + 1 < levels.size() &&
                        (levels[step] - levels[step - 1]) * (levels[step + 1] - levels[step]) < 0;
-    const bool due = !last_ || level.pixels_per_contact >= kGrown * pixels_ || level.pixels_per_contact <= kShrunk * pixels_;
+    const bool due = relaxing || !last_ || level.pixels_per_contact >= kGrown * pixels_ || level.pixels_per_contact <= kShrunk * pixels_;
     if (due) {
         last_ = other_.error(level);
         pixels_ = level.pixels_per_contact;

@@ -142,7 +142,7 @@ void test_path(const Kind& model) {
 
 // Levels far apart in time, under separations and under forces, are reached in steps: as by 20 levels on the way.
 void test_far_apart(const Kind& model) {
-    constexpr double bound = 0.011;  // that of kTimeSteps
+    constexpr double bound = 0.011;  // that of steps_of_time()
     const auto elastic = make(model, {});
     const double touch = elastic->first_touch(), unit = 0.4 * elastic->at_separation(touch - model.depth).force;
     const auto run = [&](int parts, bool by_force) {

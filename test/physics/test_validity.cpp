@@ -62,6 +62,23 @@ void at_the_bounds() {
     CHECK(!exceeds_nominal_area(area));
 }
 
+// A listed asperity under a sphere not much larger: by Hertz with both radii N is smaller by the factor sqrt(1 + r/R), and A by 1 + r/R.
+void asperity_under_a_small_ball() {
+    for (const auto& [r, R, told] : {std::tuple{1.0, 2.0, true}, {0.1, 2.0, false}}) {
+        Asperities one;
+        one.x = {0.5}, one.y = {0.5}, one.z = {0}, one.radius = {r};
+        const double depth = 1e-6, both = r * R / (r + R);
+        const Level level = AsperityContact(one, {1.0, R, 0.5, 0.5}, {}).at_separation(-depth);
+        CHECK((level.status == LevelStatus::out_of_validity) == told && std::isnan(level.force_error_expected) != told);
+        if (!told) continue;
+        CHECK_RELATIVE(level.force, (1 + level.force_error_expected) * 4 / 3.0 * std::sqrt(both) * depth * std::sqrt(depth), 1e-9);
+        CHECK_RELATIVE(level.area, (1 + level.area_error_expected) * std::numbers::pi * both * depth, 1e-9);
+    }
+}
+
 }  // namespace
 
-TESTS { at_the_bounds(); }
+TESTS {
+    at_the_bounds();
+    asperity_under_a_small_ball();
+}
