@@ -14,13 +14,15 @@ def area(results, options):
         return None
     page, looks = begin(results, options)
     axis, alone = page.axes[0], len(results) == 1
-    axis.set(xscale="log", yscale="log")
+    pulls = any(r.pulls() for r in results)  # forces of either sign, to which the theories do not apply
+    axis.set(xscale="linear" if pulls else "log", yscale="linear" if pulls else "log")
     for result, look in zip(results, looks):
         if alone:
             page.entry("rsc", color=look[1], ls=look[0])
-            _theories(page, result)
+            if not pulls:
+                _theories(page, result)
         force, values = result.mean("force"), result.mean("contact_area")
-        if alone and result.realizations > 2:
+        if alone and result.realizations > 2 and not pulls:
             _scatter(page, axis, result, look[1])
         curve(page, axis, result, look, force, values, error="area_error_expected", alone=alone)
         if "compare_force" in result:

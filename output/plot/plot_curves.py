@@ -13,7 +13,7 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
     line, colour, name = look
     status, meanings = result.level_status()
     for at, parting in result.branches():
-        at = at[np.isfinite(x[at]) & np.isfinite(y[at]) & (y[at] > 0)]
+        at = at[np.isfinite(x[at]) & np.isfinite(y[at]) & ((y[at] > 0) | result.pulls())]
         axis.plot(x[at], y[at], ls=(0, (2, 1.5)) if parting and alone else ":" if parting else line, color=colour, lw=0.9 if parting else None, gid="unloading" if parting else "curve")
         if parting and at.size:
             page.entry("unloading", color=colour if alone else "0.3", ls=(0, (2, 1.5)) if alone else ":", lw=0.9)
@@ -27,7 +27,7 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
             page.entry("expected error of the model", color="#c1440e", alpha=0.18, lw=5)
     if name:
         page.entry(name, color=colour, ls=line)
-    drawn = np.isin(np.arange(y.size), result.loaded()) & (y > 0)
+    drawn = np.isin(np.arange(y.size), result.loaded()) & ((y > 0) | result.pulls())
     page.status(axis, x, np.where(drawn, y, np.nan), status, meanings, colour)
 
 
@@ -77,6 +77,8 @@ def title(results, what):
 
 def _many_decades(values):
     values = np.concatenate(values)
+    if (values < 0).any():  # tension
+        return False
     values = values[np.isfinite(values) & (values > 0)]
     return values.size > 0 and values.max() > 8 * values.min()
 
@@ -110,8 +112,8 @@ def _against_force(results, options, name, sign, text, what):
     axis = page.axes[0]
     for result, look in zip(results, looks):
         curve(page, axis, result, look, result.mean("force"), sign * result.mean(name), scatter=name, alone=len(results) == 1)
-    for which, values in (("x", "force"), ("y", name)):
-        getattr(axis, f"set_{which}scale")("log" if _many_decades([abs(r.mean(values)[r.loaded()]) for r in results]) else "linear")
+    for which, values, by in (("x", "force", 1), ("y", name, sign)):
+        getattr(axis, f"set_{which}scale")("log" if _many_decades([by * r.mean(values)[r.loaded()] for r in results]) else "linear")
     label(axis, "x", "force $N$", results[0].dimension("force"))
     label(axis, "y", text, results[0].dimension(name))
     return page.finish(title(results, what))

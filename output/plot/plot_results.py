@@ -122,8 +122,12 @@ class Result:
         return f" ({meanings[status[step]]})" if status[step] > 0 else ""
 
     def loaded(self):
-        """The levels with contact."""
-        return np.flatnonzero(np.nan_to_num(self.mean("force")) > 0) if "force" in self else np.array([], int)
+        """The levels with contact; with adhesion their forces may be negative."""
+        return np.flatnonzero(np.nan_to_num(self.mean("contact_area" if self.pulls() else "force")) > 0) if "force" in self else np.array([], int)
+
+    def pulls(self):
+        """True for a contact with adhesion."""
+        return "pull_off_force" in self
 
     def load_varies(self):
         """True if there is a curve over the load, which is not constant as for creep."""
