@@ -1,5 +1,5 @@
-// The whole test framework: checks that say what failed and go on, and a summary as the exit status. The tests of a file
-// test/unit/test_NAME.cpp begin at its TESTS { ... }, and `test_unit NAME` runs them.
+// The whole test framework: checks that say what failed and go on, and a summary as the exit status. `test_unit NAME` runs every
+// TEST(what) { ... } of the file test/unit/test_NAME.cpp, in their order.
 #pragma once
 
 #include <iterator>
@@ -35,14 +35,22 @@ inline double worse(double worst, std::initializer_list<double> errors) {
     return worst;
 }
 
-// The files' tests by name.
-inline std::map<std::string, void (*)()>& tests() {
-    static std::map<std::string, void (*)()> all;
+template <class Type, class Act>
+bool throws(Act&& act) try {
+    return act(), false;
+} catch (const Type&) {
+    return true;
+}
+
+// The tests of each file.
+inline std::map<std::string, std::vector<void (*)()>>& tests() {
+    static std::map<std::string, std::vector<void (*)()>> all;
     return all;
 }
 inline bool add(const std::string& file, void (*run)()) {
     const std::size_t begin = file.rfind("test_") + 5;
-    return tests().emplace(file.substr(begin, file.rfind('.') - begin), run).second;
+    tests()[file.substr(begin, file.rfind('.') - begin)].push_back(run);
+    return true;
 }
 inline int summary() {
     std::printf("%d checks, %d failed\n", checks, failures);
@@ -51,20 +59,12 @@ inline int summary() {
 
 }  // namespace check
 
-#define TESTS                                                        \
-    static void run_tests();                                         \
-    static const bool tests_added = check::add(__FILE__, run_tests); \
-    static void run_tests()
+#define TEST(name)                                                  \
+    static void name();                                             \
+    static const bool name##_is_added = check::add(__FILE__, name); \
+    static void name()
 #define CHECK(condition) check::that((condition), #condition, __FILE__, __LINE__)
 #define CHECK_CLOSE(a, b, tolerance) check::close((a), (b), (tolerance), #a " = " #b, __FILE__, __LINE__)
 #define CHECK_RELATIVE(a, b, tolerance) check::close((a), (b), (tolerance)*std::abs(b), #a " = " #b " (relative)", __FILE__, __LINE__)
-#define CHECK_THROWS(expression, type)                                         \
-    do {                                                                       \
-        bool thrown = false;                                                   \
-        try {                                                                  \
-            (void)(expression);                                                \
-        } catch (const type&) {                                                \
-            thrown = true;                                                     \
-        }                                                                      \
-        check::that(thrown, #expression " throws " #type, __FILE__, __LINE__); \
-    } while (0)
+#define CHECK_THROWS(expression, type) \
+    check::that(check::throws<type>([&] { (void)(expression); }), #expression " throws " #type, __FILE__, __LINE__)

@@ -3,11 +3,11 @@
 
 #include "rough/surface.hpp"
 
-// nx x ny points in steps of dx, dy from (0, 0) on, with the height z(column, row).
+// nx x ny points in steps of dx, dy from (0, 0) on, with the height z(column, row). Rows have padding, to detect a confusion of width and stride.
 template <class Height>
 rsc::HeightMap height_map(int nx, int ny, double dx, double dy, Height&& z) {
     rsc::HeightMap map;
-    map.allocate(nx, ny, nx);
+    map.allocate(nx, ny, nx + 3);
     map.dx = dx, map.dy = dy;
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) map.row(j)[i] = z(i, j);

@@ -43,7 +43,7 @@ def radial(results, options):
         axis.set_xlim(0, min(1.05 * end, results[0]["radius"][-1]))
         axis.dataLim.update_from_data_x(axis.get_xlim(), ignore=False)  # common unit
         label(axis, "x", "distance from the tip $r$", results[0].dimension("radius"))
-    page.axes[0].set_ylim(bottom=0)
+    page.axes[0].set_ylim(bottom=None if any(r.pulls() for r in results) else 0)
     for axis in page.axes:
         label(axis, "y", "pressure $p$", results[0].dimension("radial_pressure"))
     return page.finish(title(results, "Radial mean of the pressure" + ("; points: rsc, lines: smooth sphere (Hertz)" if lines else "")))

@@ -96,9 +96,9 @@ using SurfaceHeights = std::function<std::vector<double>(const std::vector<Vec2>
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
-    Hardness hardness;
-    Relaxation relaxation;
-    Adhesion adhesion;
+    Hardness hardness = {};
+    Relaxation relaxation = {};
+    Adhesion adhesion = {};
     Interaction interaction = Interaction::point;
     Selection selection = Selection::overlap;
     double selection_factor = 1.5;
@@ -111,7 +111,7 @@ struct SolverOptions {
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
     double rms_slope = 0;        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
-    Rectangle surface;           // the free surface, for counting contacts near its border; not counted if unknown
+    Rectangle surface = {};      // the free surface, for counting contacts near its border; not counted if unknown
     bool measured = false;       // heights of either body from a file or a caller, for which expected errors are larger
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
     SurfaceHeights heights = {};                      // of the surface between its summits, for indenters with an edge

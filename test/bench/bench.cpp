@@ -47,10 +47,7 @@ Asperities surface(double sigma, std::int64_t realization) {
 }
 
 std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps, LawKind law = LawKind::hertz) {
-    SolverOptions options;
-    options.law = law;
-    options.method = method;
-    options.sigma = sigma;
+    SolverOptions options{.method = method, .law = law, .sigma = sigma};
     AsperityContact contact(asperities, kGold, options);
     std::vector<Level> levels;
     for (int k = 0; k < steps; ++k) levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));
@@ -157,9 +154,7 @@ void bench_many() {
     for (int n : {10000, 30000, 100000, 300000, 600000}) {
         const Asperities a = bench::lattice(n);
         const double sigma = 0.05 / std::sqrt(n);
-        SolverOptions options;
-        options.sigma = sigma;
-        options.method = Method::mesh;
+        SolverOptions options{.method = Method::mesh, .sigma = sigma};
         Level level;
         // The same fraction touches at every n when the mean pressure is the same: the depth grows like the interaction, as sqrt(n).
         const double depth = -2.2 * sigma - 4.2 * sigma * (std::sqrt(n / 1e4) - 1);
@@ -181,8 +176,7 @@ void bench_largest() {
     const double bare = bare_transform(8192);
     const double make = shortest(1, [&] { a = make_asperities(spectrum, 8192, Normalise::sample, 1, 1, Curvature::geometric, &count); });
     std::printf("  made and detected: %ld summits in %.2f s, %.2f of a bare transform (wanted: 15 s)\n", count.summits, make, make / bare);
-    SolverOptions options;
-    options.sigma = 0.01;
+    SolverOptions options{.sigma = 0.01};
     Level level;
     const double time = shortest(1, [&] { level = AsperityContact(a, kGold, options).at_separation(0.01); });
     std::printf(
@@ -196,8 +190,7 @@ void bench_largest() {
 // A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the elastic levels down.
 void bench_adhesion() {
     const Asperities a = surface(0.01, 1);
-    SolverOptions options;
-    options.sigma = 0.01;
+    SolverOptions options{.sigma = 0.01};
     Level last;
     const auto levels = [&](double work) {
         options.adhesion.work = work;

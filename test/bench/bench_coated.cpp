@@ -90,8 +90,7 @@ void coated_levels() {
     std::printf("\ncoated_levels: a level without layers, and with a layer of h/L = 0.003, 0.01, 0.1, 1 over it (wanted: 1.3)\n");
     Spectrum coarse{.L_lambda_s = 128};
     const HeightMap map = synthesize(coarse, 1024, Normalise::sample, 1, 1);
-    SolverOptions elements;
-    elements.max_iterations = 200;
+    SolverOptions elements{.max_iterations = 200};
     const auto by_elements = [&](const Indenter& of) { return make_element_contact(map, of, elements); };
     row("elements 1024^2, free", by_elements, kGold, tips, 10, 1);
     row("elements 1024^2, flats", by_elements, flat, flats, 5, 1.5);
@@ -102,8 +101,7 @@ void coated_levels() {
             make_asperities(s, 2048, Normalise::sample, 1, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
         for (const LawKind law : {LawKind::hertz, LawKind::fourth_order})
             for (const Method method : {Method::automatic, Method::direct, Method::mesh, Method::dgesv}) {
-                SolverOptions options;
-                options.law = law, options.method = method, options.sigma = kSigma;
+                SolverOptions options{.method = method, .law = law, .sigma = kSigma};
                 const auto& asperities = law == LawKind::hertz ? plain : fine;
                 const auto maker = [&](const Indenter& of) { return make_asperity_contact(asperities, of, options); };
                 const bool dense = method == Method::dgesv;

@@ -8,12 +8,7 @@ using namespace rsc;
 namespace bench {
 namespace {
 
-SolverOptions options() {
-    SolverOptions o;
-    o.tolerance = 1e-6;
-    o.max_iterations = 200;
-    return o;
-}
+SolverOptions options() { return {.tolerance = 1e-6, .max_iterations = 200}; }
 
 HeightMap surface(int n, double L_lambda_s) {
     Spectrum spectrum{.L_lambda_s = L_lambda_s};

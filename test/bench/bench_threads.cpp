@@ -64,8 +64,7 @@ void compare(const char* what, const std::function<void()>& work) {
 }
 
 void levels(const HeightMap& map, int count) {
-    SolverOptions options;
-    options.max_iterations = 200;
+    SolverOptions options{.max_iterations = 200};
     const auto contact = make_element_contact(map, kGold, options);
     for (int k = 0; k < count; ++k) contact->at_separation(0.01 * (4 - 3.0 * k / (count - 1)));
 }
@@ -80,9 +79,7 @@ void threads() {
     const HeightMap map = make();
     compare("elements, 4096^2, 100 levels from 4 to 1 sigma", [&] { levels(map, 100); });
     const Asperities a = lattice(100000);
-    SolverOptions options;
-    options.sigma = 0.05 / std::sqrt(1e5);
-    options.method = Method::mesh;
+    SolverOptions options{.method = Method::mesh, .sigma = 0.05 / std::sqrt(1e5)};
     compare("asperities by mesh, 1e5, a third in contact", [&] {
         AsperityContact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(-11.3 * options.sigma);
     });

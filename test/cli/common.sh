@@ -19,5 +19,20 @@ silent_on() { ! grep -q -- "$1" "$folder/said" || { cat "$folder/said"; fail "it
 same() { cmp "$1" "$2" || fail "$1 and $2 differ"; }
 # left FOLDER NAMES: what is there, and nothing else.
 left() { [ "$(ls -A "$1" | tr '\n' ' ')" = "${2:+$2 }" ] || fail "left in $1: $(ls -A "$1"); expected: $2"; }
+# shortened NAME PICTURES...: input/NAME/run.sh --short from beginning to end leaves these pictures, and a report without "not a number" that says it is
+# the shortened one; its output is log.txt. 77 where Python lacks its modules.
+shortened() {
+    local name=$1
+    shift
+    sh "$project/input/$name/run.sh" --short "$rsc" "$folder/$name" > "$folder/log.txt" 2>&1
+    local status=$?
+    [ $status -ne 77 ] || { cat "$folder/log.txt"; exit 77; }
+    [ $status -eq 0 ] || fail "run.sh --short ends with status $status: $(tail -n 20 "$folder/log.txt")"
+    for picture; do head -c 8 "$folder/$name/${name}_$picture.png" 2> /dev/null | grep -q PNG || fail "${name}_$picture.png is no picture"; done
+    report=$folder/$name/report.txt
+    [ -s "$report" ] || fail "no report"
+    grep -q 'SHORTENED' "$report" || fail "the report does not say that it is the shortened one"
+    ! grep -n -w -i nan "$report" || fail "not a number in the report"
+}
 # in_folder NAME command...: in a folder of that name, so that the result file can have one name everywhere.
 in_folder() { mkdir -p "$1" && (cd "$1" && shift && "$@"); }

@@ -41,13 +41,7 @@ program test_objects
 
 contains
 
-  subroutine check(ok, what)
-    logical, intent(in) :: ok
-    character(*), intent(in) :: what
-    if (ok) return
-    failures = failures + 1
-    print '(2a)', 'failed: ', what
-  end subroutine
+  include 'check.inc'
 
   ! Its tip is at x, and it works: Hertz at a penetration of 1e-3.
   subroutine works(c, x, what)

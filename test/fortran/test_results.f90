@@ -24,13 +24,7 @@ contains
     call get_command_argument(i, text)
   end function argument
 
-  subroutine check(ok, what)
-    logical, intent(in) :: ok
-    character(*), intent(in) :: what
-    if (ok) return
-    failures = failures + 1
-    print '(2a)', 'failed: ', what
-  end subroutine check
+  include 'check.inc'
 
   ! Every member holds the variable of its name, value by value.
   subroutine every_variable(file)

@@ -27,12 +27,23 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
     return {a, std::pow(10.0, -3.5 + 1.5 * uniform(generator))};
 }
 
-inline rsc::SolverOptions sticky(double w, double range) {
-    rsc::SolverOptions options;
-    options.tolerance = 1e-12;
-    options.adhesion = {w, range};
-    return options;
-}
+inline rsc::SolverOptions sticky(double w, double range) { return {.adhesion = {w, range}, .tolerance = 1e-12}; }
+
+// Maugis (1992) on a sphere of radius r by m = c/a: the contact radius from its equation, a quadratic one, then force and penetration.
+struct Maugis {
+    double r, w, lambda, E;
+    double range() const { return w / (lambda / 2 * std::cbrt(16 * std::numbers::pi * w * E * E / (9 * r))); }
+    struct State {
+        double a, f, u, c;
+    };
+    State at(double m) const {
+        const double q = std::sqrt(m * m - 1), t = std::atan(q), pi = std::numbers::pi;
+        const double b = lambda / 2 * (q + (m * m - 2) * t), d = 4 * lambda * lambda / 3 * (q * t - m + 1);
+        const double a = 2 / (std::sqrt(d * d + 4 * b) + d), unit = std::cbrt(4 * E / (3 * pi * w * r * r));
+        return {a / unit, (a * a * a - lambda * a * a * (q + m * m * t)) * pi * w * r,
+                (a * a - 4.0 / 3 * a * lambda * q) / std::cbrt(16 * E * E / (9 * pi * pi * w * w * r)), m * a / unit};
+    }
+};
 
 // Sets the heights of `under` to the clearances of `asperities` with the tip at (x, y): PathMinimiser presses them by a flat.
 inline void set_clearances(rsc::Asperities& under, const rsc::Asperities& asperities, rsc::Indenter tip, double x, double y) {

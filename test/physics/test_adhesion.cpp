@@ -42,16 +42,10 @@ Asperities of(std::vector<double> x, std::vector<double> y, std::vector<double> 
     return a;
 }
 
-SolverOptions sticky(double w, LawKind law = LawKind::hertz) {
-    SolverOptions options;
-    options.tolerance = 1e-12;
-    options.law = law;
-    options.adhesion.work = w;
-    return options;
-}
+SolverOptions sticky(double w, LawKind law = LawKind::hertz) { return {.law = law, .adhesion = {.work = w}, .tolerance = 1e-12}; }
 
 // The whole loop of one asperity: it attaches where it touches and lets go at u_c, neither sooner nor later.
-void test_one() {
+TEST(test_one) {
     for (double w : {1e-6, 0.01, 0.3}) {
         const Jkr jkr{0.7, w};
         const Asperities a = of({0.5}, {0.5}, {0.1}, {jkr.r});
@@ -84,7 +78,7 @@ void test_one() {
 }
 
 // Symmetric groups: one equation g0 = u(a) + c f(a), c the sum of 1/(pi E* d) over the others.
-void test_groups() {
+TEST(test_groups) {
     for (int n : {2, 6}) {
         for (double distance : {0.2, 0.6}) {
             const Jkr jkr{0.5, 0.01};
@@ -134,7 +128,7 @@ struct JkrEdge {
     double seed(std::size_t i) const { return 1e-3 * std::cbrt(pi * w * a.radius[i] * a.radius[i] / kE); }
 };
 
-void test_minimiser() {
+TEST(test_minimiser) {
     for (unsigned seed = 1; seed <= 14; ++seed) {
         const RandomAsperities system = random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
         PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
@@ -153,7 +147,7 @@ void test_minimiser() {
 }
 
 // A spherical tip that moves over attached asperities at one separation, to and fro.
-void test_moves() {
+TEST(test_moves) {
     int jumps = 0;
     for (unsigned seed = 1; seed <= 8; ++seed) {
         const RandomAsperities system = random_asperities(2 + static_cast<int>(seed % 5), seed, 0.2);
@@ -196,7 +190,7 @@ void test_moves() {
 
 // A move cut into several ends in the same state with the same energy lost; for one asperity this energy is that of a path of separations
 // with the same clearances.
-void test_moves_cut() {
+TEST(test_moves_cut) {
     const RandomAsperities system = random_asperities(12, 21, 0.2);
     const Indenter tip{kE, 10.0, 0.5, 0.5};
     Level whole;
@@ -218,6 +212,7 @@ void test_moves_cut() {
     second->recall(first->memory(), &begin);
     CHECK(second->indenter().x0 == 0.8);
     CHECK_RELATIVE(second->at_separation(-0.005).force, whole.force, 1e-8);
+    CHECK_THROWS(second->recall({1.0, 2.0}, nullptr), Error);
     const Asperities two = of({0.3, 0.7}, {0.5, 0.5}, {0.0, 0.001}, {0.5, 0.5});
     SolverOptions alone = sticky(1e-3);
     alone.interaction = Interaction::none;
@@ -234,7 +229,7 @@ void test_moves_cut() {
 
 // However the way down and up is cut, it ends in the same state, with the same loss; also on a stiff coat, where what a force does to its own
 // place shifts the detachment.
-void test_cutting() {
+TEST(test_cutting) {
     Indenter coated{kE, kFlat, 0.5, 0.5};
     constexpr double nu = 0.3, E = kE * (1 - nu * nu);
     coated.layers.count = 1, coated.layers.layer[0] = {0.02, E, nu}, coated.layers.E = E / 3, coated.layers.nu = nu;
@@ -257,7 +252,7 @@ void test_cutting() {
 
 // So strong an attraction that a jump reaches asperities which were too low to be considered at the level before: the loss by one long level and
 // by twelve. (Their penetrations before the jump have to be found during it.)
-void test_far_jumps() {
+TEST(test_far_jumps) {
     for (unsigned seed : {51u, 53u}) {
         const RandomAsperities system = random_asperities(60, seed, 0.06);
         std::vector<double> lost;
@@ -271,7 +266,7 @@ void test_far_jumps() {
 }
 
 // The work of a closed cycle is the energy lost.
-void test_work() {
+TEST(test_work) {
     for (unsigned seed : {31u, 32u}) {
         const RandomAsperities system = random_asperities(5, seed, 0.2);
         const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
@@ -282,7 +277,7 @@ void test_work() {
 // Without interaction the loss of a cycle is the sum of the asperities' own, also where it is far below the rounding of the energies, and
 // where forces are so large beside the attraction that the default tolerance is coarse for it. For a weak attraction the loss with interaction
 // is nearly the same.
-void test_loss_under_load() {
+TEST(test_loss_under_load) {
     const RandomAsperities system = random_asperities(12, 61, 0.1);
     for (double w : {1e-8, 1e-11}) {
         const auto lost = [&](Interaction interaction, double tolerance) {
@@ -304,7 +299,7 @@ void test_loss_under_load() {
 }
 
 // Spots that overlap so much that no stable state can be found: the level has no values, and the path goes on from the last accepted state.
-void test_lost() {
+TEST(test_lost) {
     for (double range : {0.0, 0.003}) {
         const RandomAsperities system = random_asperities(8, 9, 0.03);
         SolverOptions options = sticky(system.w);
@@ -318,7 +313,7 @@ void test_lost() {
 }
 
 // Two flats that repeat: one asperity a period feels its images, c f with c = 2.28472/(pi E* L) from the mean plane up.
-void test_periodic() {
+TEST(test_periodic) {
     const Jkr jkr{0.5, 0.01};
     const Asperities a = of({0.5}, {0.5}, {0.0}, {jkr.r});
     const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(jkr.w));
@@ -333,7 +328,7 @@ void test_periodic() {
 }
 
 // Under a given force, in either direction; beyond the smallest one it holds there and says so, and goes on from there.
-void test_force() {
+TEST(test_force) {
     const Jkr jkr{0.7, 0.01};
     const Asperities a = of({0.5}, {0.5}, {0.1}, {jkr.r});
     const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(jkr.w));
@@ -352,27 +347,8 @@ void test_force() {
     CHECK_CLOSE(contact->at_force(0).force, 0.0, 1e-9 * unit);
 }
 
-// A contact goes on from its memory as if nothing had been in between; trials leave no trace.
-void test_memory() {
-    const RandomAsperities system = random_asperities(8, 41, 0.2);
-    const Indenter tip{kE, kFlat, 0.5, 0.5};
-    const auto one = make_asperity_contact(system.asperities, tip, sticky(system.w)),
-               other = make_asperity_contact(system.asperities, tip, sticky(system.w));
-    (void)one->at_separation(0.0);
-    const Level kept = one->at_separation(0.012);
-    other->recall(one->memory(), &kept);
-    CHECK_RELATIVE(other->energy(), one->energy(), 1e-9);
-    for (double Z : {0.016, 0.009, 0.03}) {
-        const Level p = one->at_separation(Z), q = other->at_separation(Z);
-        CHECK(p.asperity == q.asperity);
-        CHECK_CLOSE(p.force, q.force, 1e-9 * system.w);
-        CHECK_CLOSE(p.energy_lost, q.energy_lost, 1e-6 * p.energy_lost);
-    }
-    CHECK_THROWS(one->recall({1.0, 2.0}, nullptr), Error);
-}
-
 // With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
-void test_elastic_limit() {
+TEST(test_elastic_limit) {
     RandomAsperities system = random_asperities(12, 51, 0.2);
     system.asperities.kappa1.clear(), system.asperities.kappa2.clear(), system.asperities.angle.clear(),
         system.asperities.biharmonic.clear();
@@ -399,7 +375,7 @@ void test_elastic_limit() {
 
 // Without interaction: caps of one radius with Gaussian heights, pulled off after all have attached. The mean force of 200 surfaces is the
 // integral over the heights of those that still hold on (Fuller and Tabor, Proc. R. Soc. A 345, 1975), within its standard error.
-void test_fuller_tabor() {
+TEST(test_fuller_tabor) {
     const Jkr jkr{0.5, 1e-3};
     const double length = -jkr.u(jkr.least()), sigma = 1.5 * length;
     SolverOptions options = sticky(jkr.w);
@@ -434,21 +410,3 @@ void test_fuller_tabor() {
 }
 
 }  // namespace
-
-TESTS {
-    test_work();
-    test_loss_under_load();
-    test_lost();
-    test_moves();
-    test_moves_cut();
-    test_periodic();
-    test_force();
-    test_memory();
-    test_elastic_limit();
-    test_fuller_tabor();
-    test_one();
-    test_groups();
-    test_minimiser();
-    test_cutting();
-    test_far_jumps();
-}

@@ -1,4 +1,5 @@
 // Elements that attract within a range (contact/adhesive_elements.hpp), against Maugis's sphere and Johnson's wave.
+#include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/element_contact.hpp"
 #include "error.hpp"
@@ -11,21 +12,8 @@ namespace {
 
 constexpr double kFlat = std::numeric_limits<double>::infinity();
 
-// Maugis (1992) on a sphere of radius 1, E* = 1, by m = c/a: the contact radius from its equation, a quadratic one, then force and penetration.
-struct Maugis {
-    double w, lambda;
-    double s0() const { return lambda / 2 * std::cbrt(16 * pi * w / 9); }
-    double range() const { return w / s0(); }
-    struct State {
-        double a, f, u, c;
-    };
-    State at(double m) const {
-        const double q = std::sqrt(m * m - 1), t = std::atan(q);
-        const double b = lambda / 2 * (q + (m * m - 2) * t), c = 4 * lambda * lambda / 3 * (q * t - m + 1);
-        const double a = (std::sqrt(c * c + 4 * b) - c) / (2 * b);
-        return {a / std::cbrt(4 / (3 * pi * w)), (a * a * a - lambda * a * a * (q + m * m * t)) * pi * w,
-                (a * a - 4.0 / 3 * a * lambda * q) / std::cbrt(16 / (9 * pi * pi * w * w)), m * a / std::cbrt(4 / (3 * pi * w))};
-    }
+// On a sphere of radius 1, E* = 1.
+struct Sphere : Maugis {
     // The stable branch ends at the smallest penetration: m from there down.
     double last() const {
         double least = 1e300, where = 0;
@@ -54,19 +42,15 @@ HeightMap paraboloid(double side, int n) {
                       [=](int i, int j) { return -0.5 * (std::pow((i + 0.5) * h - side / 2, 2) + std::pow((j + 0.5) * h - side / 2, 2)); });
 }
 
-SolverOptions sticky(double w, double range) {
-    SolverOptions options;
-    options.adhesion = {w, range};
-    return options;
-}
+SolverOptions attracting(double w, double range) { return {.adhesion = {w, range}}; }
 
 // The relative error of the pull-off force; forces at given penetrations on the way up, and the loop's loss, are checked on the way.
 double pull_off_error(double lambda, double resolution) {
-    const Maugis truth{0.01, lambda};
+    const Sphere truth{{1, 0.01, lambda, 1}};
     const double h = truth.range() / resolution, widest = 1.05 * truth.pressed(0).c + 3 * truth.range() / resolution;
     const int n = 2 * static_cast<int>(std::ceil(widest / h));
     const HeightMap map = paraboloid(n * h, n);
-    const auto contact = make_element_contact(map, {1.0, kFlat, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h}, sticky(truth.w, truth.range()));
+    const auto contact = make_element_contact(map, {1.0, kFlat, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h}, attracting(truth.w, truth.range()));
     const double unit = pi * truth.w, reach = truth.range();
     Level level;
     for (double Z = 1.05 * reach; Z > 0; Z -= 0.25 * reach) level = contact->at_separation(Z);
@@ -100,7 +84,7 @@ double pull_off_error(double lambda, double resolution) {
     return least / truth.pull_off() - 1;
 }
 
-void test_sphere() {
+TEST(test_sphere) {
     for (double lambda : {0.3, 1.0}) {
         const double coarse = pull_off_error(lambda, 2), fine = pull_off_error(lambda, 4);
         // First order in h/z0 (0.15 h/z0 measured): half the pixels, half the error, but for where the edge happens to rest.
@@ -110,28 +94,9 @@ void test_sphere() {
 }
 
 // One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength in contact, phi = pi a/lambda, the mean
-// pressure is pi E* D/lambda sin^2 phi - sqrt(2 E* w tan(phi)/lambda). The range is short beside a.
-void test_wave() {
-    constexpr int n = 512, rows = 8;
-    constexpr double height = 0.1, w = 0.3 * 0.3 * pi * pi * height * height / 2, h = 1.0 / n;
-    const HeightMap map = height_map(n, rows, h, h, [](int i, int) { return height * std::cos(2 * pi * (i + 0.5) * h); });
-    const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, sticky(w, 4 * h));
-    double wide = 0, narrow = 1;
-    for (double Z : {0.07, 0.05, 0.03, 0.05, 0.07, 0.09}) {
-        const Level level = contact->at_separation(Z);
-        CHECK(level.status != LevelStatus::not_converged);
-        const double share = (level.area_pixels + 0.4 * level.cohesive_area) / (rows * h), phi = pi / 2 * share;
-        const double expected = pi * height * std::pow(std::sin(phi), 2) - std::sqrt(2 * w * std::tan(phi));
-        // The edge of JKR lies in the cohesive zone, about E* z0^2/w = 7 pixels wide, and a pixel changes the pressure by up to 0.6 % of pi E* D.
-        CHECK_CLOSE(level.pressure, expected, 0.04 * pi * height);
-        wide = std::max(wide, share), narrow = std::min(narrow, share);
-    }
-    CHECK(wide > narrow + 0.2);
-}
-
-// The tension at which the wave separates is the smallest mean pressure above. It is too large by the error of edges that rest on pixels, of
+// pressure is pi E* D/lambda sin^2 phi - sqrt(2 E* w tan(phi)/lambda). The tension at which it separates is the smallest of these. It is too large by the error of edges that rest on pixels, of
 // first order in h over the length E* z0^2/w in which the traction acts, here with the range fixed, so that halving h halves it.
-void test_wave_pull_off() {
+TEST(test_wave_pull_off) {
     constexpr int rows = 4;
     constexpr double height = 0.1, range = 1.0 / 64, alpha = 0.3, full = pi * height, w = alpha * alpha * full * full / 2;
     double truth = 0;
@@ -141,7 +106,7 @@ void test_wave_pull_off() {
     for (const int n : {128, 256, 512, 1024}) {
         const double h = 1.0 / n, zone = range * range / w;
         const HeightMap map = height_map(n, rows, h, h, [=](int i, int) { return height * std::cos(2 * pi * (i + 0.5) * h); });
-        const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, sticky(w, range));
+        const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, attracting(w, range));
         Level level = contact->at_separation(0.09);
         for (double Z = 0.08; level.force != 0; Z += 5e-4) level = contact->at_separation(Z);
         const double error = level.least_force / (rows * h) / truth - 1;
@@ -154,34 +119,24 @@ void test_wave_pull_off() {
 }
 
 // What cannot be had.
-void test_refused() {
+TEST(test_refused) {
     const HeightMap map = paraboloid(1, 16);
     const Indenter tip{1.0, kFlat, 0.5, 0.5};
-    CHECK_THROWS((void)make_element_contact(map, tip, sticky(0.01, 0)), Error);         // JKR
-    CHECK_THROWS((void)make_element_contact(map, tip, sticky(0.01, 0.4 / 16)), Error);  // less than half a pixel
-    SolverOptions hard = sticky(0.01, 0.2);
+    CHECK_THROWS((void)make_element_contact(map, tip, attracting(0.01, 0)), Error);         // JKR
+    CHECK_THROWS((void)make_element_contact(map, tip, attracting(0.01, 0.4 / 16)), Error);  // less than half a pixel
+    SolverOptions hard = attracting(0.01, 0.2);
     hard.hardness.H0 = 1;
     CHECK_THROWS((void)make_element_contact(map, tip, hard), Error);
-    const auto contact = make_element_contact(map, tip, sticky(0.01, 0.2));
+    const auto contact = make_element_contact(map, tip, attracting(0.01, 0.2));
     (void)contact->at_separation(0);
     CHECK_THROWS(contact->recall({1.0, 2.0}, nullptr), Error);
 }
 
-// A contact goes on from its memory; under a force; and held where nothing carries it.
-void test_memory_and_force() {
+// Under a force, and held where nothing carries it.
+TEST(test_force) {
     const HeightMap map = paraboloid(1.6, 24);
     const Indenter tip{1.0, kFlat, 0.8 - 0.8 / 24, 0.8 - 0.8 / 24};
-    const SolverOptions options = sticky(0.02, 0.15);
-    const auto one = make_element_contact(map, tip, options), other = make_element_contact(map, tip, options);
-    (void)one->at_separation(-0.1);
-    const Level kept = one->at_separation(0.05);
-    other->recall(one->memory(), &kept);
-    CHECK_RELATIVE(other->energy(), one->energy(), 1e-6);
-    for (double Z : {0.1, 0.0, 0.6}) {
-        const Level p = one->at_separation(Z), q = other->at_separation(Z);
-        CHECK_CLOSE(p.force, q.force, 1e-6);
-        CHECK_CLOSE(p.energy_lost, q.energy_lost, 1e-6);
-    }
+    const auto one = make_element_contact(map, tip, attracting(0.02, 0.15)), other = make_element_contact(map, tip, attracting(0.02, 0.15));
     const Level carried = one->at_force(0.02);
     CHECK_CLOSE(carried.force, 0.02, 1e-6);
     const Level same = other->at_separation(carried.separation);
@@ -191,11 +146,11 @@ void test_memory_and_force() {
 }
 
 // Whole periods of a surface that repeats do not count.
-void test_wrapped() {
+TEST(test_wrapped) {
     const HeightMap map = paraboloid(1.6, 24);
     Indenter tip{1.0, 2.0, 0.8, 0.8};
     tip.repeats = {map.Lx(), map.Ly()};
-    const auto contact = make_element_contact(map, tip, sticky(0.02, 0.15));
+    const auto contact = make_element_contact(map, tip, attracting(0.02, 0.15));
     const double force = contact->at_separation(-0.1).force;
     (void)contact->at_separation(2);  // lets go
     contact->move_tip(0.8 - 3 * map.Lx(), 0.8 + 5 * map.Ly());
@@ -204,12 +159,3 @@ void test_wrapped() {
 }
 
 }  // namespace
-
-TESTS {
-    test_wrapped();
-    test_wave();
-    test_wave_pull_off();
-    test_refused();
-    test_memory_and_force();
-    test_sphere();
-}

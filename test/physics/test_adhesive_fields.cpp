@@ -4,6 +4,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/deflection.hpp"
 #include "contact/element_contact.hpp"
+#include "height_maps.hpp"
 #include "observe/fields.hpp"
 
 using namespace rsc;
@@ -33,7 +34,7 @@ double boussinesq(Pressure&& pressure, double c, double d) {
     return sum / (pi * kE);
 }
 
-void test_tension() {
+TEST(test_tension) {
     constexpr double c = 0.02, s0 = 3.0;
     for (const double share : {0.0, 0.5, 0.9, 1.0}) {  // a/c; 1: JKR
         const double a = share * c, e2 = c * c - a * a;
@@ -65,7 +66,7 @@ Asperities one_asperity() {
 
 // The deflected surface of one asperity touches the flat in the contact and is below it around. With a range the gap at the edge of the ring
 // is the range. The deflection times half of the pressure, less w times the contact area, is the energy.
-void test_one() {
+TEST(test_one) {
     constexpr double w = 0.01, r = 0.7;
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004, 0.02}) {
@@ -102,22 +103,17 @@ void test_one() {
 }
 
 HeightMap map_of(int n, double step, double r) {
-    HeightMap map;
-    map.allocate(n, n, n);
-    map.dx = map.dy = step;
-    map.x0 = map.y0 = 0.5 - 0.5 * (n - 1) * step;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            const double x = map.x0 + i * step - 0.5, y = map.y0 + j * step - 0.5;
-            map.row(j)[i] = 0.1 - 0.5 * (x * x + y * y) / r;
-        }
+    const double half = 0.5 * (n - 1);
+    HeightMap map = height_map(
+        n, n, step, step, [=](int i, int j) { return 0.1 - 0.5 * (std::pow((i - half) * step, 2) + std::pow((j - half) * step, 2)) / r; });
+    map.x0 = map.y0 = 0.5 - half * step;
     return map;
 }
 
 constexpr FieldsAsked kAll{true, true, true, false, {}};
 
 // Fields of one asperity: the pressures at the points are those of the closed form and add up to the force, the points in contact to the area.
-void test_asperity_fields() {
+TEST(test_asperity_fields) {
     const Indenter tip{kE, kFlat, 0.5, 0.5};
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004}) {
@@ -151,7 +147,7 @@ void test_asperity_fields() {
 }
 
 // Elements: the fields are those of the solution, free and periodic, also where pixels attract without contact.
-void test_element_fields() {
+TEST(test_element_fields) {
     constexpr double w = 0.02, range = 0.02, step = 0.008;
     const HeightMap map = map_of(48, step, 0.3);
     for (const bool periodic : {false, true}) {
@@ -184,7 +180,7 @@ void test_element_fields() {
 }
 
 // Fields of an elliptic spot beside its summit: its points touch, and its pressure is Hertz's, with the second moments a^2/5 and b^2/5.
-void test_elliptic_spot() {
+TEST(test_elliptic_spot) {
     constexpr double a = 0.2, b = 0.05, angle = 0.7, f = 3.0;
     Level level;
     level.add_contact(0, 0.5, 0.5, f, std::sqrt(a * b), 1e-3);
@@ -207,11 +203,3 @@ void test_elliptic_spot() {
 }
 
 }  // namespace
-
-TESTS {
-    test_elliptic_spot();
-    test_tension();
-    test_one();
-    test_asperity_fields();
-    test_element_fields();
-}

@@ -83,7 +83,7 @@ void test_conditions(bool flats, const LayeredBody& body) {
 
 }  // namespace
 
-TESTS {
+TEST(adhesive_layers) {
     for (const bool flats : {false, true}) {
         test_conditions(flats, body_of({0.1, 1, 0.3}, 10, 0.3));
         test_conditions(flats, body_of({0.1, 10, 0.3}, 1, 0.3));

@@ -49,12 +49,10 @@ double work_of_move(Contact& contact, double Z, double end, int& jumps) {
     return work;
 }
 
-void test_cycle() {
+TEST(test_cycle) {
     for (const double range : {0.0, 0.002}) {
         const RandomAsperities system = random_asperities(6, 31, 0.2);
-        SolverOptions options;
-        options.tolerance = 1e-12;
-        options.adhesion = {system.w, range};
+        SolverOptions options{.adhesion = {system.w, range}, .tolerance = 1e-12};
         const auto contact = make_asperity_contact(system.asperities, {5.0, 5.0, 0.1, 0.5}, options);
         const double Z = 0.006;
         (void)contact->at_separation(Z);
@@ -70,5 +68,3 @@ void test_cycle() {
 }
 
 }  // namespace
-
-TESTS { test_cycle(); }

@@ -5,6 +5,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 
 using namespace rsc;
 
@@ -14,16 +15,11 @@ constexpr double kWork = 0.01, kPlace = 0.7;
 
 // A surface with the period `side`, of waves, or of none if they have no height. It begins `turned` points later.
 HeightMap waves(int n, double side, double height, int turned = 0) {
-    HeightMap map;
-    map.periodic = true;
-    map.allocate(n, n, n);
-    map.dx = map.dy = side / n;
-    map.x0 = (turned + 0.5) * map.dx, map.y0 = 0.5 * map.dy;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            const double x = 10 * std::numbers::pi / n * (i + turned + 0.5), y = 10 * std::numbers::pi / n * (j + 0.5);
-            map.row(j)[i] = height * (std::cos(x) + std::cos(y) + 0.6 * std::cos(x + 2 * y + 1) + 0.5 * std::sin(2 * x - y));
-        }
+    HeightMap map = height_map(n, n, side / n, side / n, [=](int i, int j) {
+        const double x = 10 * std::numbers::pi / n * (i + turned + 0.5), y = 10 * std::numbers::pi / n * (j + 0.5);
+        return height * (std::cos(x) + std::cos(y) + 0.6 * std::cos(x + 2 * y + 1) + 0.5 * std::sin(2 * x - y));
+    });
+    map.periodic = true, map.x0 = (turned + 0.5) * map.dx, map.y0 = 0.5 * map.dy;
     return map;
 }
 
@@ -55,7 +51,7 @@ Moved move(Contact& contact, double Z, double x, int steps) {
 }
 
 // The state does not depend on how a way is cut; over a closed cycle of many steps the work of the lateral force is the energy lost.
-void test_cycle() {
+TEST(test_cycle) {
     const HeightMap map = waves(48, 2, 0.02);
     const SolverOptions options = sticky(kWork, 0.1);
     std::vector<double> forces, losses;
@@ -75,7 +71,7 @@ void test_cycle() {
 }
 
 // Over the border of a surface that repeats the tip takes the short way, as over the middle of a map that begins elsewhere.
-void test_border() {
+TEST(test_border) {
     const HeightMap map = waves(48, 2, 0.02), other = waves(48, 2, 0.02, 24);
     const auto one = make_element_contact(map, sphere(1.9, 2), sticky(kWork, 0.1)),
                two = make_element_contact(other, sphere(1.9, 2), sticky(kWork, 0.1));
@@ -98,7 +94,7 @@ void test_border() {
 }
 
 // A contact goes on from its memory after a move, and with another map as its body between flats.
-void test_memory() {
+TEST(test_memory) {
     const HeightMap map = waves(32, 2, 0.02), face = waves(32, 2, 0.01, 7);
     ShapeKeys keys;
     keys.map = std::make_shared<HeightMap>(face.copy());
@@ -122,7 +118,7 @@ void test_memory() {
 }
 
 // A punch cannot be moved over points that attract at its edge; the attempt leaves no trace.
-void test_edge() {
+TEST(test_edge) {
     const HeightMap map = waves(32, 2, 0.02);
     ShapeKeys keys;
     keys.radius = 0.6;
@@ -149,7 +145,7 @@ void test_edge() {
 }
 
 // A tip above a low half of a surface, where nothing attracts, moves over a high half: what it loses and what it does are counted.
-void test_climb() {
+TEST(test_climb) {
     HeightMap map = waves(40, 2, 0);
     for (int j = 0; j < 40; ++j)
         for (int i = 20; i < 40; ++i) map.row(j)[i] = 0.5;
@@ -164,7 +160,7 @@ void test_climb() {
 }
 
 // Between flats, a bump beside the tip: its force acts at the bump, including that of points that attract without contact.
-void test_moment() {
+TEST(test_moment) {
     HeightMap map = waves(32, 2, 0);
     const double x = map.x0 + 10 * map.dx, y = map.y0 + 13 * map.dy;
     for (int j = 0; j < 32; ++j)
@@ -182,12 +178,3 @@ void test_moment() {
 }
 
 }  // namespace
-
-TESTS {
-    test_cycle();
-    test_border();
-    test_memory();
-    test_edge();
-    test_climb();
-    test_moment();
-}

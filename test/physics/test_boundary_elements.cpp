@@ -46,10 +46,7 @@ void elements(double E_star) {
         Spectrum spectrum;
         spectrum.L_lambda_s = ratio;
         const HeightMap map = synthesize(spectrum, kCoarse, Normalise::sample, seed, 1);
-        SolverOptions o;
-        o.tolerance = 1e-6;
-        o.max_iterations = 200;
-        const auto contact = make_element_contact(map, {E_star, 2.5, 0.5, 0.5}, o);
+        const auto contact = make_element_contact(map, {E_star, 2.5, 0.5, 0.5}, {.tolerance = 1e-6, .max_iterations = 200});
         CHECK(levels.size() == 5);
         double worst_N = 0, worst_A = 0;
         for (const Row& row : levels) {
@@ -67,7 +64,7 @@ void elements(double E_star) {
 
 }  // namespace
 
-TESTS {
+TEST(all_boundary_elements) {
     const double E_star = equivalent_modulus({78.0e3, __builtin_huge_val()}, {0.42, 0.0});
     elements(E_star);
     const auto rows = reference(kFinest);
@@ -78,10 +75,7 @@ TESTS {
         spectrum.L_lambda_s = ratio;
         const Asperities a =
             make_asperities(spectrum, 2048, Normalise::sample, seed, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
-        SolverOptions o;
-        o.law = LawKind::fourth_order;
-        o.sigma = spectrum.sigma;
-        AsperityContact contact(a, {E_star, 2.5, 0.5, 0.5}, o);
+        AsperityContact contact(a, {E_star, 2.5, 0.5, 0.5}, {.law = LawKind::fourth_order, .sigma = spectrum.sigma});
         CHECK(levels.size() == 5);
         for (const Row& row : levels) {
             const Level level = contact.at_separation(row.separation * spectrum.sigma);

@@ -27,7 +27,7 @@ WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) 
 }
 
 // K against central differences of R, at forces where some points are within delta of touching, some far inside, some far outside.
-void matrix() {
+TEST(matrix) {
     const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
     const WorkingSet set = candidates(a, indenter, -0.01);
@@ -68,14 +68,29 @@ void matrix() {
     CHECK(worst <= 1e-5 * largest);
 }
 
+// The slopes of the solution are df/dv of every asperity, from which the proof takes what other solutions there may be.
+TEST(slopes) {
+    constexpr double kShare = 1e-6, kDifference = 1e-7;  // of the penetration; of the slope, by central differences and rounding
+    const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
+    const WorkingSet set = candidates(a, {1.0, 2.5, 0.5, 0.5}, -0.01);
+    const auto law = make_law(LawKind::hertz, a, 1.0);
+    law->prepare(set.asperity);
+    std::vector<double> v, force, slope;
+    CHECK(solve_by_dgesv(*law, *make_kernel(Interaction::point, 1.0), set, {1e-4, 5, kResidual, 30}, v, force, slope).converged);
+    int touching = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const double h = kShare * std::abs(v[i]), rise = law->force(set.asperity[i], v[i] + h) - law->force(set.asperity[i], v[i] - h);
+        CHECK_RELATIVE(slope[i], rise / (2 * h), kDifference);
+        touching += slope[i] > 0;
+    }
+    CHECK(touching > 10);
+}
+
 // What a level was really solved with, and why not otherwise.
-void says_what_it_did() {
+TEST(says_what_it_did) {
     const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300);
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
-    SolverOptions options;
-    options.method = Method::dgesv;
-    options.sigma = 0.01;
-    options.tolerance = kResidual;
+    SolverOptions options{.method = Method::dgesv, .sigma = 0.01, .tolerance = kResidual};
     const Level paper = AsperityContact(a, indenter, options).at_separation(0.0);
     CHECK(paper.method == Method::dgesv && paper.fallback == Fallback::none);
     CHECK(paper.iterations <= kMostSolves && paper.products == paper.iterations);
@@ -105,8 +120,3 @@ void says_what_it_did() {
 }
 
 }  // namespace
-
-TESTS {
-    matrix();
-    says_what_it_did();
-}

@@ -18,27 +18,11 @@ Asperities of(std::vector<double> x, std::vector<double> y, double r) {
     return a;
 }
 
-// Maugis (1992), in his own numbers: m = c/a names the state.
-struct Maugis {
-    double r, w, lambda;
-    double range() const { return w / (lambda / 2 * std::cbrt(16 * pi * w * kE * kE / (9 * r))); }
-    struct State {
-        double a, f, u;
-    };
-    State at(double m) const {
-        const double q = std::sqrt(m * m - 1), t = std::atan(q);
-        const double b = lambda / 2 * (q + (m * m - 2) * t), c = 4 * lambda * lambda / 3 * (q * t - m + 1);
-        const double a = 2 / (std::sqrt(c * c + 4 * b) + c);
-        return {a / std::cbrt(4 * kE / (3 * pi * w * r * r)), (a * a * a - lambda * a * a * (q + m * m * t)) * pi * w * r,
-                (a * a - 4.0 / 3 * a * lambda * q) / std::cbrt(16 * kE * kE / (9 * pi * pi * w * w * r))};
-    }
-};
-
 // The loop of one asperity: at the penetrations of Maugis's states it carries his force; the energy's derivative is the force; it attaches
 // at u = -z0; the work of a cycle is the energy lost.
-void test_one() {
+TEST(test_one) {
     for (double lambda : {0.1, 1.0, 5.0}) {
-        const Maugis truth{0.7, 0.01, lambda};
+        const Maugis truth{0.7, 0.01, lambda, kE};
         const double unit = pi * truth.w * truth.r, range = truth.range();
         const Asperities a = of({0.5}, {0.5}, truth.r);
         const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
@@ -63,8 +47,8 @@ void test_one() {
 // A weak attraction of long range: an asperity attaches and lets go at almost the same penetration. It does so once each in a cycle, and the
 // loss does not depend on the number of levels. (The distance to the detachment point at which an asperity lets go was once larger than that
 // difference: it attached again at once, a thousand times.)
-void test_narrow_loop() {
-    const Maugis weak{0.7, 0.01, 0.04};
+TEST(test_narrow_loop) {
+    const Maugis weak{0.7, 0.01, 0.04, kE};
     const Asperities a = of({0.5}, {0.5}, weak.r);
     const double range = weak.range();
     std::vector<double> lost;
@@ -82,7 +66,7 @@ void test_narrow_loop() {
 }
 
 // With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of them.
-void test_limit() {
+TEST(test_limit) {
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     Asperities a;
@@ -112,9 +96,3 @@ void test_limit() {
 }
 
 }  // namespace
-
-TESTS {
-    test_one();
-    test_narrow_loop();
-    test_limit();
-}

@@ -45,7 +45,7 @@ double range_of(double w, double lambda) { return 2 * w / (lambda * std::cbrt(16
 
 // 21 levels down and 21 up: the same asperities attract at every level, and the forces agree to the accuracy of the minimiser's radii. Seed 102
 // has close neighbours whose zones overlap, and jumps far from equilibrium.
-void test_minimiser() {
+TEST(test_minimiser) {
     const struct {
         unsigned seed;
         int n;
@@ -70,7 +70,7 @@ void test_minimiser() {
     }
 }
 
-void test_work() {
+TEST(test_work) {
     for (double lambda : {0.3, 2.0}) {
         const RandomAsperities system = random_asperities(5, 31, 0.2);
         const double range = range_of(system.w, lambda);
@@ -80,8 +80,3 @@ void test_work() {
 }
 
 }  // namespace
-
-TESTS {
-    test_minimiser();
-    test_work();
-}

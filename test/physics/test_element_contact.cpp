@@ -14,12 +14,7 @@ namespace {
 constexpr double kE = 94706.168;  // the paper's gold under a rigid sphere
 constexpr double kPi = std::numbers::pi;
 
-SolverOptions options(double tolerance) {
-    SolverOptions o;
-    o.tolerance = tolerance;
-    o.max_iterations = 200;
-    return o;
-}
+SolverOptions options(double tolerance) { return {.tolerance = tolerance, .max_iterations = 200}; }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
     Spectrum spectrum{.L_lambda_s = L_lambda_s};
@@ -28,7 +23,7 @@ HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
 
 // A smooth sphere: N = 4/3 E* sqrt(R) delta^(3/2), a = sqrt(R delta), dN/dZ0 = -2 E* a, W = 2/5 N delta. The sphere is a real one, not a
 // paraboloid: delta/R = 1e-6 makes no difference.
-void hertz() {
+TEST(hertz) {
     double error_before = 0;
     for (const double cells : {10.0, 20.0, 40.0}) {  // pixels a contact radius
         const double R = 2.5, a = 2.5e-3, delta = a * a / R, h = a / cells;
@@ -68,7 +63,7 @@ void hertz() {
 
 // What is touched first and what may touch at all are found as by a search through all pixels: for a sphere that is small against the
 // blocks of pixels which are looked at together, anywhere, and moved from one place to the other.
-void selection() {
+TEST(selection) {
     const HeightMap map = rough(96, 32, 5);
     const double R = 0.1;
     const auto moved = make_element_contact(map, {kE, R, 0.5, 0.5}, options(1e-4));
@@ -98,7 +93,7 @@ void selection() {
 
 // Levels keep the tolerance that is asked for: N and A beside those of one a thousand times as tight, under a sphere and between flats. A pixel
 // more or less counts in A.
-void tolerances() {
+TEST(tolerances) {
     const HeightMap map = rough(256, 32, 2);
     for (const double R : {2.5, std::numeric_limits<double>::infinity()}) {
         const Indenter tip{kE, R, 0.5, 0.5, std::isinf(R) ? Period{1, 1} : Period{}};
@@ -117,7 +112,7 @@ void tolerances() {
 }  // namespace
 
 // A sphere whose top lies between points touches above the highest of them: there N = 0 is not converged.
-void between_points() {
+TEST(between_points) {
     const double R = 10, h = 0.01;
     const int n = 40;
     for (const bool repeats : {false, true}) {
@@ -137,11 +132,4 @@ void between_points() {
         CHECK(level.status == LevelStatus::out_of_validity);
         CHECK(contact->at_separation(2 * contact->first_touch()).contacts > 0);
     }
-}
-
-TESTS {
-    hertz();
-    between_points();
-    selection();
-    tolerances();
 }

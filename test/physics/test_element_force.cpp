@@ -18,10 +18,7 @@ struct Run {
 
 template <class At>
 Run run(const HeightMap& map, const Indenter& tip, const std::vector<double>& values, At at) {
-    SolverOptions options;
-    options.tolerance = 1e-8;
-    options.max_iterations = 200;
-    const auto contact = make_element_contact(map, tip, options);
+    const auto contact = make_element_contact(map, tip, {.tolerance = 1e-8, .max_iterations = 200});
     Run all;
     for (const double value : values) {
         all.levels.push_back(at(*contact, value));
@@ -55,7 +52,7 @@ void compare(double R, const std::vector<double>& forces) {
 
 }  // namespace
 
-TESTS {
+TEST(element_force) {
     const double flat = std::numeric_limits<double>::infinity();
     compare(5.0, {0.1, 1.0, 30.0, 1000.0});
     compare(flat, {500.0, 1000.0, 3000.0, 10000.0});  // the last ones in full contact

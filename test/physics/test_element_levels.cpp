@@ -7,6 +7,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/interaction/lattice.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
+#include "height_maps.hpp"
 #include "physics/elimination.hpp"
 
 using namespace rsc;
@@ -204,9 +205,11 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
 
 void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, const char* name) {
     const int before = check::failures;
-    SolverOptions options;
-    options.tolerance = kTolerance, options.max_iterations = 500, options.hardness.H0 = hardness;
-    options.mean_spacing = 0.1, options.surface = {map.x0, map.y0, map.Lx(), map.Ly()};
+    SolverOptions options{.hardness = {.H0 = hardness},
+                          .tolerance = kTolerance,
+                          .max_iterations = 500,
+                          .mean_spacing = 0.1,
+                          .surface = {map.x0, map.y0, map.Lx(), map.Ly()}};
     const auto contact = make_element_contact(map, tip, options);
     Truth t(map, tip, options);
     const auto kernel = make_kernel(Interaction::point, kE, tip.period);
@@ -258,18 +261,14 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
 
 }  // namespace
 
-TESTS {
-    HeightMap map;
-    const int nx = 20, ny = 13;
-    map.allocate(nx, ny, nx + 5);
-    map.dx = 0.03, map.dy = 0.042, map.x0 = 0.2, map.y0 = -0.15;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) {
-            double z = 0;
-            for (const auto& [a, b, phase] : {std::tuple{3, 1, 0.3}, {2, -2, 1.1}, {4, 2, 2.0}, {1, 3, 0.7}, {3, -3, 1.9}})
-                z += 0.03 / (a + std::abs(b)) * std::cos(2 * pi * (a * i / double(nx) + b * j / double(ny)) + phase);
-            map.row(j)[i] = z;
-        }
+TEST(element_levels) {
+    HeightMap map = height_map(20, 13, 0.03, 0.042, [](int i, int j) {
+        double z = 0;
+        for (const auto& [a, b, phase] : {std::tuple{3, 1, 0.3}, {2, -2, 1.1}, {4, 2, 2.0}, {1, 3, 0.7}, {3, -3, 1.9}})
+            z += 0.03 / (a + std::abs(b)) * std::cos(2 * pi * (a * i / 20.0 + b * j / 13.0) + phase);
+        return z;
+    });
+    map.x0 = 0.2, map.y0 = -0.15;
     const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kFlat, 0.47, 0.07, {}},
         repeating{kE, kFlat, 0.47, 0.07, {map.Lx(), map.Ly()}};
     for (const double hardness : {kFlat, 0.35}) {

@@ -2,30 +2,25 @@
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
+#include "height_maps.hpp"
 #include "rough/detection.hpp"
 
 using namespace rsc;
 
-TESTS {
+TEST(all_elongated) {
     constexpr double E = 1e5, height = 0.01, step = 1.0 / 200;
     for (const double ratio : {1.0, 5.0, 20.0}) {
         const double narrow = std::sqrt(ratio);
-        HeightMap map;
-        const int nx = 201, ny = 2 * static_cast<int>(100 / narrow) + 1;
-        map.allocate(nx, ny, nx);
-        map.dx = map.dy = step;
-        map.x0 = -0.5 * step * (nx - 1), map.y0 = -0.5 * step * (ny - 1);
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i)
-                map.row(j)[i] =
-                    0.5 * height *
-                    (std::cos(2 * std::numbers::pi * (map.x0 + i * step)) + std::cos(2 * std::numbers::pi * narrow * (map.y0 + j * step)));
+        const int half = 100, short_half = static_cast<int>(half / narrow);
+        const auto wave = [](double x) { return std::cos(2 * std::numbers::pi * x); };
+        HeightMap map = height_map(2 * half + 1, 2 * short_half + 1, step, step, [&](int i, int j) {
+            return 0.5 * height * (wave((i - half) * step) + wave(narrow * (j - short_half) * step));
+        });
+        map.x0 = -half * step, map.y0 = -short_half * step;
         const Asperities summit = find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
         CHECK(summit.size() == 1);
         CHECK_RELATIVE(summit.kappa1[0] / summit.kappa2[0], ratio, 1e-3);
-        SolverOptions options;
-        options.max_iterations = 500;
-        options.law = LawKind::fourth_order;
+        SolverOptions options{.law = LawKind::fourth_order, .max_iterations = 500};
         const Indenter ball{E, Shape(1000), 0, 0};
         AsperityContact one(summit, ball, options);
         const auto points = make_element_contact(map, ball, options);

@@ -197,7 +197,7 @@ void unconverged(const Folder& folder) {
 
 }  // namespace
 
-TESTS {
+TEST(every_value) {
     ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
     const Folder folder;
     const HeightMap map = measured_map();

@@ -44,7 +44,7 @@ Spheres sphere() { return {{0.0}, {2.5}}; }
 Spheres several() { return {{-0.001, 0.0004, 0.002, 0.0021, 0.005}, {0.3, 1.0, 0.7, 2.0, 0.5}}; }
 
 // 4 G*/E* of a glass sphere on steel from Mindlin's compliances, written out again.
-void ratio_of_stiffnesses() {
+TEST(ratio_of_stiffnesses) {
     const double E[2] = {70e3, 210e3}, nu[2] = {0.22, 0.3};
     double G_star = 0, E_star = 0;
     for (int i = 0; i < 2; ++i) {
@@ -58,7 +58,7 @@ void ratio_of_stiffnesses() {
 }
 
 // Mindlin (1949): Q = mu N [1 - (1 - xi/xi_1)^(3/2)], xi_1 = 3 mu N/(16 G* a), with G* = m E*/4.
-void mindlin_first_loading() {
+TEST(mindlin_first_loading) {
     Spheres curve = sphere();
     const double delta = 0.004, N = curve.load(delta).force, a = std::sqrt(2.5 * delta), G_star = kFriction.ratio * kE / 4;
     const double xi_1 = 3 * kFriction.coefficient * N / (16 * G_star * a);
@@ -85,7 +85,7 @@ void mindlin_first_loading() {
 
 // Mindlin and Deresiewicz (1953), constant N: unloading from Q_A, and the work lost in a cycle between +-Q_A,
 //     Delta W = 9 mu^2 N^2/(10 a G*) { 1 - (1 - q)^(5/3) - (5 q/6) [1 + (1 - q)^(2/3)] }, q = Q_A/(mu N)  (Johnson 1985, section 7.4).
-void mindlin_deresiewicz_cycle() {
+TEST(mindlin_deresiewicz_cycle) {
     Spheres curve = sphere();
     const double delta = 0.004, N = curve.load(delta).force, a = std::sqrt(2.5 * delta), G_star = kFriction.ratio * kE / 4;
     const double mu = kFriction.coefficient, xi_1 = 3 * mu * N / (16 * G_star * a), xi_A = 0.9 * xi_1;
@@ -179,7 +179,7 @@ Step random_step(std::mt19937_64& random, double low, double high, double c, Ste
 }
 
 // A hundred random histories along a line against the springs, and what any path must keep.
-void random_histories() {
+TEST(random_histories) {
     Spheres curve = several();
     constexpr double low = -0.001, high = 0.008;
     const double c = kFriction.slide_per_approach(), most = kFriction.coefficient * curve.load(high).force, far = c * (high - low);
@@ -212,7 +212,7 @@ void random_histories() {
 
 // Two directions: along a line in any direction it is the problem of one; a turned path gives turned forces; what is lost is positive;
 // the friction disc holds; and springs with the radial return one by one give nearly the same.
-void two_directions() {
+TEST(two_directions) {
     Spheres curve = several();
     constexpr double low = -0.001, high = 0.008;
     const double c = kFriction.slide_per_approach(), most = kFriction.coefficient * curve.load(high).force, far = c * (high - low);
@@ -256,7 +256,7 @@ void two_directions() {
 }
 
 // The tangent is the derivative of a further slide the same way.
-void tangent() {
+TEST(tangent) {
     Spheres curve = several();
     const double c = kFriction.slide_per_approach(), delta = 0.006, far = c * 0.007;
     FrictionHistory path(kFriction);
@@ -288,7 +288,7 @@ void tangent() {
 }
 
 // A larger reversal wipes out what smaller ones left; commit and rollback; states that are taken back.
-void memory() {
+TEST(memory) {
     Spheres curve = several();
     const double c = kFriction.slide_per_approach(), delta = 0.006, far = c * 0.007;
     FrictionHistory path(kFriction), plain(kFriction);
@@ -321,13 +321,3 @@ void memory() {
 }
 
 }  // namespace
-
-TESTS {
-    ratio_of_stiffnesses();
-    mindlin_first_loading();
-    mindlin_deresiewicz_cycle();
-    random_histories();
-    two_directions();
-    tangent();
-    memory();
-}

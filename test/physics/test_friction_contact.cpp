@@ -15,11 +15,7 @@ constexpr double kE = 94.0e3, kFlat = __builtin_huge_val();
 const Friction kFriction{0.4, 0.75};
 using Real = long double;
 
-SolverOptions tight() {
-    SolverOptions options;
-    options.tolerance = 1e-13;
-    return options;
-}
+SolverOptions tight() { return {.tolerance = 1e-13}; }
 
 struct Slid {
     AsperityContact one, other;
@@ -52,18 +48,11 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
     return q;
 }
 
-void spots_against_slip_problem() {
-    const Asperities two = [] {
-        Asperities a;
-        a.x = {0.4, 0.412}, a.y = {0.5, 0.5}, a.z = {0.01, 0.009}, a.radius = {3e-4, 5e-4};
-        return a;
-    }();
-    const Asperities five = [] {
-        Asperities a;
-        a.x = {0.4, 0.413, 0.407, 0.39, 0.42}, a.y = {0.5, 0.5, 0.511, 0.508, 0.49};
-        a.z = {0.01, 0.009, 0.0095, 0.0082, 0.0101}, a.radius = {3e-4, 5e-4, 2e-4, 8e-4, 4e-4};
-        return a;
-    }();
+TEST(spots_against_slip_problem) {
+    Asperities two, five;
+    two.x = {0.4, 0.412}, two.y = {0.5, 0.5}, two.z = {0.01, 0.009}, two.radius = {3e-4, 5e-4};
+    five.x = {0.4, 0.413, 0.407, 0.39, 0.42}, five.y = {0.5, 0.5, 0.511, 0.508, 0.49};
+    five.z = {0.01, 0.009, 0.0095, 0.0082, 0.0101}, five.radius = {3e-4, 5e-4, 2e-4, 8e-4, 4e-4};
     for (const Asperities& a : {two, five}) {
         Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
         const double delta = 0.0;
@@ -111,7 +100,7 @@ double conductance_of_spots(const Asperities& a, const Level& level) {
     return static_cast<double>(sum);
 }
 
-void conductance() {
+TEST(conductance) {
     Asperities lone;
     lone.x = {0.5}, lone.y = {0.5}, lone.z = {0.01}, lone.radius = {3e-4};
     AsperityContact holm(lone, {kE, kFlat, 0.5, 0.5}, tight());
@@ -140,8 +129,3 @@ void conductance() {
 }
 
 }  // namespace
-
-TESTS {
-    spots_against_slip_problem();
-    conductance();
-}

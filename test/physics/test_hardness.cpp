@@ -40,16 +40,11 @@ Asperities one(double r) {
     return a;
 }
 
-SolverOptions options_with(double H0, double length = 0) {
-    SolverOptions options;
-    options.tolerance = 1e-13;
-    options.hardness = {H0, length};
-    return options;
-}
+SolverOptions options_with(double H0, double length = 0) { return {.hardness = {H0, length}, .tolerance = 1e-13}; }
 
 // Of every law: force, area and work continuous where yielding begins, slope and work the derivative and the integral of the force. The
 // flattest profile passes its highest mean pressure (law.cpp) within the penetrations asked for, the others do not.
-void test_laws() {
+TEST(test_laws) {
     Asperities a = one(0.004);
     a.kappa1 = {1.6 / 0.004}, a.kappa2 = {1 / (1.6 * 0.004)}, a.angle = {0.3};
     const int i = 0;
@@ -91,7 +86,7 @@ void test_laws() {
 }
 
 // fourth_order on a sphere: the summit pressed flat sinks in, a^2 = a_c^2 + 2 r [u - u_c - k (a - a_c)], k = 4 H/(pi E*).
-void test_sinking() {
+TEST(test_sinking) {
     const double r = 0.004, H = 3000;
     Asperities a = one(r);
     a.kappa1 = a.kappa2 = {1 / r}, a.angle = {0}, a.biharmonic = {0};
@@ -109,7 +104,7 @@ void test_sinking() {
 }
 
 // A cycle of one asperity, pressed to any depth: what the loop encloses is the work lost, and never less than nothing.
-void test_cycle() {
+TEST(test_cycle) {
     Asperities a = one(0.004);
     a.kappa1 = {1.6 / 0.004}, a.kappa2 = {1 / (1.6 * 0.004)}, a.angle = {0.3};
     const int i = 0;
@@ -171,7 +166,7 @@ std::vector<long double> solve_slowly(const Asperities& a, const std::vector<Yie
     return u;
 }
 
-void test_independent() {
+TEST(test_independent) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
     int compared = 0;
@@ -211,7 +206,7 @@ void test_independent() {
 }
 
 // The work of a closed cycle is what was lost; energy is what comes back; no trial leaves a trace; and how far the path is cut.
-void test_path() {
+TEST(test_path) {
     std::mt19937 random(3);
     const Asperities a = few(random, 30);
     const Indenter flat{kE, kFlat, 0.5, 0.5};
@@ -258,7 +253,7 @@ void test_path() {
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
 }
 
-void test_limits() {
+TEST(test_limits) {
     std::mt19937 random(5);
     const Asperities a = few(random, 40);
     const Indenter tip{kE, 3.0, 0.5, 0.5};
@@ -275,12 +270,3 @@ void test_limits() {
 }
 
 }  // namespace
-
-TESTS {
-    test_sinking();
-    test_cycle();
-    test_laws();
-    test_independent();
-    test_path();
-    test_limits();
-}

@@ -19,11 +19,7 @@ constexpr double kSigma = 0.01;
 const Indenter kTip{kE, 2.5, 0.47, 0.52};
 
 SolverOptions options(double H0, double tolerance = 1e-10) {
-    SolverOptions o;
-    o.tolerance = tolerance;
-    o.max_iterations = 400;
-    o.hardness.H0 = H0;
-    return o;
+    return {.hardness = {.H0 = H0}, .tolerance = tolerance, .max_iterations = 400};
 }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
@@ -31,7 +27,7 @@ HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
     return synthesize(spectrum, n, Normalise::sample, seed, 1);
 }
 
-void test_limits() {
+TEST(test_limits) {
     const HeightMap map = rough(96, 12, 1);
     const auto elastic = make_element_contact(map, kTip, options(kInfinity)), hard = make_element_contact(map, kTip, options(1e30)),
                soft = make_element_contact(map, kTip, options(1e-3));
@@ -60,7 +56,7 @@ void test_limits() {
 }
 
 // A smooth sphere yields where its highest pressure 2 E* a/(pi R) reaches H, at the depth (pi H/(2 E*))^2 R.
-void test_sphere() {
+TEST(test_sphere) {
     const double R = 2.5, H = 60, depth = std::pow(pi * H / (2 * kE), 2) * R, a = std::sqrt(R * depth);
     double fine = 0, counted_fine = 0;
     for (const double cells : {15.0, 40.0, 10.0}) {  // pixels a radius at the first yield, the finest of the loaded ones first
@@ -110,7 +106,7 @@ void test_sphere() {
 }
 
 // N = -dW/dZ0 and S = -dN/dZ0 on the way back; work put in = elastic energy + work lost; the loop's area = work lost.
-void test_work() {
+TEST(test_work) {
     const HeightMap map = rough(64, 8, 3);
     const double H = 6000, top = 2.2 * kSigma, bottom = 0.2 * kSigma;
     const auto contact = make_element_contact(map, kTip, options(H, 1e-9));
@@ -154,9 +150,3 @@ void test_work() {
 }
 
 }  // namespace
-
-TESTS {
-    test_limits();
-    test_sphere();
-    test_work();
-}

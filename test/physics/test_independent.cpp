@@ -15,12 +15,7 @@ constexpr double kFlat = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-10;
 
 SolverOptions options(Method method, LawKind law = LawKind::hertz) {
-    SolverOptions o;
-    o.method = method;
-    o.law = law;
-    o.tolerance = 1e-13;
-    o.sigma = 0.01;
-    return o;
+    return {.method = method, .law = law, .sigma = 0.01, .tolerance = 1e-13};
 }
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -76,7 +71,7 @@ const Family kFamilies[] = {
     {"fourth order", 60, 50, 0.03, 1e-3, 0.5, 2.5, LawKind::fourth_order},
 };
 
-void against_slow_solver() {
+TEST(against_slow_solver) {
     int systems = 0;
     for (const Family& family : kFamilies) {
         int unique = 0;
@@ -115,5 +110,3 @@ void against_slow_solver() {
 }
 
 }  // namespace
-
-TESTS { against_slow_solver(); }

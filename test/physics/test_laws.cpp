@@ -43,7 +43,7 @@ double integrate(double from, double to, F f) {
 
 // The factors against the integrals that define the ellipse, taken by quadrature, not by elliptic functions: with semi-axes a >= b a
 // pressure p0 sqrt(1 - x^2/a^2 - y^2/b^2) gives u = (p0 b/E*) [K - (K - E)/e^2 x^2/a^2 - ...] (Johnson, eqs 3.64, 4.21 to 4.23).
-void ellipse_against_quadrature() {
+TEST(ellipse_against_quadrature) {
     for (double axes : {0.9, 0.5, 0.1, 0.01}) {
         const double a = 1, b = axes, e2 = 1 - b * b;
         const auto root = [&](double t) { return std::sqrt(1 - e2 * std::pow(std::sin(t), 2)); };
@@ -66,7 +66,7 @@ void ellipse_against_quadrature() {
     }
 }
 
-void ellipse_limits() {
+TEST(ellipse_limits) {
     const EllipseFactors circle = ellipse_factors(1.0);
     CHECK_CLOSE(circle.F1, 1, 1e-13);
     CHECK_CLOSE(circle.F2, 1, 1e-13);
@@ -85,7 +85,7 @@ void ellipse_limits() {
 }
 
 // Circle and b = 0: all laws are Hertz.
-void limits_are_hertz() {
+TEST(limits_are_hertz) {
     const Asperities round = summit(5000, 5000, 0);
     const auto hertz = make_law(LawKind::hertz, round, kE);
     for (LawKind kind : {LawKind::elliptic, LawKind::fourth_order}) {
@@ -111,7 +111,7 @@ void limits_are_hertz() {
 // Every function of every law against the others: force and work are integrals of the slope and of the force, the slope is 2 E* a/(F1 F2) of
 // the equivalent radius, a^2 pi the area; the spread is that area and goes on straight; the penetration where a mean pressure is reached is
 // the first. Nothing before touching. Of two summits, so that each is asked for its own.
-void everything_of_every_law() {
+TEST(everything_of_every_law) {
     Asperities s = summit(9000, 4000, 0);
     for (auto* v : {&s.x, &s.y, &s.z}) v->push_back(1);
     s.radius.push_back(1 / 300.0), s.kappa1.push_back(900), s.kappa2.push_back(100), s.angle.push_back(1), s.biharmonic.push_back(0);
@@ -180,7 +180,7 @@ void everything_of_every_law() {
 }
 
 // The tabulated functions against Sneddon's closed forms in long double: cos and sin, or cosh and sinh.
-void fourth_order_to_the_last_digits() {
+TEST(fourth_order_to_the_last_digits) {
     constexpr double kRounding = 3e-14;  // of u, whose cosine is flat near the end of the range, and of a polynomial
     const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
     for (int sign : {1, -1}) {
@@ -201,7 +201,7 @@ void fourth_order_to_the_last_digits() {
 
 // To fourth order the profile is r^2/(2 R) - b r^4, b = biharmonic/64, whose law is known in powers of a (Galin): what is left is of
 // sixth order, (q a)^4/360 of delta and less of P. With unequal curvatures b is that of the angular mean times kappa_g/kappa_a.
-void fourth_order_in_powers() {
+TEST(fourth_order_in_powers) {
     for (double ratio : {1.0, 4.0})
         for (double biharmonic : {-2e9, 2e9}) {
             const double kappa = 6000, kappa1 = kappa * std::sqrt(ratio), kappa2 = kappa / std::sqrt(ratio);
@@ -221,12 +221,3 @@ void fourth_order_in_powers() {
 }
 
 }  // namespace
-
-TESTS {
-    ellipse_against_quadrature();
-    ellipse_limits();
-    limits_are_hertz();
-    everything_of_every_law();
-    fourth_order_to_the_last_digits();
-    fourth_order_in_powers();
-}

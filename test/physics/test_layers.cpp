@@ -80,7 +80,7 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
     return static_cast<double>(down * k / (2 * (1 - nu * nu)));
 }
 
-void answers() {
+TEST(answers) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     const auto power = [&](double decades) { return std::pow(10.0, decades * (2 * uniform(random) - 1)); };
@@ -122,7 +122,7 @@ double transformed(const LayeredBody& body, double d) {
     return sum / (kPi * E_1);
 }
 
-void transforms() {
+TEST(transforms) {
     const LayeredBody bodies[] = {body_of({{0.3, 78e3, 0.42}}, 130e3, 0.28), body_of({{0.3, 3, 0.5}}, 210e3, 0.3),
                                   body_of({{0.3, 500e3, 0.2}}, 30e3, 0.3), body_of({{0.3, 10, 0.3}}, kInfinity, 0.3),
                                   body_of({{0.3, 78e3, 0.42}, {0.1, 300e3, 0.25}, {2.0, 70e3, 0.17}}, 130e3, 0.28)};
@@ -184,7 +184,7 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     return {depth, force};
 }
 
-void sphere_on_a_layer() {
+TEST(sphere_on_a_layer) {
     const double R = 50, a = 1;
     const int n = 96;
     const double pixel = 2.6 * a / n;
@@ -196,9 +196,7 @@ void sphere_on_a_layer() {
             const Pressed truth = axisymmetric(body, R, a);
             Indenter sphere{100 * ratio / (1 - 0.16), R, 0.5 * n * pixel, 0.5 * n * pixel, {}};
             sphere.layers = body;
-            SolverOptions options;
-            options.tolerance = 1e-5;
-            const auto contact = make_element_contact(map, sphere, options);
+            const auto contact = make_element_contact(map, sphere, {.tolerance = 1e-5});
             const Level level = contact->at_separation(-truth.depth);
             std::printf("sphere on a layer, E_1/E_2 = %4g, h/a = %3g: N %.6g, over the integral equation's %.5f; area over pi a^2 %.4f\n",
                         ratio, h, level.force, level.force / truth.force, level.area / (kPi * a * a));
@@ -232,14 +230,12 @@ Indenter layered(const LayeredBody& body, double R, double x, double y) {
 }
 
 // Equal materials and a thick layer are half-spaces; for elements a layer far thinner than a pixel is not there. dW/dZ0 = -N, dN/dZ0 = -S.
-void limits() {
+TEST(limits) {
     const Asperities asperities = random_asperities(150, 0.02, 0.01, 5e-3, 0.5, 3);
     const HeightMap map = rough_map(40, 0.025);
     const LayeredBody base = body_of({}, 3, 0.3), thick = body_of({{1e7, 3, 0.3}}, 50, 0.1), alike = body_of({{0.2, 3, 0.3}}, 3, 0.3),
                       thin = body_of({{1e-9, 50, 0.1}}, 3, 0.3), bulging = body_of({{0.2, 3, 0.5}}, kInfinity, 0.3);
-    SolverOptions options;
-    options.tolerance = 1e-9;
-    options.law = LawKind::hertz;
+    SolverOptions options{.law = LawKind::hertz, .tolerance = 1e-9};
     const auto contact = [&](const LayeredBody& body, int model) -> std::unique_ptr<Contact> {
         Indenter tip = layered(body, model == 2 ? kInfinity : 3.0, 0.5, 0.5);
         if (model == 2) tip.period = {map.Lx(), map.Ly()};
@@ -268,13 +264,10 @@ void limits() {
 }
 
 // All ways to solve for asperities agree, and say what is too wide.
-void methods() {
+TEST(methods) {
     const Asperities asperities = random_asperities(1200, 0.005, 0.01, 2e-3, 0.5, 3);
     const Indenter tip = layered(body_of({{0.1, 3, 0.4}, {0.1, 9, 0.2}}, 1, 0.3), 100.0, 0.5, 0.5);
-    SolverOptions options;
-    options.tolerance = 1e-9;
-    options.sigma = 0.01;
-    options.method = Method::direct;
+    SolverOptions options{.method = Method::direct, .sigma = 0.01, .tolerance = 1e-9};
     AsperityContact direct(asperities, tip, options);
     const Level truth = direct.at_separation(0.012);
     CHECK(truth.contacts > 50 && truth.wide_contacts == 0);
@@ -294,7 +287,7 @@ void methods() {
 }
 
 // Between flats: the sum over images against the sum over modes, and all methods against each other; a layer like its base is none.
-void repeating() {
+TEST(repeating) {
     const LayeredBody body = body_of({{0.1, 3, 0.5}, {0.1, 9, 0.2}}, 1, 0.3);
     const double E_1 = 3 / (1 - 0.25), Lx = 2, Ly = 1.5;
     const auto smooth = make_layers(body, E_1);
@@ -310,9 +303,7 @@ void repeating() {
         CHECK(lattice.at(x, y) >= lattice.least());
     }
     const Asperities asperities = random_asperities(800, 0.005, 0.01, 2e-3, 0.5, 3);
-    SolverOptions options;
-    options.tolerance = 1e-9;
-    options.sigma = 0.01;
+    SolverOptions options{.sigma = 0.01, .tolerance = 1e-9};
     const auto between_flats = [&](const LayeredBody& of, Method method) {
         Indenter tip = layered(of, kInfinity, 0.5, 0.5);
         tip.period = {1, 1};
@@ -332,12 +323,3 @@ void repeating() {
 }
 
 }  // namespace
-
-TESTS {
-    answers();
-    transforms();
-    sphere_on_a_layer();
-    limits();
-    methods();
-    repeating();
-}

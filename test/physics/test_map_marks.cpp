@@ -26,16 +26,17 @@ Level press(const HeightMap& map, double separation) {
     const Breaks breaks = find_breaks(map, 0);
     SummitCount count;
     const Asperities a = find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 0, nullptr, &breaks);
-    SolverOptions options;
-    options.law = LawKind::fourth_order;
-    options.mean_spacing = 0.1, options.rms_slope = 0.01, options.sigma = 2e-4;
-    options.surface = {0, 0, 1, 1};
-    options.marks = marks_of(map, breaks);
+    SolverOptions options{.law = LawKind::fourth_order,
+                          .sigma = 2e-4,
+                          .mean_spacing = 0.1,
+                          .rms_slope = 0.01,
+                          .surface = {0, 0, 1, 1},
+                          .marks = marks_of(map, breaks)};
     const auto contact = make_asperity_contact(a, Indenter{1e5, std::numeric_limits<double>::infinity(), 0.5, 0.5}, options);
     return contact->at_separation(separation);
 }
 
-void border() {
+TEST(border) {
     CHECK(press(hills(0, 0), 5e-4).edge_contacts == 0);
     const Level cut = press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
     CHECK(cut.edge_contacts == 1 && cut.status == LevelStatus::out_of_validity);
@@ -44,7 +45,7 @@ void border() {
     CHECK(press(hills(1.5, 0), 1.2e-3).edge_contacts == 1);  // nothing else touches
 }
 
-void spikes() {
+TEST(spikes) {
     const HeightMap map = hills(0, 2e-3);
     CHECK(find_breaks(map, 0).spikes.size() == 1);
     const Level on_spike = press(map, 5e-4), without = press(hills(0, 0), 5e-4);
@@ -53,8 +54,3 @@ void spikes() {
 }
 
 }  // namespace
-
-TESTS {
-    border();
-    spikes();
-}

@@ -18,7 +18,7 @@ namespace {
 const Folder folder;
 
 // The namelist of a map's twins: their square is as long as the map's longer side, the tip lies as it did from the middle.
-void twins_of_an_oblong_map() {
+TEST(twins_of_an_oblong_map) {
     const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
     const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, 1);
     map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
@@ -48,7 +48,7 @@ void twins_of_an_oblong_map() {
 }
 
 // Filled points make no contact near them.
-void filled_points() {
+TEST(filled_points) {
     const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
     const HeightMap surface = synthesize(s, 256, Normalise::sample, 4, 1);
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
@@ -72,8 +72,3 @@ void filled_points() {
 }
 
 }  // namespace
-
-TESTS {
-    twins_of_an_oblong_map();
-    filled_points();
-}

@@ -30,7 +30,7 @@ std::string screen(const Folder& folder, int n, const Heights& heights) {
 
 }  // namespace
 
-TESTS {
+TEST(measured_slopes) {
     const Folder folder;
     constexpr int n = 128;
     const HeightMap fine = synthesize({.L = 1, .L_lambda_l = 20, .L_lambda_s = 24, .sigma = 0.005}, n, Normalise::sample, 4, 1);

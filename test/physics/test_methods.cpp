@@ -1,7 +1,8 @@
-// A level gives the same answer alone as in a series, also where the energy has several minima; which method 'auto' takes. That all methods give one
-// answer: test_independent, test_edges.
+// A level gives the same answer alone as in a series, also where the energy has several minima; which of these is the answer; which method 'auto'
+// takes. That all methods give one answer: test_independent, test_edges.
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
+#include "error.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -11,16 +12,10 @@ namespace {
 constexpr double kE = 1.0;
 constexpr double kTolerance = 1e-8;  // of the loads; each level is asked for a residual of 1e-11
 
-SolverOptions options(Method method) {
-    SolverOptions o;
-    o.method = method;
-    o.tolerance = 1e-11;
-    o.sigma = 0.01;
-    return o;
-}
+SolverOptions options(Method method) { return {.method = method, .sigma = 0.01, .tolerance = 1e-11}; }
 
 // Where the energy has several minima too: asperities in clusters, alone and within a series of levels, forwards and backwards.
-void levels_do_not_remember() {
+TEST(levels_do_not_remember) {
     for (unsigned seed = 0; seed < 4; ++seed) {
         const Asperities a = random_asperities(200, seed % 2 ? 0.0005 : 0.01, 0.01, seed % 2 ? 0.3 : 5e-4, 0.7, 200 + seed);
         const Indenter indenter{kE, 2.5, 0.5, 0.5};
@@ -40,7 +35,7 @@ void levels_do_not_remember() {
 
 // Pressed with one force after another, trials on the way go on from each other, where the energy has several minima into others than
 // the answer; the level found is the answer at its separation.
-void pressed_levels_do_not_remember() {
+TEST(pressed_levels_do_not_remember) {
     for (unsigned seed = 200; seed < 204; ++seed) {
         const Asperities a = random_asperities(400, 0.003, 0.01, 0.1, 0.7, seed);
         const Indenter indenter{kE, 1e4, 0.5, 0.5};
@@ -57,9 +52,27 @@ void pressed_levels_do_not_remember() {
     }
 }
 
+// Two asperities so close that only one can carry: the one that the descending sphere meets first keeps the other out, whichever
+// would carry more. So it is from the first touch on, and so it is for a level alone.
+TEST(of_two_the_first_met_carries) {
+    for (double lower : {0.7, 0.8, 0.9}) {
+        for (double larger : {0.3, 1.0, 4.0}) {
+            const double r = 1e-2, g = 0.01;
+            Asperities a;
+            a.x = {0.5, 0.5005}, a.y = {0.5, 0.5}, a.z = {lower * g, g}, a.radius = {larger * r, r};
+            for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
+                const Level level = AsperityContact(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
+                CHECK(level.status == LevelStatus::not_unique);
+                CHECK(level.asperity == std::vector<int>{1});
+                CHECK_RELATIVE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-9);
+            }
+        }
+    }
+}
+
 // 'auto': direct sums of few asperities, a mesh of many, of fewer where every pair is a sum over images; none where nothing interacts. What was
 // asked for by name is done. One summit carries all, the others are candidates only.
-void auto_chooses() {
+TEST(auto_chooses) {
     const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
         Asperities a;
         const int side = static_cast<int>(std::sqrt(n));
@@ -83,10 +96,9 @@ void auto_chooses() {
     CHECK(method_of(900, Method::mesh, Interaction::none, {1, 1}) == Method::direct);
 }
 
-}  // namespace
-
-TESTS {
-    auto_chooses();
-    levels_do_not_remember();
-    pressed_levels_do_not_remember();
+TEST(refused) {
+    CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
+    CHECK_THROWS(AsperityContact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);
 }
+
+}  // namespace

@@ -2,6 +2,7 @@
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/law/ellipse_law.hpp"
+#include "height_maps.hpp"
 #include "run/prepare.hpp"
 
 using namespace rsc;
@@ -15,11 +16,9 @@ constexpr double kStep = 0.01;  // of the maps
 template <class Height>
 FoundSummits map_of(Height&& height, std::vector<std::array<double, 5>> summits) {
     constexpr int half = 80;
-    auto map = std::make_shared<HeightMap>();
-    map->allocate(2 * half + 1, 2 * half + 1, 2 * half + 1);
-    map->dx = map->dy = kStep, map->x0 = map->y0 = -half * kStep;
-    for (int j = 0; j < map->ny; ++j)
-        for (int i = 0; i < map->nx; ++i) map->row(j)[i] = height((i - half) * kStep, (j - half) * kStep);
+    auto map = std::make_shared<HeightMap>(
+        height_map(2 * half + 1, 2 * half + 1, kStep, kStep, [&](int i, int j) { return height((i - half) * kStep, (j - half) * kStep); }));
+    map->x0 = map->y0 = -half * kStep;
     FoundSummits found;
     for (const auto& [x, y, k1, k2, angle] : summits) {
         Asperities& a = found.summits;
@@ -69,7 +68,7 @@ void check_work(const Law& law, int i, double deepest) {
 
 }  // namespace
 
-TESTS {
+TEST(most_loaded) {
     // A paraboloid of any ratio of curvatures and direction: Hertz's ellipse.
     for (const double ratio : {1.0, 2.21, 10.0})
         for (const double angle : {0.0, 0.6, -1.2}) {

@@ -7,7 +7,7 @@ using namespace rsc;
 
 namespace {
 
-void test_way() {
+TEST(test_way) {
     const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
     SolverOptions options;
     const Indenter tip{1, 2, 0.5, 0.5};
@@ -35,7 +35,7 @@ void test_way() {
 }
 
 // Straight on with equal steps a level takes fewer products than without an extrapolation.
-void test_products() {
+TEST(test_products) {
     const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
     const auto count = [&](bool straight) {
         const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
@@ -51,8 +51,3 @@ void test_products() {
 }
 
 }  // namespace
-
-TESTS {
-    test_way();
-    test_products();
-}

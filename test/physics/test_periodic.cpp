@@ -14,12 +14,7 @@ constexpr double kInfinity = Period{}.x;
 constexpr double kSelf = -3.900264920001955886982;  // of the square lattice (test_lattice.cpp)
 
 SolverOptions options(Method method, double tolerance = 1e-11, LawKind law = LawKind::hertz) {
-    SolverOptions o;
-    o.method = method;
-    o.tolerance = tolerance;
-    o.sigma = 0.01;
-    o.law = law;
-    return o;
+    return {.method = method, .law = law, .sigma = 0.01, .tolerance = tolerance};
 }
 
 Indenter flats(double L) { return {kE, kInfinity, 0, 0, {L, L}}; }
@@ -39,7 +34,7 @@ double pressed(double lowering, double depth, double radius) {
 }
 
 // One asperity and its images, and two half a period apart (a lattice turned by 45 degrees): Z0 is the true one, of the mean planes.
-void asperities_and_images() {
+TEST(asperities_and_images) {
     constexpr double kScalar = 1e-12;
     const double radius = 2e-3, L = 0.8;
     for (double Z0 : {0.0099, 0.005, -0.02}) {
@@ -60,7 +55,7 @@ void asperities_and_images() {
 }
 
 // Force control is the inverse of separation control; stiffness and force are the derivatives of force and energy.
-void controls_and_derivatives() {
+TEST(controls_and_derivatives) {
     constexpr double kInverse = 1e-9, kDifference = 1e-6;
     const Asperities a = on_square(400, 31);
     AsperityContact contact(a, flats(1), options(Method::direct, 1e-12));
@@ -86,8 +81,3 @@ void controls_and_derivatives() {
 }
 
 }  // namespace
-
-TESTS {
-    asperities_and_images();
-    controls_and_derivatives();
-}

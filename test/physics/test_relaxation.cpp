@@ -32,7 +32,7 @@ double talbot(const Relaxation& body, double t) {
     return static_cast<double>(sum * r / terms);
 }
 
-void test_creep() {
+TEST(test_creep) {
     const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08}, times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
     for (int k = 0; k < kMostRelaxations; ++k) sixteen.share.push_back(0.06), sixteen.time.push_back(std::pow(3.0, k - 8));
@@ -126,7 +126,7 @@ double ramp_error(const Relaxation& body, int steps) {
     return worst;
 }
 
-void test_ramps() {
+TEST(test_ramps) {
     for (const Relaxation& body : {Relaxation{{1}, {0.7}}, Relaxation{{0.6}, {0.5}}, Relaxation{{0.3, 0.4}, {0.05, 1.5}}}) {
         const double coarse = ramp_error(body, 200), fine = ramp_error(body, 400);
         CHECK(coarse / fine > 3);  // second order
@@ -135,7 +135,7 @@ void test_ramps() {
 }
 
 // A force put on at once and held: a^3 grows as J(t), to 1e-8 where two runs of different steps are extrapolated.
-void test_held_force() {
+TEST(test_held_force) {
     const Relaxation body{{0.3, 0.5}, {0.2, 2}};
     const auto growth = [&](int steps) {
         One one(body);
@@ -156,7 +156,7 @@ void test_held_force() {
 }
 
 // Work done = stored + lost, on a path with turns, holds and a time without contact; lost never falls. Nothing is stored in the end.
-void test_energy() {
+TEST(test_energy) {
     One one(Relaxation{{0.3, 0.4}, {0.1, 2}});
     const auto path = [](double t) { return 0.2 * std::sin(2.2 * t) + 0.05 * std::sin(13 * t); };
     double work = 0, before = 0, f = 0, lost = 0;
@@ -179,10 +179,3 @@ void test_energy() {
 }
 
 }  // namespace
-
-TESTS {
-    test_creep();
-    test_ramps();
-    test_held_force();
-    test_energy();
-}

@@ -45,10 +45,7 @@ std::unique_ptr<Contact> make(const Kind& model, const Relaxation& body) {
         a.angle = {0, 1, 2, 0.5, 0.3, 0.1}, a.biharmonic = {20, 30, 10, 40, 5, 9};
         return a;
     }();
-    SolverOptions options;
-    options.tolerance = 1e-11;
-    options.law = model.law;
-    options.relaxation = body;
+    SolverOptions options{.law = model.law, .relaxation = body, .tolerance = 1e-11};
     Indenter indenter{kE, model.periodic ? kFlat : 4.0, 0.5, 0.5, model.periodic ? Period{1, 1} : Period{}};
     if (model.elements) return make_element_contact(map, indenter, options);
     return std::make_unique<AsperityContact>(asperities, indenter, options);
@@ -188,7 +185,7 @@ void test_memory(const Kind& model) {
 
 }  // namespace
 
-TESTS {
+TEST(relaxing_contact) {
     for (const Kind& kind : kModels) {
         test_growing(kind);
         test_limits(kind);

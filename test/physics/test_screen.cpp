@@ -53,7 +53,8 @@ void column(const std::vector<Vector>& rows, std::size_t c, const Vector& values
 
 const std::string kSurface = "&surface n=128 L_lambda_l=4 L_lambda_s=32 ";
 
-void levels(const Folder& folder) {
+TEST(levels) {
+    const Folder folder;
     const std::string path = folder / "levels.nc";
     const std::string cases[] = {
         kSurface +
@@ -89,8 +90,3 @@ void levels(const Folder& folder) {
 }
 
 }  // namespace
-
-TESTS {
-    const Folder folder;
-    levels(folder);
-}

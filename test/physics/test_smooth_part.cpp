@@ -39,7 +39,7 @@ double over(const Artificial& s, double x, double y, double a, double b) {
     return sum;
 }
 
-void table() {
+TEST(table) {
     const Artificial s{-0.7, 0.03};
     const Substrate body = s.substrate();
     for (double d = 1e-6; d < 1e9; d *= 1.7) CHECK_RELATIVE(body.smooth_at(d), s.at(d), 1e-12);
@@ -87,8 +87,7 @@ void wave(int nx, int ny, int m, int n) {
 
 }  // namespace
 
-TESTS {
-    table();
+TEST(smooth_part) {
     wave<double>(24, 15, 3, -2);
     wave<double>(15, 24, 0, 11);
     wave<float>(24, 16, 10, 1);

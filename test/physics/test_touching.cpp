@@ -30,16 +30,14 @@ Level at(const Case& c, const SurfaceModel& model, double Z0) {
 // The map as a surface that was measured.
 Surface measured(const HeightMap& map) {
     Surface surface;
-    surface.map.allocate(map.nx, map.ny, map.nx);
-    surface.map.dx = map.dx, surface.map.dy = map.dy;
-    for (int j = 0; j < map.ny; ++j) std::copy_n(map.row(j), map.nx, surface.map.row(j));
+    surface.map = map.copy();
     surface.sigma = 1e-3;
     return surface;
 }
 
 }  // namespace
 
-TESTS {
+TEST(all_touching) {
     // R = 2.5 on rms slopes of 0.006 and 0.06: the summits of the surface alone carried half of the load, or nothing.
     for (const double sigma : {1e-4, 1e-3}) {
         constexpr double kForce = 0.12;  // one to some contacts, elements on 8 points a wave

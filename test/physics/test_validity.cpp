@@ -15,10 +15,9 @@ using namespace rsc;
 namespace {
 
 // Just at a bound is within it, of asperities and of elements; what is not known is not judged.
-void at_the_bounds() {
+TEST(at_the_bounds) {
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
-    SolverOptions options;
-    options.mean_spacing = 0.125, options.sigma = 0.5, options.surface = {0, 0, 1, 1};
+    SolverOptions options{.sigma = 0.5, .mean_spacing = 0.125, .surface = {0, 0, 1, 1}};
     for (const bool pixels : {false, true})
         for (const auto& [x, y, a, large, edge] : {std::tuple{0.5, 0.5, 0.03125, 0, 0},
                                                    {0.5, 0.5, 0.031251, 1, 0},
@@ -63,7 +62,7 @@ void at_the_bounds() {
 }
 
 // A listed asperity under a sphere not much larger: by Hertz with both radii N is smaller by the factor sqrt(1 + r/R), and A by 1 + r/R.
-void asperity_under_a_small_ball() {
+TEST(asperity_under_a_small_ball) {
     for (const auto& [r, R, told] : {std::tuple{1.0, 2.0, true}, {0.1, 2.0, false}}) {
         Asperities one;
         one.x = {0.5}, one.y = {0.5}, one.z = {0}, one.radius = {r};
@@ -77,8 +76,3 @@ void asperity_under_a_small_ball() {
 }
 
 }  // namespace
-
-TESTS {
-    at_the_bounds();
-    asperity_under_a_small_ball();
-}

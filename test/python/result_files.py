@@ -1,8 +1,22 @@
-"""Small result files with numbers of one's own, named and shaped as rsc's (interface.md)."""
+"""A folder for each test, and small result files with numbers of one's own, named and shaped as rsc's (interface.md)."""
 import os
+import tempfile
+import unittest
 
 import netCDF4
 import numpy as np
+
+
+class InFolder(unittest.TestCase):
+    """Tests each in a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
 
 
 def write_result(folder, name, case, variables, attributes=None, title="", source="rsc 0.0"):

@@ -9,7 +9,6 @@ import io
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import netCDF4
@@ -21,7 +20,7 @@ import cube  # noqa: E402
 import report  # noqa: E402
 import rsc  # noqa: E402
 import table  # noqa: E402
-from result_files import write_result  # noqa: E402
+from result_files import InFolder, write_result  # noqa: E402
 
 FORCE = np.array([1.0, 4.0, 20.0, 100.0])
 MEANINGS = {("status", "flag_meanings"): "converged out_of_validity overlapping not_unique not_converged"}
@@ -35,12 +34,7 @@ def result(folder, name="power", status=(0, 0, 2, 1), force=FORCE, area=None, mo
         "force_error_expected": ("realization step", np.full(np.atleast_2d(status).shape, 0.07))}, MEANINGS | more)
 
 
-class Tables(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
+class Tables(InFolder):
     def test_exact_at_levels_and_a_power_law_between(self):
         read = table.Table(result(self.folder))
         columns, status = read.at(FORCE)
@@ -90,12 +84,10 @@ class Tables(unittest.TestCase):
         self.assertEqual(table.markdown(["a", "b"], [["1", "22"]]).splitlines()[2], "| 1 | 22 |")
 
 
-class Studies(unittest.TestCase):
+class Studies(InFolder):
     def test_cube_and_report(self):
         """Every member stands at the values of its keys, in the cube of rsc.read, of cube.py and the page of report.py."""
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        path = lambda name: os.path.join(folder.name, name)
+        path = self.path
         case = """&surface n = 64 L_lambda_l = 4 L_lambda_s = 16 /
 &indentation start = 3 stop = 2 steps = 3 /
 &study surface%sigma = 0.01, 0.02  asperities%law = 'hertz', 'elliptic', 'fourth_order' /"""

@@ -7,7 +7,6 @@ import base64
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -16,6 +15,7 @@ import numpy as np
 
 sys.path.insert(0, sys.argv.pop(1))
 import fields  # noqa: E402
+from result_files import InFolder  # noqa: E402
 
 ROUGH = """&solids E = 1.0e3, Infinity nu = 0.0, 0.0 R = Infinity, {R} /
 &surface L = 1.0 sigma = 1.0e-3 L_lambda_l = 2 L_lambda_s = 6 n = 64 /
@@ -26,15 +26,7 @@ ROUGH = """&solids E = 1.0e3, Infinity nu = 0.0, 0.0 R = Infinity, {R} /
 """
 
 
-class Program(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class Program(InFolder):
     def run_case(self, text, *words, status=0):
         done = subprocess.run([os.environ["RSC_PROGRAM"], "-o", self.path("r.nc"), *words], input=text, text=True, capture_output=True, cwd=self.folder, check=False)
         self.assertEqual(done.returncode, status, done.stderr)

@@ -1,7 +1,6 @@
 """The library as a guest of Python: Ctrl-C, many contacts, arrays with holes, damaged results."""
 import os
 import signal
-import tempfile
 import threading
 import unittest
 import unittest.mock
@@ -9,18 +8,12 @@ import unittest.mock
 import numpy as np
 
 import rsc
+from result_files import InFolder
 
 SMALL = {"surface": {"n": 64, "L_lambda_l": 2, "L_lambda_s": 8}, "solids": {"R": [float("inf"), 2.5]}}
 
 
-class Guest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
+class Guest(InFolder):
     def test_interrupt(self):
         # Levels of elements that would take minutes.
         case = rsc.Case("&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 / &elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /")
@@ -33,7 +26,7 @@ class Guest(unittest.TestCase):
 
         with self.assertRaises(KeyboardInterrupt):
             case.run(self.path("long.nc"), progress)
-        self.assertEqual(os.listdir(self.folder.name), [])
+        self.assertEqual(os.listdir(self.folder), [])
 
         # Also while nothing else happens; the call of the library has ended then, not only the waiting for it.
         ended, call = [], rsc._call

@@ -293,6 +293,8 @@ class Numbers(Drawn):
         self.assertIn("Z_0", forced.axes[0].get_ylabel())
         opened, stem = plot.open_results([path("study_manifest")])
         self.assertEqual((len(set(names(opened))), stem), (6, "study"))
+        twice, _ = plot.open_results([path("study_manifest"), path("study_002"), os.path.join(FOLDER, ".", "study_002.nc"), path("one"), path("one")])
+        self.assertEqual([os.path.basename(result.path) for result in twice], [os.path.basename(path(name)) for name in [*members("study", 6), "one"]])
         looks = Looks(results(*members("forced", 12)))
         self.assertEqual((len({tuple(colour) for _, colour, _ in looks.of}), looks.scale[1]), (12, [str(k) for k in range(1, 13)]))
 

@@ -2,7 +2,6 @@
 import gc
 import math
 import os
-import tempfile
 import threading
 import time
 import unittest
@@ -10,6 +9,7 @@ import unittest
 import numpy as np
 
 import rsc
+from result_files import InFolder
 
 E, U = 2.0e5, 1.0e-3
 SMALL = {"surface": {"n": 128, "L_lambda_l": 4.0, "L_lambda_s": 32.0, "sigma": 0.01}, "solver": {"method": "direct"}}
@@ -158,14 +158,11 @@ class Threads(unittest.TestCase):
         self.assertEqual(wrong, [])
         self.assertEqual(alone, [True] * 10)
 
-class Files(unittest.TestCase):
+class Files(InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
+        super().setUp()
         self.case = rsc.Case(SMALL)
-        self.case.update({"indentation": {"start": 3.0, "stop": 1.0, "steps": 5}, "output%file": os.path.join(self.folder.name, "a.nc")})
-
-    def tearDown(self):
-        self.folder.cleanup()
+        self.case.update({"indentation": {"start": 3.0, "stop": 1.0, "steps": 5}, "output%file": self.path("a.nc")})
 
     def test_run_and_read(self):
         path = self.case.run()
@@ -178,9 +175,9 @@ class Files(unittest.TestCase):
         curve = contact.curve(plain["separation"])
         for name in ("force", "contact_area", "contacts", "status"):
             self.assertTrue(np.array_equal(curve[name], plain[name][0]), name)
-        other = self.case.run(file=os.path.join(self.folder.name, "b.nc"))
+        other = self.case.run(file=self.path("b.nc"))
         self.assertTrue(os.path.exists(other))
-        self.assertEqual(other, os.path.join(self.folder.name, "b.nc"))
+        self.assertEqual(other, self.path("b.nc"))
         self.assertEqual(self.case["output%file"], path)  # as it was
         try:
             import xarray  # noqa: F401
@@ -196,10 +193,10 @@ class Files(unittest.TestCase):
 
     def test_failures(self):
         with self.assertRaises(rsc.Error) as unread:
-            rsc.read(os.path.join(self.folder.name, "nothing.nc"))
+            rsc.read(self.path("nothing.nc"))
         self.assertEqual(unread.exception.status, rsc.FILE)
         with self.assertRaisesRegex(rsc.Error, "folder"):
-            self.case.run(file=os.path.join(self.folder.name, "folder", "a.nc"))
+            self.case.run(file=os.path.join(self.folder, "folder", "a.nc"))
         self.case.update({"solver%tolerance": 1e-14, "solver%max_iterations": 1})
         with self.assertRaises(rsc.NotConverged) as caught:
             self.case.run()

@@ -79,6 +79,16 @@ inline double value(rsc_contact* contact, const char* name) {
     return found;
 }
 
+// Of a path with friction: separation, slide, forces, energies, work lost in all, and the separation at which spots stick.
+struct FrictionState {
+    double Z = 0, x = 0, y = 0, N = 0, Qx = 0, Qy = 0, normal = 0, tangential = 0, lost = 0, stick = 0;
+};
+inline FrictionState state(const rsc_friction* friction) {
+    FrictionState s;
+    OK(rsc_friction_state(friction, &s.Z, &s.x, &s.y, &s.N, &s.Qx, &s.Qy, &s.normal, &s.tangential, &s.lost, &s.stick));
+    return s;
+}
+
 inline double force_at(rsc_contact* contact, double Z0) {
     double N = std::nan("");
     OK(rsc_contact_indent(contact, Z0, &N));

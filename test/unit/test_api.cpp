@@ -18,7 +18,7 @@ void test_single() {
     OK(rsc_contact_create(&c, a, E, R, x, y, options));
     OK(rsc_asperities_destroy(&a));  // the contact keeps its own
     CHECK(rsc_contact_result(c, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
-    double N = 0, A = 0, Z = 0, k = 0, W = 0, touch = 0;
+    double N = 0, A = 0, Z = 0, touch = 0;
     std::int64_t contacts = 0, candidates = 0;
     OK(rsc_contact_first_touch(c, &touch));
     CHECK(touch == z);
@@ -29,10 +29,8 @@ void test_single() {
     OK(rsc_contact_result(c, &Z, &N, &A, &contacts));
     CHECK(Z == z - u && contacts == 1);
     CHECK_RELATIVE(A, kPi * r * penetration, 1e-13);
-    OK(rsc_contact_stiffness(c, &k));
-    CHECK_RELATIVE(k, -2 * E * std::sqrt(r * penetration), 1e-13);
-    OK(rsc_contact_energy(c, &W));
-    CHECK_RELATIVE(W, 0.4 * f * penetration, 1e-12);
+    CHECK_RELATIVE(value(c, "stiffness"), -2 * E * std::sqrt(r * penetration), 1e-13);
+    CHECK_RELATIVE(value(c, "energy"), 0.4 * f * penetration, 1e-12);
     std::int32_t status = -1;
     double residual = -1;
     OK(rsc_contact_level(c, &status, &candidates, nullptr, nullptr, &residual));
@@ -50,17 +48,13 @@ void test_single() {
     OK(rsc_contact_press(c, f, &Z));
     CHECK_CLOSE(Z, z - penetration, 1e-10 * u);
     // Out of contact: everything is zero, and no failure.
-    OK(rsc_contact_indent(c, z, &N));
-    OK(rsc_contact_stiffness(c, &k));
-    OK(rsc_contact_energy(c, &W));
-    CHECK(N == 0 && k == 0 && W == 0);
+    CHECK(force_at(c, z) == 0 && value(c, "stiffness") == 0 && value(c, "energy") == 0);
     OK(rsc_contact_press(c, 0, &Z));
     CHECK(Z == z);
     // The sphere moved aside by s stands lower there by R - sqrt(R^2 - s^2).
     const double s = 0.05, drop = R - std::sqrt(R * R - s * s);
     OK(rsc_contact_move_tip(c, x + s, y));
-    OK(rsc_contact_indent(c, z - drop - u, &N));
-    CHECK_RELATIVE(N, f, 1e-10);
+    CHECK_RELATIVE(force_at(c, z - drop - u), f, 1e-10);
     double x0 = 0;
     OK(rsc_contact_tip(c, &x0, nullptr));
     CHECK(x0 == x + s);
@@ -72,8 +66,7 @@ void test_single() {
     OK(rsc_contact_move_tip(c, x + 1.1 * R, y));
     CHECK(rsc_contact_press(c, f, &Z) == -1);
     CHECK(message().find("no asperity under") != std::string::npos);
-    OK(rsc_contact_indent(c, z - u, &N));
-    CHECK(N == 0);
+    CHECK(force_at(c, z - u) == 0);
 }
 
 // A copy has the resistance of one circular spot (Holm), and a text that does not fit is cut while its whole length is known.
@@ -85,9 +78,7 @@ void test_copy_and_cut() {
     OK(rsc_contact_create(&c, a, 2e5, 5, 0, 0, case_of("&solids resistivity=1, 3 /")));
     OK(rsc_contact_indent(c, -u, nullptr));
     OK(rsc_contact_copy(&copy, c));
-    double resistance = 0;
-    OK(rsc_contact_value(copy, "resistance", &resistance));
-    CHECK_RELATIVE(resistance, (1 + 3) / (4 * std::sqrt(r * u)), 1e-12);
+    CHECK_RELATIVE(value(copy, "resistance"), (1 + 3) / (4 * std::sqrt(r * u)), 1e-12);
     char whole[300], cut[8];
     std::int64_t length = 0, known = 0;
     OK(rsc_status_text(RSC_NOT_CONVERGED, whole, 300, &length));
@@ -118,7 +109,7 @@ void test_press_after() {
 
 }  // namespace
 
-TESTS {
+TEST(api) {
     CHECK(message().empty());
     test_single();
     test_copy_and_cut();

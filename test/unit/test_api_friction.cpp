@@ -8,12 +8,11 @@
 
 namespace {
 
-void same_as_core() {
+TEST(same_as_core) {
     const rsc::Asperities list = random_asperities(300, 0.02, 0.01, 5e-4, 0.3, 7);
     ContactHandle contact;
     OK(rsc_contact_create(&contact, take(list), 94e3, 2.5, 0.5, 0.5, case_of("&solver tolerance=1e-12 /")));
-    rsc::SolverOptions tight;
-    tight.tolerance = 1e-12;
+    rsc::SolverOptions tight{.tolerance = 1e-12};
     rsc::AsperityContact one(list, {94e3, 2.5, 0.5, 0.5}, tight), other(list, {94e3, 2.5, 0.5, 0.5}, tight);
     rsc::ContactCurve curve(one, other);
     rsc::FrictionHistory path({0.3, 0.8});
@@ -23,20 +22,20 @@ void same_as_core() {
     const double steps[][3] = {{0.002, 1, 2},           {0.001, 1.0001, 2},       {0.001, 1.0006, 2.0002}, {0.0005, 1.0006, 2},
                                {0.001, 1.0003, 1.9999}, {0.0012, 1.0003, 1.9999}, {0.001, 1.01, 2}};
     for (const auto& s : steps) {
-        double N = 0, qx = 0, qy = 0, lost = 0, at = 0, x = 0, y = 0, W = 0, E = 0, total = 0, stick = 0, k[4] = {};
+        double N = 0, qx = 0, qy = 0, lost = 0, k[4] = {};
         OK(rsc_friction_update(friction, s[0], s[1], s[2], &N, &qx, &qy, &lost));
         path.go_to(curve, -s[0], {s[1], s[2]});
         CHECK(N == path.force() && qx == path.tangential_force().x && qy == path.tangential_force().y && lost == path.step_lost());
-        OK(rsc_friction_state(friction, &at, &x, &y, &N, &qx, &qy, &W, &E, &total, &stick));
-        CHECK(at == s[0] && x == s[1] && y == s[2] && qx == path.tangential_force().x && W == path.normal_energy());
-        CHECK(E == path.tangential_energy() && total == path.work_lost() && stick == -path.stick_approach());
+        const FrictionState is = state(friction);
+        CHECK(is.Z == s[0] && is.x == s[1] && is.y == s[2] && is.N == N && is.Qx == qx && is.Qy == qy && is.normal == path.normal_energy());
+        CHECK(is.tangential == path.tangential_energy() && is.lost == path.work_lost() && is.stick == -path.stick_approach());
         OK(rsc_friction_stiffness(friction, &k[0], &k[1], &k[2], &k[3]));
         const auto tangent = path.stiffness(curve);
         CHECK(k[0] == tangent.xx && k[1] == tangent.xy && k[2] == tangent.yx && k[3] == tangent.yy);
     }
     // All slips now: mu N, and no spot sticks.
-    double N = 0, qx = 0, qy = 0, slide = 0, most = 0, sum = 0;
-    OK(rsc_friction_state(friction, nullptr, nullptr, nullptr, &N, &qx, &qy, nullptr, nullptr, nullptr, nullptr));
+    double slide = 0, most = 0, sum = 0;
+    const auto [now, x, y, N, qx, qy, normal, tangential, lost, stuck] = state(friction);
     CHECK_RELATIVE(std::hypot(qx, qy), 0.3 * N, 1e-12);
     OK(rsc_friction_full_slip(friction, &slide, &most));
     CHECK_RELATIVE(most, 0.3 * N, 1e-15);
@@ -47,8 +46,6 @@ void same_as_core() {
     CHECK_RELATIVE(Q[2], most, 1e-14);
     CHECK_RELATIVE(Q[3], most, 1e-14);
     // Spots that touch at a separation stick up to a slide of mu/m times how much deeper the sphere is.
-    double now = 0;
-    OK(rsc_friction_state(friction, &now, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr));
     CHECK(stick[0] == now);
     CHECK_RELATIVE(stick[1] - now, slides[1] * 0.8 / 0.3, 1e-12);
     CHECK_RELATIVE(stick[2] - now, slide * 0.8 / 0.3, 1e-12);
@@ -73,9 +70,7 @@ void same_as_core() {
     OK(rsc_friction_update(copy, 0.001, 1.005, 2, nullptr, &copied, nullptr, nullptr));
     CHECK_RELATIVE(copied, original, 1e-9);
     OK(rsc_friction_rollback(friction));
-    double again = 0;
-    OK(rsc_friction_state(friction, nullptr, nullptr, nullptr, nullptr, &again, nullptr, nullptr, nullptr, nullptr, nullptr));
-    CHECK(again == qx);
+    CHECK(state(friction).Qx == qx);
     // After a step that is not committed, a restored path has the force of the step, and a rollback leads to the commit.
     const Folder folder;
     const std::string file = folder / "friction";
@@ -83,16 +78,9 @@ void same_as_core() {
     OK(rsc_friction_update(friction, 0.001, 1.005, 2, nullptr, &original, nullptr, nullptr));
     OK(rsc_friction_save(friction, file.c_str()));
     OK(rsc_friction_restore(&restored, take(list), file.c_str()));
-    const auto force_x = [&] {
-        double Q = 0;
-        OK(rsc_friction_state(restored, nullptr, nullptr, nullptr, nullptr, &Q, nullptr, nullptr, nullptr, nullptr, nullptr));
-        return Q;
-    };
-    CHECK(force_x() == original && original != qx);
+    CHECK(state(restored).Qx == original && original != qx);
     OK(rsc_friction_rollback(restored));
-    CHECK(force_x() == qx);
+    CHECK(state(restored).Qx == qx);
 }
 
 }  // namespace
-
-TESTS { same_as_core(); }

@@ -28,7 +28,8 @@ std::vector<double> go_on(rsc_contact* contact) {
     return answers;
 }
 
-void contacts_in_files(const Folder& folder) {
+TEST(contacts_in_files) {
+    const Folder folder;
     const AsperitiesHandle asperities = make(1), others = make(2);
     ContactHandle contact, again;
     OK(rsc_contact_create(&contact, asperities, 94e3, 2.5, 0.5, 0.5, nullptr));
@@ -82,7 +83,7 @@ void contacts_in_files(const Folder& folder) {
     CHECK(rsc_contact_restore(&again, asperities, (folder / "short").c_str()) == -3 && !again);
 }
 
-void many_contacts() {
+TEST(many_contacts) {
     constexpr int n = 24;
     const AsperitiesHandle asperities = make(1);
     std::vector<double> one, force(n), separation(n), forces(n);
@@ -122,9 +123,3 @@ void many_contacts() {
 }
 
 }  // namespace
-
-TESTS {
-    const Folder folder;
-    contacts_in_files(folder);
-    many_contacts();
-}

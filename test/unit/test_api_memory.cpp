@@ -49,7 +49,7 @@ int refuse_each(Call&& call, After&& after) {
 
 }  // namespace
 
-TESTS {
+TEST(api_memory) {
     const rsc::Asperities made = random_asperities(60, 0.05, 0.01, 3e-3, 0.3, 9);
     rsc_case* c = nullptr;
     CHECK(rsc_case_create(&c) == 0);

@@ -24,6 +24,12 @@ struct Run {
 
 std::set<std::string> compared;  // quantities of levels, by name
 
+// Runs the case into a file.
+std::int32_t run_to(const std::string& path, rsc_case* c, std::int64_t* failed) {
+    OK(rsc_case_set(c, "output%file", ("'" + path + "'").c_str()));
+    return rsc_case_run(c, failed);
+}
+
 // What a level's calls give against row s of the file. Quantities by name: whatever the file has of them.
 void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, const std::vector<std::string>& names) {
     double Z = 0, N = 0, A = 0, S = 0, W = 0, x = 0, y = 0, residual = 0, value = 0;
@@ -84,9 +90,8 @@ void every_value(const Folder& folder, const Run& run) {
     ContactHandle k;
     CaseHandle c = case_of(run.namelist.c_str());
     const std::string path = folder / "run.nc";
-    OK(rsc_case_set(c, "output%file", ("'" + path + "'").c_str()));
     std::int64_t failed = -1;
-    OK(rsc_case_run(c, &failed));
+    OK(run_to(path, c, &failed));
     CHECK(failed == 0);
     const Reader file(path);
     OK(rsc_asperities_make(&a, c, 1));
@@ -122,7 +127,7 @@ void every_value(const Folder& folder, const Run& run) {
 
 }  // namespace
 
-TESTS {
+TEST(api_run) {
     const Folder folder;
     // An oblong measured map, its steps different along x and y.
     map_files::Map map{24, 16, 2e-5, 3e-5, {}};  // in m: mm of the case are 1e3 of it
@@ -161,32 +166,26 @@ TESTS {
     // A count is in the file where it can be counted, also if it is 0: scripts ask for it by name.
     for (const auto& [key, count] : {std::pair{"adhesion=1e-6", "jumps"}, std::pair{"hardness=1e9", "plastic_contacts"}}) {
         CaseHandle away = case_of((surface + solids + " " + key + " / &indentation levels=5, 4 / &output contacts='none' /").c_str());
-        OK(rsc_case_set(away, "output%file", ("'" + (folder / "away.nc") + "'").c_str()));
-        OK(rsc_case_run(away, nullptr));
+        OK(run_to(folder / "away.nc", away, nullptr));
         CHECK((Reader(folder / "away.nc").values(count) == Values{0, 0}));
     }
 
     // Levels that do not converge are told, and the file is there all the same; a folder that cannot be made leaves nothing.
     CaseHandle c = case_of("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver max_iterations=1 /");
-    OK(rsc_case_set(c, "output%file", ("'" + (folder / "unfinished.nc") + "'").c_str()));
     std::int64_t failed = -1;
-    CHECK(rsc_case_run(c, &failed) == RSC_NOT_CONVERGED && message().find("status = 4") != std::string::npos);
+    CHECK(run_to(folder / "unfinished.nc", c, &failed) == RSC_NOT_CONVERGED && message().find("status = 4") != std::string::npos);
     std::int64_t with_4 = 0;
     for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
     CHECK(failed > 0 && failed == with_4);
     // Flats pressed deeper than asperities bear: no state, and no numbers of one.
-    CaseHandle deep;
-    OK(rsc_case_create(&deep));
-    OK(rsc_case_read(deep,
-                     "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
-                     "&indentation boundary='periodic' levels=1,-3 /"));
-    OK(rsc_case_set(deep, "output%file", ("'" + (folder / "deep.nc") + "'").c_str()));
-    CHECK(rsc_case_run(deep, &failed) == RSC_NOT_CONVERGED && failed == 1);
+    const CaseHandle deep = case_of(
+        "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
+        "&indentation boundary='periodic' levels=1,-3 /");
+    CHECK(run_to(folder / "deep.nc", deep, &failed) == RSC_NOT_CONVERGED && failed == 1);
     const Reader deep_file(folder / "deep.nc");
     const Values forces = deep_file.values("force");
     CHECK(deep_file.values("status")[1] == 4 && forces[0] > 0 && forces[0] < 1e6 && forces[1] == NC_FILL_DOUBLE);
-    OK(rsc_case_set(c, "output%file", "'/proc/no/such/folder.nc'"));
     failed = -1;
-    CHECK(rsc_case_run(c, &failed) == -1);
+    CHECK(run_to("/proc/no/such/folder.nc", c, &failed) == -1);
     CHECK(failed == -1);
 }

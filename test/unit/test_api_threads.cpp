@@ -51,7 +51,7 @@ Answer work(int number) {
 
 }  // namespace
 
-TESTS {
+TEST(api_threads) {
     std::vector<Answer> alone, together(kThreads);
     for (int t = 0; t < kThreads; ++t) alone.push_back(work(t));
     std::vector<std::thread> threads;

@@ -53,7 +53,7 @@ std::int32_t level_at(const rsc_surface* surface, const rsc_case* a_case, double
 
 // The rms height that a contact goes by (below -3 of it a level is out of validity) is that of the heights as they are now: given, with a
 // form subtracted, or filtered; or surface%sigma. One thin spike on a wave, periodic, is all that touches.
-void rms_height() {
+TEST(rms_height) {
     const Map map{32, 20, 0.03125, 0.0625, 0, 0};
     const Values z = map.heights([&](int i, int j) {
         const double wave = 0.01 * (std::cos(2 * kPi * (i - 16) / map.nx) + std::cos(2 * kPi * (j - 10) / map.ny));
@@ -85,7 +85,7 @@ void rms_height() {
 }
 
 // A copy lies where its original lies, and has the same heights.
-void copy_of_a_surface() {
+TEST(copy_of_a_surface) {
     const Map map;
     const Values z = map.heights([&](int i, int j) { return map.x(i) * map.y(j); });
     const SurfaceHandle surface = map.take(z);
@@ -97,8 +97,3 @@ void copy_of_a_surface() {
 }
 
 }  // namespace
-
-TESTS {
-    rms_height();
-    copy_of_a_surface();
-}

@@ -18,7 +18,7 @@ HeightMap make_map(int nx, int ny, bool periodic, int stride) {
     return map;
 }
 
-void against_brute_force() {
+TEST(against_brute_force) {
     std::mt19937 random(12345);
     for (const bool periodic : {true, false})
         for (const auto [nx, ny] : {std::array{41, 29}, {8, 8}, {9, 5}, {3, 3}, {2, 7}, {300, 6}}) {
@@ -85,7 +85,7 @@ bool same(const Asperities& a, const Asperities& b) {
            a.angle == b.angle;
 }
 
-void made_and_found_are_the_same() {
+TEST(made_and_found_are_the_same) {
     const Spectrum s{.L = 1.3, .L_lambda_l = 6, .L_lambda_s = 50};
     for (const int n : {100, 102, 128, 250}) {
         SummitCount found_count, made_count;
@@ -117,7 +117,7 @@ void made_and_found_are_the_same() {
 // 1.3 % (the shortest waves). Measured on these surfaces with 8, 16, 32 points: <kappa_g> 1.3247, 1.3460, 1.3506, density 0.965,
 // 0.990, 0.996 of the theory: second order, 0.5 % and 0.8 % from the limit at 16. The statistical error is taken from the scatter
 // between the surfaces.
-void against_theory() {
+TEST(against_theory) {
     const Spectrum s{.L_lambda_l = 12, .L_lambda_s = 96};
     const double bias = 0.015;
     const int surfaces = 8;
@@ -145,9 +145,3 @@ void against_theory() {
 }
 
 }  // namespace
-
-TESTS {
-    against_brute_force();
-    made_and_found_are_the_same();
-    against_theory();
-}

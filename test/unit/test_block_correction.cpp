@@ -43,7 +43,7 @@ double product(const std::vector<float>& a, const std::vector<float>& b) { retur
 
 // Over all pixels K has the mode 2/k. The stencil alone is wrong by a factor of 10 for the longest wave; with blocks, on which waves are not
 // smooth, some tens of per cent remain.
-void long_wave() {
+TEST(long_wave) {
     Fixture all([](int, int) { return true; });
     const double k = 2 * kPi / kSide;
     std::vector<float> r;
@@ -53,7 +53,7 @@ void long_wave() {
     CHECK(product(r, all.apply(r)) < 1.5 * exact && product(r, all.apply(r)) > 0.9 * exact);
 }
 
-void symmetric() {
+TEST(symmetric) {
     Fixture discs([](int i, int j) { return std::hypot(i % 32 - 16 + 3 * (j / 32), j % 32 - 15) < 4 + (i / 32); });
     std::mt19937 random(7);
     std::vector<float> a, b;
@@ -69,9 +69,7 @@ void symmetric() {
 
 }  // namespace
 
-TESTS {
-    long_wave();
-    symmetric();
+TEST(all_block_correction) {
     CHECK(!BlockCorrection(64, 64, 1, {}, {}).exists());
     CHECK(!BlockCorrection(509, 509, 1, {}, {}).exists());
 }

@@ -5,7 +5,7 @@
 
 using namespace rsc;
 
-TESTS {
+TEST(all_breaks) {
     constexpr int n = 128;
     constexpr double sigma = 1e-3;
     const Spectrum s{.L = 1, .L_lambda_l = 4, .L_lambda_s = 16, .sigma = sigma};

@@ -153,7 +153,7 @@ void one_thread_in_netcdf(const Folder& folder) {
 
 }  // namespace
 
-TESTS {
+TEST(all_calls) {
     const Folder folder;
     results(folder);
     manifests(folder);

@@ -46,7 +46,7 @@ void the_same(const Vector& x, const Vector& y, const Vector& reach, const Perio
 }
 
 // Sizes from equal to spread over ten decades, squares and thin strips of points; some points have no reach.
-void random_points() {
+TEST(random_points) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
@@ -67,7 +67,7 @@ void random_points() {
 }
 
 // One spot over everything among many small ones, a few of middle size.
-void one_huge_spot() {
+TEST(one_huge_spot) {
     std::mt19937_64 random(4);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (double huge : {0.1, 0.5, 2.0, 1e6, std::numeric_limits<double>::infinity()}) {
@@ -82,7 +82,7 @@ void one_huge_spot() {
 }
 
 // Points some periods away, too.
-void repeating() {
+TEST(repeating) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int set = 0; set < 60; ++set) {
@@ -96,9 +96,3 @@ void repeating() {
 }
 
 }  // namespace
-
-TESTS {
-    random_points();
-    one_huge_spot();
-    repeating();
-}

@@ -20,7 +20,7 @@ struct Coated {
 const std::string kBody = "E=1e5,Infinity nu=0.3,0 R=Infinity,2.5";
 
 // The lateral force is the gradient of the energy.
-void lateral() {
+TEST(lateral) {
     Coated coated(kBody + " layer_thickness=0.05 layer_E=4e5 layer_nu=0.2");
     const double Z0 = 0.004, step = 1e-4;
     CHECK(force_at(coated.contact, Z0) > 0);
@@ -35,7 +35,7 @@ void lateral() {
 }
 
 // The hardness is that of what lies on top: no contact bears more. A stiff coating carries more than its base, and yields at the same pressure.
-void yielding() {
+TEST(yielding) {
     const std::string layer = " layer_thickness=0.05 layer_E=4e5 layer_nu=0.2";
     Coated elastic(kBody + layer), yields(kBody + layer + " hardness=1000");
     const double N = force_at(yields.contact, 0.004);
@@ -44,8 +44,3 @@ void yielding() {
 }
 
 }  // namespace
-
-TESTS {
-    lateral();
-    yielding();
-}

@@ -76,7 +76,7 @@ private:
     Indenter indenter_{1, 1, 0, 0, {}};
 };
 
-void control() {
+TEST(control) {
     for (const double shift : {0.0, 0.3})
         for (const double passed : {0.0, 0.02}) {
             Known contact(shift, passed);
@@ -109,7 +109,7 @@ void control() {
 }
 
 // A force that no separation carries is told; those on both sides of the jump are found.
-void jumps() {
+TEST(jumps) {
     Known contact;
     contact.jump = 5;
     const double below = std::pow(1.2, 1.5);
@@ -126,7 +126,7 @@ void jumps() {
 }
 
 // Two contacts take turns; a level that one of them holds is not computed again.
-void curves() {
+TEST(curves) {
     Known one, other;
     ContactCurve curve(one, other);
     const auto N = [](double delta) { return std::pow(kTop + delta, 1.5); };
@@ -158,9 +158,3 @@ void curves() {
 }
 
 }  // namespace
-
-TESTS {
-    control();
-    jumps();
-    curves();
-}

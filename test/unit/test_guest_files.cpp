@@ -8,6 +8,7 @@
 #include "check.hpp"
 #include "error.hpp"
 #include "file/whole_file.hpp"
+#include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -17,15 +18,12 @@ namespace {
 const FileKind kNotes{"note", [](const std::string& path) { return begins_with(path, "note "); }};
 
 bool refused(const std::string& path, const char* word) {
-    try {
-        write_whole(path, kNotes, std::string("note new"));
-    } catch (const Error& error) {
-        return error.kind() == Failure::file_system && std::string(error.what()).find(word) != std::string::npos;
-    }
-    return false;
+    const std::string message = refusal([&] { write_whole(path, kNotes, std::string("note new")); }, Failure::file_system);
+    return !message.empty() && message.find(word) != std::string::npos;
 }
 
-void test_what_may_be_replaced(const Folder& folder) {
+TEST(test_what_may_be_replaced) {
+    const Folder folder;
     const std::string mine = folder / "mine", thesis = folder / "thesis", link = folder / "link", fifo = folder / "fifo";
     write_whole(mine, kNotes, std::string("note 1"));
     write_whole(mine, kNotes, std::string("note 2"));
@@ -45,7 +43,8 @@ void test_what_may_be_replaced(const Folder& folder) {
 }
 
 // A link of the temporary's name is not followed, a temporary that is being written is not touched, one that was left is removed.
-void test_temporaries(const Folder& folder) {
+TEST(test_temporaries) {
+    const Folder folder;
     const std::string mine = folder / "mine", other = folder / "other";
     std::ofstream(other) << "other";
     CHECK(symlink(other.c_str(), (mine + ".rsc-part-0").c_str()) == 0);
@@ -62,7 +61,8 @@ void test_temporaries(const Folder& folder) {
 }
 
 // Writers of one file at once, some killed on the way: a reader finds one whole writing or none, and nothing is left in the end.
-void test_many_writers(const Folder& folder) {
+TEST(test_many_writers) {
+    const Folder folder;
     const std::string path = folder / "one";
     std::vector<pid_t> children;
     for (char c = 'a'; c < 'e'; ++c) {
@@ -91,9 +91,3 @@ void test_many_writers(const Folder& folder) {
 }
 
 }  // namespace
-
-TESTS {
-    test_what_may_be_replaced(Folder());
-    test_temporaries(Folder());
-    test_many_writers(Folder());
-}

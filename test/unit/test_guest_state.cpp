@@ -80,7 +80,7 @@ void test_copied_between_levels(const std::string& keys) {
 }
 
 // Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
-void test_time() {
+TEST(test_time) {
     const std::string body = "relaxation_share=0.4,0.3 relaxation_time=1,20";
     Made made(kSurface + body + " / &solver tolerance=1e-9 /");
     ContactHandle refused, copy;
@@ -96,33 +96,22 @@ void test_time() {
     CHECK(rsc_contact_create_from_case(&refused, made.asperities, made.c) == -3 && !refused);
 }
 
-struct Path {
-    double N = 0, Qx = 0, Qy = 0, tangential = 0, lost = 0;
-};
-
-Path state(const rsc_friction* friction) {
-    Path p;
-    CHECK(rsc_friction_state(friction, nullptr, nullptr, nullptr, &p.N, &p.Qx, &p.Qy, nullptr, &p.tangential, &p.lost, nullptr) ==
-          RSC_SUCCESS);
-    return p;
-}
-
 // The force of the slide is bounded by mu N, what its energy falls by is lost, none is won; a move back to where the tip is does nothing, one to
 // other asperities leaves nothing of the slide.
-void test_rolling() {
+TEST(test_rolling) {
     Made made(kSurface + "/");
     FrictionHandle friction;
     constexpr double mu = 0.4, Z0 = 0.012;
     OK(rsc_friction_create(&friction, made.contact, mu, 0.8));
     OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
     OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, nullptr, nullptr, nullptr, nullptr));
-    const Path slid = state(friction);
+    const FrictionState slid = state(friction);
     CHECK(slid.Qx > 0 && slid.tangential > 0 && rsc_friction_commit(friction) == RSC_SUCCESS);
     CHECK(rsc_friction_move_tip(friction, 0.5, 0.5) == RSC_SUCCESS && state(friction).Qx == slid.Qx);
-    Path last = slid;
+    FrictionState last = slid;
     for (int k = 1; k <= 20; ++k) {
         OK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5));
-        const Path now = state(friction);
+        const FrictionState now = state(friction);
         CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12));
         CHECK(now.tangential <= last.tangential * (1 + 1e-12) && now.lost >= last.lost);
         CHECK_CLOSE(now.tangential + now.lost, last.tangential + last.lost, 1e-12 * slid.tangential);
@@ -152,7 +141,8 @@ std::int32_t watch(double done, double total, void* data) {
     return ++w.calls >= w.until;
 }
 
-void test_watched(const Folder& folder) {
+TEST(test_watched) {
+    const Folder folder;
     for (const char* realizations : {"1", "20"}) {
         const std::string file = folder / "run.nc";
         Made made(kSurface + "/ &indentation steps=40 / &run realizations=" + std::string(realizations) + " / &output file='" + file +
@@ -199,7 +189,7 @@ void test_steep(const std::string& memory) {
     CHECK_RELATIVE(force_at(moved.contact, touch - 1e-4), tried, kTolerance);
 }
 
-TESTS {
+TEST(guest_state) {
     const std::string elements = " / &elements points_per_wave=4 / &solver model='elements'",
                       layer = "layer_thickness=0.05 layer_E=4e5 layer_nu=0.2", relaxing = "relaxation_share=0.4,0.3 relaxation_time=1,20",
                       tight = " / &solver tolerance=1e-9";
@@ -214,7 +204,4 @@ TESTS {
     test_copied_between_levels("");
     test_copied_between_levels(relaxing + tight);
     for (const char* memory : {"", "hardness=100", "relaxation_share=0.4 relaxation_time=1"}) test_steep(memory);
-    test_time();
-    test_rolling();
-    test_watched(Folder());
 }

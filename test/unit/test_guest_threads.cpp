@@ -165,7 +165,7 @@ void test_lock() {
 
 }  // namespace
 
-TESTS {
+TEST(guest_threads) {
     CHECK(in_child(with_one_processor) == 0);  // before this process has counted its own
     CHECK(in_child(with_little_memory) <= 1);
     test_more_threads_than_work();

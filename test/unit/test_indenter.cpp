@@ -2,6 +2,7 @@
 #include "check.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 #include "physics/random_asperities.hpp"
 #include "rough/surface.hpp"
 
@@ -13,13 +14,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A second body of a few waves, n x n points on the unit square.
 std::shared_ptr<const HeightMap> waves(int n, bool periodic) {
-    auto map = std::make_shared<HeightMap>();
-    map->allocate(n, n, n);
-    map->dx = map->dy = 1.0 / n;
-    map->periodic = periodic;
     const double k = 2 * std::numbers::pi / n;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) map->row(j)[i] = 0.01 * (std::cos(3 * k * i + 1) * std::cos(2 * k * j) + std::sin(k * (i - 2 * j)));
+    auto map = std::make_shared<HeightMap>(height_map(n, n, 1.0 / n, 1.0 / n, [k](int i, int j) {
+        return 0.01 * (std::cos(3 * k * i + 1) * std::cos(2 * k * j) + std::sin(k * (i - 2 * j)));
+    }));
+    map->periodic = periodic;
     return map;
 }
 
@@ -102,7 +101,7 @@ void bounds(const char* name, bool sharp) {
 
 }  // namespace
 
-TESTS {
+TEST(all_indenter) {
     for (const ShapeRow& row : kShapes) {
         derivatives(row.name);
         bounds(row.name, false);

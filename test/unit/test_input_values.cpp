@@ -27,7 +27,7 @@ std::vector<double> heights() {
 }
 
 // Each coordinate in its own unit, each running up or down: where a point lies and how high it is, in every run's unit.
-void units_and_directions() {
+TEST(units_and_directions) {
     const std::vector<std::pair<const char*, double>> units = {{"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}, {"inch", 0.0254}};
     for (const auto& [wanted, metre] : units)
         for (std::size_t k = 0; k < units.size(); ++k)
@@ -54,7 +54,7 @@ void units_and_directions() {
 }
 
 // The numbers of every type, as they are and packed, and what each type has for "nothing was written".
-void types() {
+TEST(types) {
     const std::vector<std::tuple<nc_type, double, bool>> all = {{NC_DOUBLE, NC_FILL_DOUBLE, true},
                                                                 {NC_FLOAT, static_cast<double>(NC_FILL_FLOAT), true},
                                                                 {NC_INT, static_cast<double>(NC_FILL_INT), true},
@@ -110,7 +110,7 @@ void types() {
 }
 
 // Every column of every asperity, each column in a unit of its own.
-void lists() {
+TEST(lists) {
     struct Column {
         const char *name, *unit;
         double factor;  // to mm
@@ -197,7 +197,7 @@ void lists() {
     }));
 }
 
-void texts() {
+TEST(texts) {
     // A matrix is row by row from y = 0; one spacing, L over its columns.
     const HeightMap m = read_heights(folder.write("m.txt", "1 2 3 4 5\n6 7 8 9 10\n-11 +12 1.3d1 14e0 15.5\n"), 10.0);
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 2 && m.dy == 2 && m.x0 == 0 && m.y0 == 0 && !m.periodic);
@@ -234,10 +234,3 @@ void texts() {
 }
 
 }  // namespace
-
-TESTS {
-    units_and_directions();
-    types();
-    lists();
-    texts();
-}

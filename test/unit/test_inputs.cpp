@@ -27,7 +27,7 @@ std::string heights_file(const std::string& name, std::vector<double> x, std::ve
     return write(folder / name, Dimensions{{"y", 3}, {"x", 5}}, all, format);
 }
 
-void bad_heights_from_netcdf() {
+TEST(bad_heights_from_netcdf) {
     const std::vector<double> x = counted(5, 0, 0.1), y = counted(3, 0, 0.1);
     std::vector<double> uneven = x;
     uneven[2] += 1e-6;
@@ -73,7 +73,7 @@ void bad_heights_from_netcdf() {
     REFUSED(read_heights(folder / "absurd", 1.0), ": a height map of 2000000000 x 2000000000 points needs 3.2e+10 GB; this machine has ");
 }
 
-void heights_from_text() {
+TEST(heights_from_text) {
     const HeightMap m = read_heights(RSC_TEST_DATA "/heights.txt", 8.0);
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 1.6 && m.dy == 1.6 && m.x0 == 0 && !m.periodic);
     CHECK(m(1, 0) == 1.5e-3 && m(3, 0) == 3 && m(2, 1) == 6.25 && m(3, 2) == -11);
@@ -109,7 +109,7 @@ void heights_from_text() {
 }
 
 // One separator throughout; decimal commas between semicolons.
-void separators() {
+TEST(separators) {
     const auto second = [](const char* content) { return read_heights(write("t", content), 5.0)(1, 2); };
     CHECK(second("1 2\t3 4 5\n1 2 3 4 5\n1 2.5  3 4 5\n") == 2.5);
     CHECK(second("1,2, 3 ,4,5\n1,2,3,4,5,\n1,2.5,3,4,5\n") == 2.5);
@@ -138,7 +138,7 @@ std::string asperities_file(std::vector<double> x, std::vector<double> r) {
                                        {"asperity_radius", NC_DOUBLE, {r.size() == 3 ? "asperity" : "other"}, r}});
 }
 
-void asperities() {
+TEST(asperities) {
     const Asperities text = read_asperities(RSC_TEST_DATA "/asperities.txt");
     CHECK(text.size() == 3 && text.x[2] == 0.4 && text.y[2] == 0.9 && text.z[1] == -0.001 && text.radius[1] == 0.15);
     CHECK(text.kappa1.empty() && text.biharmonic.empty());
@@ -157,10 +157,3 @@ void asperities() {
 }
 
 }  // namespace
-
-TESTS {
-    bad_heights_from_netcdf();
-    heights_from_text();
-    separators();
-    asperities();
-}

@@ -15,7 +15,7 @@ constexpr double kSum = 1e-12;                      // of 1/L: what the lattice 
 constexpr double kSelf = -3.900264920001955886982;  // 4 zeta(1/2) beta(1/2), the square lattice's own sum
 
 // Of the square lattice: four sublattices make one of half the side, two one that is turned by 45 degrees.
-void closed_forms() {
+TEST(closed_forms) {
     for (double L : {1.0, 2.5e-3, 1e4}) {
         const Lattice square({L, L});
         const double root = std::sqrt(2.0);
@@ -49,7 +49,7 @@ double ewald(double x, double y, double Lx, double Ly, double b) {
     return sum;
 }
 
-void lattice_sums() {
+TEST(lattice_sums) {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (double aspect : {1.0, 1.7, 4.0, 0.3}) {
@@ -81,7 +81,7 @@ void lattice_sums() {
 }
 
 // Heaps of ellipses in the middle of the cell, and moved across its borders; a chain of circles around the torus.
-void spots_wrap() {
+TEST(spots_wrap) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
     const Period period{1, 1};
@@ -109,9 +109,3 @@ void spots_wrap() {
 }
 
 }  // namespace
-
-TESTS {
-    closed_forms();
-    lattice_sums();
-    spots_wrap();
-}

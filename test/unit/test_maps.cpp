@@ -44,7 +44,7 @@ HeightMap in_micrometres(const std::string& path, const std::string& channel = "
     return read_heights(path, std::nullopt, "um", channel, missing);
 }
 
-void gwy() {
+TEST(gwy) {
     const Map map = sample();
     Map in_own_units = map;
     in_own_units.dx *= 1e3, in_own_units.dy *= 1e3;
@@ -155,7 +155,7 @@ void sdf_type(int type, T missing) {
     }
 }
 
-void sdf() {
+TEST(sdf) {
     const Map map = sample();
     sdf_type<std::uint8_t>(0, 255);
     sdf_type<std::uint16_t>(1, 65535);
@@ -222,7 +222,7 @@ void sdf() {
 }
 
 // The example of input/README: both files are one map, and it is what make_map.py says.
-void example() {
+TEST(example) {
     const std::string input = RSC_TEST_DATA "/../../input/map/";
     HeightMap sdf = read_heights(input + "map.sdf", std::nullopt, "um", "", Missing::fill);
     const HeightMap gwy = read_heights(input + "map.gwy", std::nullopt, "um", "", Missing::fill);
@@ -242,9 +242,3 @@ void example() {
 }
 
 }  // namespace
-
-TESTS {
-    gwy();
-    sdf();
-    example();
-}

@@ -3,6 +3,7 @@
 
 #include "check.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 #include "rough/defects.hpp"
 #include "rough/form.hpp"
 #include "rough/synthesis.hpp"
@@ -15,12 +16,7 @@ constexpr double kPi = std::numbers::pi;
 
 template <class Height>
 HeightMap make(int nx, int ny, double dx, double dy, Height height) {
-    HeightMap map;
-    map.allocate(nx, ny, nx + 3);  // rows with padding, to detect a confusion of width and stride
-    map.dx = dx, map.dy = dy;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) map.row(j)[i] = height(i * dx, j * dy);
-    return map;
+    return height_map(nx, ny, dx, dy, [&](int i, int j) { return height(i * dx, j * dy); });
 }
 
 double largest(const HeightMap& map) {
@@ -30,7 +26,7 @@ double largest(const HeightMap& map) {
     return most;
 }
 
-void forms() {
+TEST(forms) {
     constexpr double kRemoved = 1e-10;  // of the height the form spans
     const auto plane = [](double x, double y) { return 1e3 + 0.3 * x - 0.2 * y; };
     HeightMap tilted = make(80, 50, 0.1, 0.15, plane);
@@ -103,7 +99,7 @@ void forms() {
     CHECK_THROWS(fill_missing(nothing), Error);
 }
 
-void missing_points() {
+TEST(missing_points) {
     // The difference equation is exact for harmonic polynomials up to the third degree; on rectangular pixels up to the second.
     const auto cubic = [](double x, double y) { return 1e3 + x * x * x - 3 * x * y * y + 0.5 * (x * x - y * y) + x * y - 2 * x; };
     const auto square = [](double x, double y) { return x * x - y * y + 3 * x * y + y; };
@@ -135,7 +131,7 @@ void missing_points() {
     for (int j = 10; j < 20; ++j) CHECK_CLOSE(edge(0, j), 2.0 * j, 1e-8);
 }
 
-void filtering() {
+TEST(filtering) {
     CHECK_RELATIVE(gaussian_transmission(0.8, 2 * kPi / 0.8), 0.5, 1e-14);
     // A wave of the cutoff's length comes out at half its height (on a periodic map, where it is a mode).
     HeightMap wave = make(64, 48, 0.1, 0.2, [](double x, double y) { return std::cos(2 * kPi * (2 * x / 6.4 + 3 * y / 9.6)); });
@@ -178,7 +174,7 @@ void filtering() {
 
 // Spectrum -> surface -> spectrum, taken as a measured map is: with a window. Means over surfaces, because one alone has a sampling
 // error of 0.01 to 0.03 in hurst, which its own error must tell.
-void circle() {
+TEST(circle) {
     constexpr int kSurfaces = 8;
     for (const double hurst : {0.2, 0.5, 0.8, 1.0})
         for (const auto& [low, high] : {std::pair{2.0, 100.0}, std::pair{8.0, 128.0}, std::pair{16.0, 80.0}})
@@ -215,10 +211,3 @@ void circle() {
 }
 
 }  // namespace
-
-TESTS {
-    forms();
-    missing_points();
-    filtering();
-    circle();
-}

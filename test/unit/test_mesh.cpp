@@ -84,7 +84,7 @@ void check_errors(const Points& p, const char* name, bool on_mesh = true) {
     if (check::failures > before) std::printf("  (in %s)\n", name);
 }
 
-void shapes() {
+TEST(shapes) {
     check_errors(uniform_points(4000, 1), "uniform");
     check_errors(uniform_points(20000, 2), "uniform");
     check_errors(uniform_points(300, 3), "few");
@@ -103,7 +103,7 @@ void shapes() {
     check_errors(far, "far point");
 }
 
-void tiny() {
+TEST(tiny) {
     for (std::size_t n : {0, 1, 2, 3, 100}) check_errors(uniform_points(n, 11), "tiny", false);
     const Points place{Vector(1000, 0.3), Vector(1000, -2.0)};
     MeshPotential potential(1000, place.x.data(), place.y.data(), 1e-6);
@@ -111,7 +111,7 @@ void tiny() {
     CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return value == 0; }));
 }
 
-void same_bits_for_any_threads() {
+TEST(same_bits_for_any_threads) {
     for (const Points& p : {uniform_points(12000, 20), clustered_points(6000, 21)}) {
         const Vector f = random_forces(p.size(), 22, true);
         Vector first;
@@ -127,9 +127,3 @@ void same_bits_for_any_threads() {
 }
 
 }  // namespace
-
-TESTS {
-    shapes();
-    tiny();
-    same_bits_for_any_threads();
-}

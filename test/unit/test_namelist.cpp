@@ -3,6 +3,7 @@
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "error.hpp"
+#include "unit/refused.hpp"
 
 using namespace rsc;
 
@@ -10,13 +11,7 @@ namespace {
 
 // What read_case has against a text; empty when it has nothing.
 std::string complaint(const std::string& text, const Options& options = {}) {
-    try {
-        read_case_text(text, "case.nml", options);
-        return {};
-    } catch (const Error& error) {
-        check::that(error.kind() == Failure::bad_input, "the failure is bad_input", __FILE__, __LINE__);
-        return error.what();
-    }
+    return refusal([&] { read_case_text(text, "case.nml", options); });
 }
 
 void expect_text(const std::string& got, const std::string& expected, int line) {
@@ -24,7 +19,7 @@ void expect_text(const std::string& got, const std::string& expected, int line) 
     if (got != expected) std::printf("  got:      %s\n  expected: %s\n", got.c_str(), expected.c_str());
 }
 #define CHECK_TEXT(got, expected) expect_text((got), (expected), __LINE__)
-void test_values() {
+TEST(test_values) {
     // More of them against the Fortran runtime's own: fortran/test_namelist.f90.
     const std::pair<const char*, double> reals[] = {
         {"1.5+3", 1500}, {"1.5-3", 1.5e-3}, {"1Q0", 1.0}, {"-Infinity", -Case::kInfinity}, {"1e999", Case::kInfinity},
@@ -43,7 +38,7 @@ void test_values() {
     for (const char* word : {"", ".", "1", "yes", "..t"}) CHECK(!namelist::to_logical(word));
 }
 
-void test_syntax() {
+TEST(test_syntax) {
     const auto read = [](const std::string& text) { return read_case_text(text, "case.nml").settings; };
     const Case c = read(
         "A rough sphere, after Smith & Wesson\n"
@@ -65,7 +60,7 @@ void test_syntax() {
 }
 
 // Values left out between commas keep what stands there, however many follow each other.
-void test_nulls() {
+TEST(test_nulls) {
     const auto pdf = [](const std::string& text) {
         return read_case_text("&output pdf_levels = " + text + " /", "case.nml").settings.output.pdf_levels;
     };
@@ -103,7 +98,7 @@ std::string another_value(const Key& key, int salt) {
     return text;
 }
 
-void test_round_trip() {
+TEST(test_round_trip) {
     CHECK_TEXT(effective_namelist(read_namelist(effective_namelist(Case{})).settings), effective_namelist(Case{}));
     for (int salt = 0; salt < 40; ++salt) {
         std::string text;
@@ -137,7 +132,7 @@ void test_round_trip() {
     }
 }
 
-void test_study() {
+TEST(test_study) {
     const Reading reading = read_namelist(
         "&study surface%sigma = 0.001, 0.01, 0.1  solids%R(2) = 2*2.5, 5\n solver%method = 'direct', 'mesh'  mode = 'product' "
         "/\n");
@@ -160,7 +155,7 @@ void test_study() {
     CHECK_TEXT(member_file("a.b/result", 12, 2000), "a.b/result_0012");
 }
 
-void test_options() {
+TEST(test_options) {
     const auto parse = [](std::vector<const char*> words) {
         words.insert(words.begin(), "rsc");
         return parse_options(static_cast<int>(words.size()), words.data());
@@ -175,12 +170,3 @@ void test_options() {
 }
 
 }  // namespace
-
-TESTS {
-    test_values();
-    test_syntax();
-    test_nulls();
-    test_round_trip();
-    test_study();
-    test_options();
-}

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of order one
 
-void test_two_bodies() {
+TEST(test_two_bodies) {
     // Steel on steel, by hand: E/(2 (1 - nu^2)) = 210000/1.82 = 115384.615...
     CHECK_RELATIVE(equivalent_modulus({210e3, 210e3}, {0.3, 0.3}), 115384.61538461539, 1e-14);
     CHECK_RELATIVE(equivalent_modulus({78e3, kInf}, {0.42, 0.0}), 78e3 / (1 - 0.1764), 1e-15);
@@ -30,7 +30,7 @@ void test_two_bodies() {
 }
 
 // The nearest level, the first of two that are equally near: rounding does not decide.
-void test_nearest_level() {
+TEST(test_nearest_level) {
     for (const double rounding : {-1e-14, 0.0, 1e-14}) {
         CHECK(nearest_level({4, 3 + rounding, 2 - rounding, 1}, 2.5) == 1);
         CHECK(nearest_level({1, 2 - rounding, 3 + rounding, 2, 1}, 2.5) == 1 && nearest_level({3, 1 + rounding, 1}, 1) == 1);
@@ -51,7 +51,7 @@ Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale)
     return distributions_of(bins, level, 0);
 }
 
-void test_scale_fits() {
+TEST(test_scale_fits) {
     const int n = 20000;
     const PdfBins bins{60, 5.0, 8.0};
     // Midpoint quantiles miss the moments by O(log n / n) and the cumulative by 1/(2n).
@@ -83,7 +83,7 @@ double simpson(double x0, double x1, double alpha, double beta, double delta) {
     return sum * h / 3;
 }
 
-void test_gamma_fit() {
+TEST(test_gamma_fit) {
     // Known values: the exponential distribution, and erf(x).
     for (double x : {1e-6, 0.3, 1.0, 1.9, 2.5, 7.0, 40.0}) {
         CHECK_RELATIVE(generalised_gamma_cdf(x, 0, 1, 1), -std::expm1(-x), 1e-13);
@@ -113,7 +113,7 @@ void test_gamma_fit() {
 
 // Standard errors of the generalised gamma against Fisher's information in (alpha, beta, delta) themselves, and of gamma by its own
 // derivatives: other parameters than those of the fit.
-void test_gamma_information() {
+TEST(test_gamma_information) {
     const double alpha = 0.9, beta = 1.3, delta = 2.5, n = 7000;
     constexpr std::size_t bins = 25;
     const double width = 0.3;
@@ -175,7 +175,7 @@ void test_gamma_information() {
 __extension__ using Wide = __int128;
 
 // Against integers: in any order, in any groups.
-void test_exact_sums() {
+TEST(test_exact_sums) {
     constexpr double kScale = 1e-3;
     const double quantum = quantum_of(kScale, 64);
     std::mt19937_64 random(7);
@@ -206,12 +206,3 @@ void test_exact_sums() {
 }
 
 }  // namespace
-
-TESTS {
-    test_two_bodies();
-    test_nearest_level();
-    test_scale_fits();
-    test_gamma_fit();
-    test_gamma_information();
-    test_exact_sums();
-}

@@ -99,7 +99,7 @@ void check_all_products(const Points& p, const char* name, bool in_single = true
     if (check::failures > before) std::printf("  (in %s, n = %zu)\n", name, n);
 }
 
-void sizes_and_shapes() {
+TEST(sizes_and_shapes) {
     for (std::size_t n : {0, 1, 2, 3, 15, 16, 17, 31, 100, 511, 512, 513, 1300}) check_all_products(random_points(n, 1), "uniform");
     check_all_products(random_points(300, 2, 1e-7, 0), "tiny lengths");
     check_all_products(random_points(300, 3, 1e150, 0), "huge lengths", false);
@@ -114,7 +114,7 @@ void sizes_and_shapes() {
 }
 
 // Points at the same place do not act on each other, and all points together at one place not at all.
-void coincident() {
+TEST(coincident) {
     Points p = random_points(100, 9);
     for (std::size_t i = 0; i < 40; ++i) p.x[i + 50] = p.x[i], p.y[i + 50] = p.y[i];
     check_all_products(p, "coincident pairs");
@@ -201,7 +201,7 @@ void mesh_window_loops(const PairKernels& k) {
 }
 
 // Every table against plain sums, the loops by themselves: 48 points i, 80 points j, already padded.
-void instruction_sets() {
+TEST(instruction_sets) {
     constexpr std::size_t ni = 48, nj = 80, n = ni + nj;
     const Points p = random_points(n, 12);
     std::vector<double> exact, size;
@@ -261,7 +261,7 @@ void instruction_sets() {
     CHECK(pair_kernels(pair_instruction_set()) == &pair_kernels());
 }
 
-void bad_coordinates() {
+TEST(bad_coordinates) {
     Points p = random_points(5, 15);
     p.y[3] = std::nan("");
     PairSums sums(unit_kernel());
@@ -277,11 +277,3 @@ void bad_coordinates() {
 }
 
 }  // namespace
-
-TESTS {
-    std::printf("chosen: %s\n", pair_instruction_set());
-    sizes_and_shapes();
-    coincident();
-    instruction_sets();
-    bad_coordinates();
-}

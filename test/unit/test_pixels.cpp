@@ -24,7 +24,7 @@ double integrated(double x, double y, double a, double b, int m) {
     return sum * a * b / (m * m);
 }
 
-void kernel() {
+TEST(kernel) {
     // In the middle of a square of side 1 the four corners give 4 ln(1 + sqrt 2).
     CHECK_RELATIVE(love(0, 0, 0.5, 0.5), 4 * std::log(1 + std::numbers::sqrt2), 1e-15);
     // A rectangle in its middle: 4 [a asinh(b/a) + b asinh(a/b)].
@@ -71,7 +71,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
     return std::sqrt(d / s);
 }
 
-void products() {
+TEST(products) {
     const double E = 3.0, dx = 0.01;
     for (const double dy : {0.01, 0.024}) {
         const struct { int spots, radius, extent; } families[] = {{1, 1, 4}, {3, 6, 40}, {40, 4, 900}, {1, 30, 60}, {8, 9, 1200}};
@@ -136,8 +136,3 @@ void products() {
 }
 
 }  // namespace
-
-TESTS {
-    kernel();
-    products();
-}

@@ -103,7 +103,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
 
 }  // namespace
 
-TESTS {
+TEST(all_products) {
     against_plain_sums(make_kernel(Interaction::point, kE), 40, "free");
     against_plain_sums(make_kernel(Interaction::point, kE), 900, "free");
     against_plain_sums(make_kernel(Interaction::none, kE), 900, "no interaction");

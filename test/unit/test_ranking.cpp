@@ -39,7 +39,7 @@ void walk(const Asperities& asperities, double R, double step, int n, double rea
 
 }  // namespace
 
-TESTS {
+TEST(all_ranking) {
     const Asperities rough = random_asperities(2000, 0.005, 0.01, 1e-3, 0.3, 1);
     constexpr double flat = std::numeric_limits<double>::infinity();
     for (const double R : {0.05, 0.3, 2.5, 1e3, flat}) {  // the first two leave most of the asperities outside of the sphere

@@ -5,6 +5,7 @@
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "error.hpp"
+#include "unit/refused.hpp"
 
 using namespace rsc;
 
@@ -23,16 +24,6 @@ std::string unescaped(const std::string& text) {
         }
     }
     return result;
-}
-
-template <class Act>
-std::string refusal(Act act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.kind() == Failure::bad_input ? error.what() : std::string("of another kind: ") + error.what();
-    }
-    return {};
 }
 
 // What the case is refused for, its study expanded.
@@ -71,7 +62,7 @@ bool says(const std::string& messages, const std::string& expected) {
     }
 }
 
-void table() {
+TEST(table) {
     std::ifstream in(RSC_TEST_DATA "/refusals.txt");
     std::vector<std::string> set;
     int refused = 0, taken = 0;
@@ -90,7 +81,7 @@ void table() {
 }
 
 // What is too long for a table.
-void large() {
+TEST(large) {
     const std::string most(namelist::kLargestText, ' ');
     CHECK(of_case(most + " ", {}).find("4194304") != std::string::npos);
     CHECK(of_case("&run seed = 1 /" + most.substr(15), {}).empty());
@@ -108,7 +99,7 @@ void large() {
 }
 
 // Keys by name, as the libraries set and get them.
-void by_name() {
+TEST(by_name) {
     Case c;
     const auto refused = [](const auto& act, const char* word) {
         const std::string got = refusal(act);
@@ -140,7 +131,7 @@ void by_name() {
 }
 
 // Warnings, of what is taken nevertheless.
-void warnings() {
+TEST(warnings) {
     const auto warned = [](const std::string& text) {
         std::string all;
         for (const std::string& w : read_case_text(text, "case.nml").warnings) all += w + "\n";
@@ -155,10 +146,3 @@ void warnings() {
 }
 
 }  // namespace
-
-TESTS {
-    table();
-    large();
-    by_name();
-    warnings();
-}

@@ -5,6 +5,7 @@
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "error.hpp"
+#include "unit/refused.hpp"
 #include "version.h"
 
 using namespace rsc;
@@ -12,7 +13,7 @@ using namespace rsc;
 namespace {
 
 // Each key is in each text, and a key's own description is the one it has in the whole.
-void texts() {
+TEST(texts) {
     const std::string all = describe(""), page = manual_page(), standard = effective_namelist(Case{});
     for (const Key& key : registry()) {
         const std::string one = describe(std::string("&") + key.group + "%" + key.name), head = std::string("&") + key.group + "\n";
@@ -29,13 +30,8 @@ void texts() {
 std::string refusal(const std::string& name, const std::string& value) {
     Case c;
     if (name.starts_with("indenter%radii(")) c.indenter.radii[0] = c.indenter.radii[1] = 1.0;  // they are given both
-    try {
-        set_key(c, name, value);
-    } catch (const Error& error) {
-        return error.kind() == Failure::bad_input ? error.what() : "of another kind";
-    }
-    if (get_key(c, name) != value) return "taken as " + get_key(c, name);
-    return {};
+    const std::string message = ::refusal([&] { set_key(c, name, value); });
+    return message.empty() && get_key(c, name) != value ? "taken as " + get_key(c, name) : message;
 }
 
 void expect(const std::string& name, const std::string& value, const std::string& word) {
@@ -77,7 +73,7 @@ void bounds_of(const Key& key, const std::string& name) {
     refused(std::nan(""));
 }
 
-void bounds() {
+TEST(bounds) {
     for (const Key& key : registry()) {
         const std::string name = std::string(key.group) + "%" + key.name, size = std::to_string(key.size);
         if (key.type == Type::integer || key.type == Type::real)
@@ -100,8 +96,3 @@ void bounds() {
 }
 
 }  // namespace
-
-TESTS {
-    texts();
-    bounds();
-}

@@ -10,7 +10,7 @@ using namespace rsc;
 namespace {
 
 // Each remark is there beyond its threshold and not at it, with levels made up for it.
-void thresholds() {
+TEST(thresholds) {
     Job job;
     job.sigma = 2;
     using V = LevelValues;
@@ -49,7 +49,7 @@ void thresholds() {
 }
 
 // Surfaces beyond 0.02 in skewness or 0.05 in kurtosis are counted; for Gaussian heights nothing is said.
-void heights_missed() {
+TEST(heights_missed) {
     Job job;
     job.spectrum.emplace();
     const auto remark = [&](double skewness, double kurtosis) {
@@ -67,7 +67,7 @@ void heights_missed() {
 }
 
 // Pastewka and Robbins' criterion for two flats: h' z0/(2 l) (h'^2/(h'' z0))^(2/3) < pi (3/16)^(2/3), l = w/E*.
-void sticks() {
+TEST(sticks) {
     Job job;
     job.indenter = {100.0, 1.0};
     job.theory.emplace();
@@ -85,7 +85,7 @@ void sticks() {
 }
 
 // The remark on E* z0^2/w below 8 pixels.
-void edges() {
+TEST(edges) {
     Job job;
     job.indenter = {100.0, 1.0};
     job.settings.solids.adhesion_range = 1e-3;
@@ -101,7 +101,8 @@ void edges() {
 
 // A list's candidates are counted; a synthetic surface's are the area under the sphere of a Gaussian surface over that of a summit: the
 // share of it above Z0 between flats, 2 pi R times its mean excess over Z0 under a sphere, at most all. Time grows with the realizations.
-void forecast(const Folder& folder) {
+TEST(forecast) {
+    const Folder folder;
     std::ofstream list(folder / "many.txt");
     for (int k = 0; k < 300; ++k) list << 0.05 * (k % 20) << ' ' << 0.07 * (k / 20) << ' ' << 0.01 * std::sin(7.3 * k) << " 0.05\n";
     list.close();
@@ -149,12 +150,3 @@ void forecast(const Folder& folder) {
 }
 
 }  // namespace
-
-TESTS {
-    const Folder folder;
-    thresholds();
-    heights_missed();
-    sticks();
-    edges();
-    forecast(folder);
-}

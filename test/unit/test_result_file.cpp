@@ -8,6 +8,7 @@
 #include "file/netcdf_writer.hpp"
 #include "file/result.hpp"
 #include "result_reader.hpp"
+#include "unit/refused.hpp"
 #include "unit/sample_result.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -81,18 +82,14 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     CHECK(file.values("height_x")[1] == 1.0 / sample::kPoints);
 }
 
-// Why read_sums refuses; "" if it does not.
+// Why read_sums refuses.
 std::string refusal(const std::string& path, const ObserveOptions& options, std::size_t steps) {
-    try {
-        read_sums(path, options, steps);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
+    return ::refusal([&] { read_sums(path, options, steps); });
 }
 
 // Sums read back are those that were written; a file whose axes are others is not taken for one of the case.
-void test_sums(const Folder& folder) {
+TEST(test_sums) {
+    const Folder folder;
     const Result r = sample::result(3);
     const std::string path = folder / "sums.nc", one = folder / "one.nc";
     write_result(r, path, {});
@@ -125,7 +122,8 @@ void test_sums(const Folder& folder) {
     CHECK(count && count->levels == sample::kSteps && count->failed == 1);
 }
 
-void test_edges(const Folder& folder) {
+TEST(test_edges) {
+    const Folder folder;
     // No contact anywhere, no distributions, a flat punch beside the map: the file is still one.
     Case c = sample::make_case(1);
     c.output.pdf_levels = {};
@@ -151,29 +149,38 @@ void test_edges(const Folder& folder) {
     CHECK(file.text("", "seed") == "1234567890123");
 }
 
+// A comparison whose elements did not converge, with the last iterate or without any, leaves the file: what there is, and nothing else.
+TEST(test_failed_comparison) {
+    const Folder folder;
+    Result r = sample::result(1);
+    const double none = std::nan("");
+    r.compared.levels = {{.step = 0, .force = 2}, {.step = 1, .force = none, .area = none, .area_pixels = none}};
+    write_result(r, folder / "compared.nc", {});
+    const Reader file(folder / "compared.nc");
+    CHECK(file.values("compare_step") == (std::vector<double>{1, 2}));
+    CHECK(file.values("compare_force") == (std::vector<double>{2, NC_FILL_DOUBLE}));
+    for (const char* name : {"compare_contact_area", "compare_contact_area_pixels", "area_error", "contacts_error"})
+        CHECK(file.values(name)[1] == NC_FILL_DOUBLE);
+    CHECK(file.values("force").size() == sample::kSteps);
+}
+
 // Numbers that are not finite never reach a file. Obstacles of the file system: test/cli/faults.sh, files.sh.
-void test_not_finite(const Folder& folder) {
+TEST(test_not_finite) {
+    const Folder folder;
     const std::string path = folder / "never.nc";
     for (const char* variable : {"contact_force", "map_pressure", "height"}) {
         Result r = sample::result(1);
         (variable[0] == 'c'   ? r.contacts.force[5]
          : variable[0] == 'm' ? r.observations.map_pressure[0]
                               : r.heights->row(2)[3]) = std::nan("");
-        try {
-            write_result(r, path, {});
-            CHECK(!"refused");
-        } catch (const Error& e) {
-            CHECK(e.kind() == Failure::internal && std::strstr(e.what(), variable) && !fs::exists(path));
-        }
+        const std::string message = ::refusal([&] { write_result(r, path, {}); }, Failure::internal);
+        CHECK(message.find(variable) != std::string::npos && !fs::exists(path));
     }
 }
 
 }  // namespace
 
-TESTS {
+TEST(result_file) {
     for (const auto& [format, compression] : {std::pair{Format::netcdf4, 4}, {Format::netcdf4, 0}, {Format::cdf5, 4}, {Format::classic, 4}})
         test_one_realization(Folder(), format, compression);
-    test_sums(Folder());
-    test_edges(Folder());
-    test_not_finite(Folder());
 }

@@ -106,7 +106,7 @@ void split(int nx, int ny, double aspect, double tolerance, const std::function<
 
 }  // namespace
 
-TESTS {
+TEST(all_sparse_plane) {
     stencil(48, 40);
     stencil(37, 19);
     split(128, 128, 1, 5e-3);

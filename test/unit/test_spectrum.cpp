@@ -45,7 +45,7 @@ Moments by_quadrature(const Spectrum& s) {
     return {scale * moment(0), scale * moment(2), scale * moment(4)};
 }
 
-void closed_forms() {
+TEST(closed_forms) {
     // H = 0 and H = 1 are where p = 2H turns a power into a logarithm; just beside them nothing may be lost to cancellation.
     for (const double hurst : {0.0, 1e-9, 0.3, 0.5, 0.8, 1.0 - 1e-12, 1.0})
         for (const bool plateau : {false, true}) {
@@ -63,7 +63,7 @@ void closed_forms() {
     CHECK_RELATIVE(m.mean_spacing() * m.mean_spacing() * m.summit_density(), 1.0, 1e-14);
 }
 
-void band_edges() {
+TEST(band_edges) {
     const Spectrum s = spectrum(0.8, 5, 13, false);
     CHECK(relative_psd(s, 4, 2) == 0.0);
     CHECK(relative_psd(s, 3, 4) == 1.0);  // at kl: inside
@@ -86,7 +86,7 @@ void band_edges() {
 
 // A table with unlike steps and slopes, rising and falling, and a gap: its integrals by Simpson's rule, its values by hand, and the
 // moments of the surfaces made from it by sums over all modes of the plane.
-void tables() {
+TEST(tables) {
     const std::vector<double> k{2, 3.5, 5, 9, 10, 17}, psd{0.4, 0.9, 0.2, 0, 0.3, 0.05};
     const auto table = std::make_shared<const SpectrumTable>(k, psd);
     CHECK(table->lowest() == 2 && table->highest() == 17 && table->largest() == 0.9);
@@ -157,7 +157,7 @@ void tables() {
     CHECK_RELATIVE(named.mean_radius(), 0.737 / std::sqrt(5.0), 1e-15);
 }
 
-void elementary_functions() {
+TEST(elementary_functions) {
     double worst_log = 0, worst_exp = 0, worst_trig = 0;
     for (int i = 1; i < 200000; ++i) {
         const double u = i / 200000.0, x = std::exp(60 * u - 36);
@@ -177,7 +177,7 @@ void elementary_functions() {
     CHECK(vector_math::log_positive(1.0) == 0.0);
 }
 
-void noise_is_philox() {
+TEST(noise_is_philox) {
     // The words of a mode are Random123's for key = seed, counter = (kx, ky, realization); every bit of all four counts.
     const NoiseKey key{.seed = 0x123456789abcdef, .realization = -3};
     const std::int32_t kx = 17, ky = -5;
@@ -205,11 +205,3 @@ void noise_is_philox() {
 }
 
 }  // namespace
-
-TESTS {
-    closed_forms();
-    band_edges();
-    tables();
-    elementary_functions();
-    noise_is_philox();
-}

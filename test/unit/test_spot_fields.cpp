@@ -23,7 +23,7 @@ double boussinesq(double f, double a, double d, double E_star) {
     return p0 / (2 * a * E_star) * sum * 2 * half / n;
 }
 
-void test_one_spot() {
+TEST(test_one_spot) {
     const double f = 3.0, a = 0.02, E_star = 7e4;
     for (const double ratio : {0.0, 0.3, 0.9, 0.999, 1.0, 1.001, 1.1, 2.0, 5.0, 9.9, 10.1, 30.0}) {
         CHECK_RELATIVE(spot_deflection(f, a, ratio * a, E_star), boussinesq(f, a, ratio * a, E_star), 1e-9);
@@ -39,7 +39,7 @@ void test_one_spot() {
 }
 
 // Spots between two flats: the field repeats with the surface. Pixels: physics/test_element_levels.
-void test_fields() {
+TEST(test_fields) {
     const double E_star = 7e4;
     Level level;
     level.add_contact(0, 0.3, 0.9, 2.0, 0.02, 1e-3), level.add_contact(1, 1.9, 0.05, 1.0, 0.01, 1e-3);
@@ -66,7 +66,7 @@ void test_fields() {
 }
 
 // The moment about the tip: a force beside it turns the flat about the other axis; a flat is a sphere without end.
-void test_moment() {
+TEST(test_moment) {
     Level level;
     level.add_contact(0, 0.6, 0.2, 3.0, 0.01, 1e-3);
     const Indenter flat{7e4, std::numeric_limits<double>::infinity(), 0.5, 0.5}, beside{7e4, flat.shape->hertz_radius(), 0.6, 0.5},
@@ -80,9 +80,3 @@ void test_moment() {
 }
 
 }  // namespace
-
-TESTS {
-    test_fields();
-    test_moment();
-    test_one_spot();
-}

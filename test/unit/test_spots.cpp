@@ -23,7 +23,7 @@ Spot image(double x, double y, double r, double factor, double turn) {
             turn};
 }
 
-void two_circles_and_their_images() {
+TEST(two_circles_and_their_images) {
     for (double d : {0.0, 0.3, 0.31, 0.7, 1.0, 1.6999, 1.7001, 3.0})
         for (double turn : {0.0, 0.4, -1.2, pi / 2}) {
             const double area = pi * (1 + 0.49) - lens(1, 0.7, d);
@@ -36,7 +36,7 @@ void two_circles_and_their_images() {
 }
 
 // Two roots close together, found between the samples of a border: a sliver of 1e-6 of a spot.
-void slivers() {
+TEST(slivers) {
     for (double deep : {1e-2, 1e-3, 1e-4})
         for (double turn = 0; turn < 0.2; turn += 0.013) {
             const double d = 2 - deep;
@@ -46,7 +46,7 @@ void slivers() {
 }
 
 // Crossed ellipses, one within another, and one that all share, counted on a fine grid.
-void against_counting() {
+TEST(against_counting) {
     const std::vector<Spot> spots{
         {0, 0, 1.0, 0.3, 0.2}, {0.1, 0.1, 0.9, 0.2, 1.7}, {0.4, 0.1, 0.1, 0.05, 0}, {-0.5, -0.4, 0.6, 0.5, -0.7}, {3, 0, 0.5, 0.5, 0}};
     constexpr int n = 3000;
@@ -67,10 +67,7 @@ void against_counting() {
 
 }  // namespace
 
-TESTS {
-    two_circles_and_their_images();
-    slivers();
-    against_counting();
+TEST(all_spots) {
     CHECK(union_area({}) == 0);
     CHECK(union_area({circle(0, 0, 0), circle(0, 0, 1)}) == pi);
 }

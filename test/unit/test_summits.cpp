@@ -95,7 +95,7 @@ std::array<double, 4> errors(const Asperities& a, const Waves& w) {
     return worst;
 }
 
-void against_the_fourier_sum() {
+TEST(against_the_fourier_sum) {
     const Spectrum s = small_spectrum(2, 16);
     const Waves w = waves_of(s, 5, 2);
     std::size_t fine_summits = 0;
@@ -128,7 +128,7 @@ void against_the_fourier_sum() {
 }
 
 // z = A cos(k(x - x0)) + B cos(k(y - y0)): one summit a cell, everything in closed form, on a grid with different steps.
-void closed_form() {
+TEST(closed_form) {
     Waves w;
     w.L = 3;
     const double k = 2 * kPi / w.L * 4, x0 = 0.1234, y0 = 0.3217, A = 0.02, B = 0.05;
@@ -155,7 +155,7 @@ void closed_form() {
 
 // A map that is not periodic and holds a polynomial of the stencil's degree: exact. An elongated summit alone has the biharmonic of the round
 // profile equivalent to it, a round one its own.
-void polynomial() {
+TEST(polynomial) {
     for (const bool round : {false, true}) {
         HeightMap map;
         map.allocate(25, 21, 25);
@@ -181,7 +181,7 @@ void polynomial() {
 
 // A summit is there once, also where two sides of the period meet: surfaces with summits reached from several starts, each summit in turn moved
 // onto the corner of the period, and around it.
-void once_each() {
+TEST(once_each) {
     long moved = 0, tried = 0;
     for (int k = 1; k <= 200; ++k) {
         const Spectrum s = small_spectrum(2, 5);
@@ -210,15 +210,11 @@ void once_each() {
 
 }  // namespace
 
-TESTS {
+TEST(all_summits) {
     {  // pits, saddles and points at the border of a body above are no summits
         Asperities none;
         for (const SecondOrder& second : {SecondOrder{1, 1, 0}, {-1, 1, 0}, {-HUGE_VAL, -1, 0}})
             CHECK(!append_summit(0, 0, 0, second, Curvature::geometric, none));
         CHECK(!append_summit(0, 0, HUGE_VAL, {-1, -1, 0}, Curvature::geometric, none) && none.size() == 0);
     }
-    against_the_fourier_sum();
-    closed_form();
-    polynomial();
-    once_each();
 }

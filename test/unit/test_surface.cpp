@@ -53,7 +53,7 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
     return z;
 }
 
-void against_cosines() {
+TEST(against_cosines) {
     // n = 30 has n = 2 L_lambda_s modes at the limit of the grid; 32 and 36 do not. All must follow the definition.
     for (const bool plateau : {false, true})
         for (const int n : {30, 32, 36}) {
@@ -87,7 +87,7 @@ std::complex<double> project(const HeightMap& map, int kx, int ky) {
     return sum / (static_cast<double>(map.nx) * map.ny);
 }
 
-void normalisation() {
+TEST(normalisation) {
     const Spectrum s{.L_lambda_l = 3, .L_lambda_s = 32, .sigma = 0.02};
     Moments sampled;
     for (const int n : {64, 128}) {  // 64: with modes at the limit of the grid
@@ -113,7 +113,7 @@ void normalisation() {
     CHECK(error > 1e-3);  // the surfaces do differ
 }
 
-void sampled_moments() {
+TEST(sampled_moments) {
     // Exact sums over modes against the heights themselves: derivatives of a band-limited map by projection on its modes.
     const Spectrum s{.L = 3.0, .L_lambda_l = 2, .L_lambda_s = 9, .sigma = 0.5};
     Moments sampled;
@@ -128,7 +128,7 @@ void sampled_moments() {
     CHECK_RELATIVE(sampled.m4, (m40 + m04 + 3 * m22) / 3, 1e-12);
 }
 
-void threads_give_the_same_bits() {
+TEST(threads_give_the_same_bits) {
     const Spectrum s{.L_lambda_l = 5, .L_lambda_s = 90};
     Moments m1, mt;
     const HeightMap one = synthesize(s, 250, Normalise::sample, 77, 8, &m1, 1);
@@ -142,10 +142,3 @@ void threads_give_the_same_bits() {
 }
 
 }  // namespace
-
-TESTS {
-    against_cosines();
-    normalisation();
-    sampled_moments();
-    threads_give_the_same_bits();
-}

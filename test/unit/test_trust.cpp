@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double kRounding = 1e-12;
 
 // 4 hides all, 1 hides 2 and 3, and the order of two does not matter.
-void statuses() {
+TEST(statuses) {
     using enum LevelStatus;
     const LevelStatus order[] = {converged, overlapping, not_unique, out_of_validity, not_converged};
     for (int a = 0; a < 5; ++a)
@@ -28,7 +28,7 @@ void statuses() {
 }
 
 // Levels that failed leave maps, radial means and distributions: of two realizations of which one failed, they are those of the other.
-void observed() {
+TEST(observed) {
     ObserveOptions options;
     options.map = make_map_grid(0, 0, 1, 1, 4);
     options.tip_x = options.tip_y = 0.5;
@@ -53,7 +53,7 @@ void observed() {
 }
 
 // What each spot has for itself adds up to the union; of two in one place one has all.
-void own_areas() {
+TEST(own_areas) {
     std::vector<Spot> spots;
     for (int k = 0; k < 40; ++k)
         spots.push_back({std::fmod(0.37 * k, 1.0), std::fmod(0.71 * k, 1.0), 0.12 + 0.002 * k, 0.05 + 0.001 * k, 0.3 * k});
@@ -70,10 +70,9 @@ void own_areas() {
 }
 
 // A sphere far larger than the map presses every point: the contact ends where the map does, which is no border of its own, and says so.
-void borders() {
+TEST(borders) {
     const HeightMap map = height_map(20, 16, 0.1, 0.1, [](int, int) { return 0.0; });
-    SolverOptions options;
-    options.surface = {0, 0, 2.0, 1.6};
+    SolverOptions options{.surface = {0, 0, 2.0, 1.6}};
     const auto contact = make_element_contact(map, {1e3, 1e4, 1.0, 0.8}, options);
     const Level level = contact->at_separation(-0.1);
     CHECK_RELATIVE(level.area, 2.0 * 1.6, kRounding);
@@ -83,14 +82,14 @@ void borders() {
 }
 
 // Points of the coarser map lie on those of the finer one.
-void coarser() {
+TEST(coarser) {
     const HeightMap map = height_map(17, 12, 1.0, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
     const HeightMap half = every_second_point(map);
     CHECK(half.nx == 9 && half.ny == 6 && half.dx == 2);
     CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
 }
 
-void filled() {
+TEST(filled) {
     Measured map;
     map.nx = map.ny = 4;
     map.dx = map.dy = 1;
@@ -109,7 +108,7 @@ void filled() {
 
 // A smooth sphere on coarse pixels of a map that is read: N is Hertz's, and the error told, which holds in nine of ten cases, is nowhere less than nine tenths of
 // the one there is.
-void resolution() {
+TEST(resolution) {
     const Folder folder;
     const std::string path = folder / "flat.txt";
     std::ofstream file(path);
@@ -138,12 +137,10 @@ void resolution() {
 }
 
 // Bounds are where a level touches and is of what they were fitted to, and what makes them worse never makes them smaller.
-void bounds() {
+TEST(bounds) {
     Asperities a;
     a.x = {0.5}, a.y = {0.5}, a.z = {0}, a.radius = {0.1}, a.kappa1 = {10}, a.kappa2 = {10}, a.angle = {0};
-    SolverOptions options;
-    options.mean_spacing = 0.1;
-    options.points_per_wave = 8;
+    SolverOptions options{.mean_spacing = 0.1, .points_per_wave = 8};
     const Indenter indenter{1e3, 10, 0.5, 0.5};
     Level level;
     level.add_contact(0, 0.5, 0.5, 1, 0.02, 0.004);
@@ -169,8 +166,7 @@ void bounds() {
     expect_error(level, a, indenter, options);
     CHECK(level.force_error_expected > 1.5 * least);
     // The highest grid point of a round summit anywhere between the points: the mean loss of Hertz's force, to first order in h^2.
-    SolverOptions coarse;
-    coarse.mean_spacing = 100, coarse.grid_step = 0.02;
+    SolverOptions coarse{.mean_spacing = 100, .grid_step = 0.02};
     double lost = 0;
     constexpr int places = 20;
     const auto from_middle = [](int i) { return (i + 0.5) / places - 0.5; };
@@ -198,7 +194,7 @@ void bounds() {
 }
 
 // The errors expected of elements hold: four surfaces with 8 points in the shortest wave against the same with 32.
-void finer() {
+TEST(finer) {
     Case c;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1, c.surface.sigma = 2.4e-3;
     c.solids.R[1] = 313;
@@ -224,15 +220,3 @@ void finer() {
 }
 
 }  // namespace
-
-TESTS {
-    statuses();
-    observed();
-    own_areas();
-    borders();
-    coarser();
-    filled();
-    resolution();
-    bounds();
-    finer();
-}

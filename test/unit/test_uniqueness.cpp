@@ -41,7 +41,7 @@ Points random_points(std::size_t n, double radius, double spread, unsigned seed)
     return p;
 }
 
-void proofs_are_true() {
+TEST(proofs_are_true) {
     int proved = 0, proved_with_overlaps = 0, indefinite = 0;
     for (unsigned seed = 0; seed < 400; ++seed) {
         const Points p = random_points(5 + seed % 60, 0.002 * (1 + seed % 40), 0.5 * (seed % 4), seed);
@@ -60,7 +60,7 @@ void proofs_are_true() {
 }
 
 // Two equal spots are definite down to d = (2/pi) a; the proof holds to within 10 % of that.
-void pair_is_nearly_sharp() {
+TEST(pair_is_nearly_sharp) {
     const double a = 1, edge = 2 / std::numbers::pi;
     CHECK(positive_definite_by_shells({0, 1.1 * edge}, {0, 0}, {a, a}));
     CHECK(!positive_definite_by_shells({0, 0.999 * edge}, {0, 0}, {a, a}));
@@ -70,7 +70,7 @@ void pair_is_nearly_sharp() {
 
 // Very many spots in one cluster: a row of spots of radius a at distances d is indefinite, because the quadratic form of forces of
 // alternating sign is near 1 - (4 log(2)/pi) a/d for each spot.
-void long_row_is_indefinite() {
+TEST(long_row_is_indefinite) {
     const std::size_t n = 500;
     Vector x;
     for (std::size_t k = 0; k < n; ++k) x.push_back(0.5 * static_cast<double>(k));
@@ -110,7 +110,7 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
 }
 
 // Where a second solution exists, uniqueness is never told; where none does, nearly always.
-void told_only_where_it_is_so() {
+TEST(told_only_where_it_is_so) {
     constexpr double E_star = 1 / std::numbers::pi;
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -153,7 +153,7 @@ void told_only_where_it_is_so() {
 }
 
 // The lowest eigenvalue against bisection on Cholesky of the shifted matrix.
-void lanczos_finds_the_lowest() {
+TEST(lanczos_finds_the_lowest) {
     for (unsigned seed = 0; seed < 10; ++seed) {
         const Points p = random_points(40, 0.03, 0.5, seed);
         const Vector M = dense(p.x, p.y, p.a);
@@ -182,11 +182,3 @@ void lanczos_finds_the_lowest() {
 }
 
 }  // namespace
-
-TESTS {
-    proofs_are_true();
-    pair_is_nearly_sharp();
-    long_row_is_indefinite();
-    told_only_where_it_is_so();
-    lanczos_finds_the_lowest();
-}

@@ -8,13 +8,14 @@
 #include "error.hpp"
 #include "result_reader.hpp"
 #include "run/run.hpp"
+#include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
 namespace {
 
-void factors() {
+TEST(factors) {
     CHECK(length_factor("um", "mm") == 1e-3);
     CHECK(length_factor("mm", "um") == 1e3);
     CHECK(length_factor("nm", "mm") == 1e-6);
@@ -32,24 +33,14 @@ void factors() {
     CHECK(length_factor("banana", "banana") == 1);  // equal texts are not looked up
 }
 
-void refused(const char* from, const char* to, const char* words, int power = 1) {
-    try {
-        length_factor(from, to, power);
-        CHECK(!"refused");
-    } catch (const Error& error) {
-        CHECK(error.kind() == Failure::bad_input);
-        CHECK(std::strstr(error.what(), words));
-    }
-}
-
-void refusals() {
-    refused("banana", "mm", "'banana' is no unit;");
-    refused("mm", "s", "'s' is no unit of length");
-    refused("mm2", "mm", "'mm2' is no unit of length");
-    refused("1", "mm", "'1' is no unit of length");
-    refused("mm", "mm", "'mm' where a unit like (mm)-1 is expected", -1);
-    refused("banana", "mm", "'banana' where a unit like (mm)-1 is expected", -1);
-    refused("m @ 5", "mm", "'m @ 5' is no unit of length");  // its zero lies elsewhere
+TEST(refusals) {
+    REFUSED(length_factor("banana", "mm"), "'banana' is no unit;");
+    REFUSED(length_factor("mm", "s"), "'s' is no unit of length");
+    REFUSED(length_factor("mm2", "mm"), "'mm2' is no unit of length");
+    REFUSED(length_factor("1", "mm"), "'1' is no unit of length");
+    REFUSED(length_factor("mm", "mm", -1), "'mm' where a unit like (mm)-1 is expected");
+    REFUSED(length_factor("banana", "mm", -1), "'banana' where a unit like (mm)-1 is expected");
+    REFUSED(length_factor("m @ 5", "mm"), "'m @ 5' is no unit of length");  // its zero lies elsewhere
     for (const char* good : {"mm", "um", "m", "inch", "1", "", "10 um"}) CHECK(unit_problem(good, Quantity::length).empty());
     for (const char* good : {"N", "mN", "kgf", "1", ""}) CHECK(unit_problem(good, Quantity::force).empty());
     for (const char* bad : {"banana", "N", "s", "MM", "mm2"}) CHECK(!unit_problem(bad, Quantity::length).empty());
@@ -57,7 +48,7 @@ void refusals() {
 }
 
 // The same case in millimetres and newtons and in micrometres and millinewtons: every variable of the result changes as its units say.
-void every_variable() {
+TEST(every_variable) {
     const Folder folder;
     const auto result = [&](const std::string& units, const std::string& lengths, const std::string& moduli) {
         Case c = read_case_text("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 " + lengths + " friction=0.25 " + moduli +
@@ -102,9 +93,3 @@ void every_variable() {
 }
 
 }  // namespace
-
-TESTS {
-    every_variable();
-    factors();
-    refusals();
-}

@@ -2,6 +2,7 @@
 // computations, and what transposing, mirroring and rescaling them must do to every number that comes out.
 #include "check.hpp"
 #include "error.hpp"
+#include "height_maps.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "rough/measured.hpp"
@@ -13,29 +14,20 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-11;  // sums over some hundred points in another order
 
-HeightMap blank(int nx, int ny, double dx, double dy) {
-    HeightMap map;
-    map.allocate(nx, ny, nx + 5);
-    map.dx = dx, map.dy = dy, map.x0 = -1.3, map.y0 = 2.1;
-    return map;
-}
-
 // Waves of many directions and noise on a form.
 HeightMap rough(int nx, int ny, double dx = 0.3, double dy = 0.2, double noise = 0.2) {
-    HeightMap map = blank(nx, ny, dx, dy);
     std::mt19937 random(7);
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i)
-            map.row(j)[i] = 3 + 0.05 * i - 0.03 * j + std::sin(0.9 * i + 0.4 * j) + 0.6 * std::cos(0.7 * i - 1.1 * j + 0.3) +
-                            0.3 * std::sin(0.2 * i * 1.7 + 1.6 * j) + noise * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+    HeightMap map = height_map(nx, ny, dx, dy, [&](int i, int j) {
+        return 3 + 0.05 * i - 0.03 * j + std::sin(0.9 * i + 0.4 * j) + 0.6 * std::cos(0.7 * i - 1.1 * j + 0.3) +
+               0.3 * std::sin(0.2 * i * 1.7 + 1.6 * j) + noise * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+    });
+    map.x0 = -1.3, map.y0 = 2.1;
     return map;
 }
 
 HeightMap like(const HeightMap& from, int nx, int ny, const std::function<double(int, int)>& height) {
-    HeightMap map = blank(nx, ny, from.dx, from.dy);
+    HeightMap map = height_map(nx, ny, from.dx, from.dy, height);
     map.x0 = from.x0, map.y0 = from.y0, map.periodic = from.periodic;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) map.row(j)[i] = height(i, j);
     return map;
 }
 
@@ -60,7 +52,7 @@ HeightMap rescaled(const HeightMap& m, double lengths) {
 HeightMap copy(const HeightMap& m) { return rescaled(m, 1); }
 
 // Every ring of the spectrum from a sum over all points for each mode.
-void spectra() {
+TEST(spectra) {
     for (const auto& [nx, ny, dx, dy] : {std::tuple{15, 22, 0.3, 0.2}, {18, 13, 0.1, 0.4}, {20, 12, 0.25, 0.25}})
         for (const bool periodic : {false, true}) {
             HeightMap map = rough(nx, ny, dx, dy);
@@ -135,7 +127,7 @@ std::vector<Value> everything(const Measured& m, bool transpose = false) {
     return v;
 }
 
-void symmetries() {
+TEST(symmetries) {
     for (const Detrend how : {Detrend::none, Detrend::mean, Detrend::plane, Detrend::quadratic, Detrend::sphere})
         for (const double cutoff : {0.0, 1.1}) {
             HeightMap bent = rough(41, 30);
@@ -219,9 +211,7 @@ void filled_points(int nx, int ny) {
 
 }  // namespace
 
-TESTS {
-    spectra();
-    symmetries();
+TEST(unlike_maps) {
     filled_points(31, 22);
     filled_points(22, 31);
 }

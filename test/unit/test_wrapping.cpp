@@ -100,7 +100,7 @@ void test_path(const std::string& keys) {
 
 }  // namespace
 
-TESTS {
+TEST(wrapping) {
     const std::string elements = "/ &solver model='elements' /", asperities = "/ &solver model='asperities' / ";
     test_contact(asperities, true);
     test_contact(asperities + "&asperities law='fourth_order' /", true);

@@ -10,7 +10,7 @@ inline constexpr int kMostRelaxations = 16;
 
 // Shares g_k > 0, whose sum is at most 1, and times tau_k > 0 [time]. Empty: the body is elastic.
 struct Relaxation {
-    std::vector<double> share, time;
+    std::vector<double> share = {}, time = {};
     double soft = 1;  // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
     bool none() const { return share.empty(); }
 };

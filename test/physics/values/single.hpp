@@ -137,12 +137,10 @@ inline void friction(CheckedFile& f, const Truth& t) {
 // A measured map: its parameters from its heights, what was done to it from the library's steps (unit/test_measured).
 inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     if (!as_read) return CHECK(!f.has("sq") && !f.has("filled_points"));
-    HeightMap map;
-    map.allocate(as_read->nx, as_read->ny, as_read->nx);
-    map.dx = as_read->dx, map.dy = as_read->dy, map.x0 = as_read->x0, map.y0 = as_read->y0;
+    HeightMap map = as_read->copy();
     long missing = 0;
     for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) map.row(j)[i] = (*as_read)(i, j), missing += std::isnan((*as_read)(i, j));
+        for (int i = 0; i < map.nx; ++i) missing += std::isnan(map(i, j));
     const auto& keys = t.c.surface;
     const Measured m = measure(map, {keys.missing, keys.detrend, keys.filter_cutoff});
     Grid g = t.heights[0];
