@@ -9,23 +9,26 @@ from plot_style import Page, STYLES, amount, colour_bar, label
 
 
 def surface(results, options):
-    """Heights, spectrum and distribution of heights of the first result that has any of them; the spectra of further results for comparison, and all rms
-    slopes in the legend."""
+    """Heights, spectrum and distribution of heights of the first result that has any of them; for comparison the heights of up to two further results
+    beside them (a map and its twins), the spectra of all, and all rms slopes in the legend."""
     first = next((r for r in results if "height" in r or "psd" in r), None)
     if first is None:
         return None
     spectra = [r for r in results if "psd" in r and "wavenumber" in r]
-    drawn = [name for name, there in (("map", "height" in first), ("spectrum", spectra), ("distribution", "height_pdf" in first or "height" in first)) if there]
+    maps = [(r, name) for r, name in zip(results, names(results)) if "height" in r][:3]
+    drawn = ["map"] * len(maps) + [name for name, there in (("spectrum", spectra), ("distribution", "height_pdf" in first or "height" in first)) if there]
     page = Page(options, len(drawn), aspect=0.82 if len(drawn) > 1 else 0.72)
-    for axis, name in zip(page.axes, drawn):
-        {"map": _map, "spectrum": _spectrum, "distribution": _distribution}[name](page, axis, first, results)
+    for axis, (result, name) in zip(page.axes, maps):
+        _map(page, axis, result, f"{name}\n" if len(maps) > 1 else "")
+    for axis, name in list(zip(page.axes, drawn))[len(maps) :]:
+        {"spectrum": _spectrum, "distribution": _distribution}[name](page, axis, first, results)
     slopes = [(name, r["rms_slope"]) for name, r in zip(names(results), results) if "rms_slope" in r] if len(results) > 1 else []
     for name, slope in slopes:
         page.entry(f"{name}: rms slope {np.mean(slope):.3g}" + (f" ± {np.std(slope, ddof=1):.2g} ({slope.size} surfaces)" if slope.size > 1 else ""), ls="none")
     return page.finish(first.title if len(results) == 1 else title(results, "Surfaces"))
 
 
-def _map(page, axis, result, _):
+def _map(page, axis, result, name):
     image = heights(result, axis)
     image.set_cmap("viridis")
     low, high = np.nanpercentile(np.ma.filled(image.get_array(), np.nan), [0.1, 99.9])
@@ -36,7 +39,7 @@ def _map(page, axis, result, _):
         label(axis, which, f"${which}$", result.dimension("height_" + which if "height_" + which in result else which))
     sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result["height"]))
     filled = int(result["filled_points"]) if "filled_points" in result else 0
-    axis.set_title(f"rms height {amount(sq, result.dimension('height'))}" + (f", {filled} points filled" if filled else ""))
+    axis.set_title(f"{name}rms height {amount(sq, result.dimension('height'))}" + (f", {filled} points filled" if filled else ""))
 
 
 def _spectrum(page, axis, _, results):

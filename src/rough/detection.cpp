@@ -169,7 +169,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
-    if (source.whole()) return find_asperities(source.take(), curvature, count, threads, detail, fine / shortest_wave(spectrum), above);
+    if (mirror) return find_asperities(source.all(threads), curvature, count, threads, detail, fine / shortest_wave(spectrum), above);
     std::vector<Stencil> stencils;
     if (refined) stencils.push_back(Stencil::band_limited(fine / shortest_wave(spectrum)));
     std::vector<RefinedSummits> parts = share_rows(fine, threads, [&](RefinedSummits& part, int first, int last) {

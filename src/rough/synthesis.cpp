@@ -85,6 +85,24 @@ RSC_DISPATCH(transpose_past_cache, transpose_body<PastCache>,
              (const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance),
              (from, stride, rows, n, to, distance))
 
+// Writes the diagonals first ... first + count - 1 to their places (line + shear y, y) in the map.
+void place_diagonals(const double* lines, int first, int count, int shear, HeightMap& map) {
+    const int n = map.nx;
+    // Between turns round the period these are rows of a map whose rows are one longer or shorter.
+    for (int y = 0; y < n;) {
+        const int x = ((first + shear * y) % n + n) % n;
+        const int rest = shear > 0 ? n - count - x : x;
+        if (rest >= 0 && x + count <= n) {
+            const int points = std::min(n - y, rest + 1);
+            transpose_to_cache(lines + y, map.stride, count, points, map.row(y) + x, map.stride + shear);
+            y += points;
+        } else {
+            for (int r = 0; r < count; ++r) map.row(y)[(x + r) % n] = lines[r * map.stride + y];
+            ++y;
+        }
+    }
+}
+
 // Columns are too far apart for the hardware prefetcher: what a row takes from a column is requested kAhead columns before.
 constexpr int kAhead = 6;
 void prefetch(const double* p, int count) {
@@ -104,17 +122,13 @@ Spectrum transposed(const Spectrum& spectrum) {
     return mirrored;
 }
 
-RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
-                     double difference_step) {
-    validate(spectrum);
+RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
+                     double difference_step, Lines lines)
+    : n_(n), L_(wanted.L), exchanged_(made_as_transpose(wanted)) {
+    validate(wanted);
     if (n < 2 || n % 2 != 0) throw Error(Failure::bad_input, "surface: n must be even and at least 2, not " + std::to_string(n));
-    n_ = n;
-    if (!(difference_step > 0)) difference_step = spectrum.L / n;
-    threads = std::max(threads, 1);
-    if (made_as_transpose(spectrum)) {
-        transpose(spectrum, normalise, seed, realization, threads, difference_step);
-        return;
-    }
+    if (!(difference_step > 0)) difference_step = L_ / n;
+    const Spectrum spectrum = exchanged_ ? transposed(wanted) : wanted;
     const Band limits = band(spectrum);
     columns_ = limits.highest_kx + 1;
     // Only the real part of a mode at n/2 is visible on the grid, so only the Gaussian modes (n/2, 0) and (0, n/2) are allowed there.
@@ -122,40 +136,22 @@ RowSource::RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::
     if (const int most = std::max(limits.highest_kx, limits.highest_ky); most > n / 2 || (tilted && most == n / 2))
         throw Error(Failure::bad_input, "surface: n = " + std::to_string(n) + " points cannot represent waves of L/lambda = " +
                                             std::to_string(most) + ": n must be at least " + std::to_string(2 * most + (tilted ? 2 : 0)));
+    if (lines == Lines::narrowest && spectrum.gaussian()) {
+        const auto& [xx, xy, yy] = limits.stretched;
+        const double narrow = xx - 2 * std::abs(xy) + yy;          // as yy, but of kx +- ky
+        if (constexpr double worth = 0.25; narrow < worth * yy) {  // placing diagonals takes time, too
+            shear_ = xy > 0 ? 1 : -1;
+            columns_ = static_cast<int>(std::sqrt(narrow * limits.highest_q2)) + 1;
+        }
+    }
     column_stride_ = (n + 3) / 4 * 4 + 4;  // multiples of 64 bytes, and columns not a power of two apart
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
     // For these sizes FFTW's complex transform takes less time than two real ones. The bits of isotropic surfaces are kept.
     pairs_ = spectrum.aspect != 1 && n >= 64 && n <= 2048 && (n & (n - 1)) == 0;
     columns_data_.reset(allocate_doubles(2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
                                          "the modes of a synthetic surface"));
-    draw(spectrum, normalise, seed, realization, threads, difference_step);
-}
-
-void RowSource::transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
-                          double difference_step) {
-    RowSource other(transposed(spectrum), n_, normalise, seed, realization, threads, difference_step);
-    sampled_ = other.sampled_;
-    differences_ = other.differences_;
-    sampled_.tensor = other.sampled_.tensor.transposed();
-    whole_ = empty_map(spectrum.L, n_);
-    std::vector<Scratch> scratch;
-    std::vector<Buffer> block;
-    // So many rows at once that what they write to a row of the other surface is whole lines of the cache.
-    constexpr int wide = 2 * kBlock;
-    const std::ptrdiff_t stride = row_distance(n_);
-    for (int t = 0; t < threads; ++t) {
-        scratch.emplace_back(other);
-        block.emplace_back(allocate_doubles(static_cast<std::size_t>(wide * stride), "rows of a synthetic surface"));
-    }
-    const int blocks = (n_ + wide - 1) / wide;
-    parallel_for(blocks, 1, threads, [&](int b, std::size_t worker) {
-        stopping_point();
-        double* const rows = block[worker].get();
-        const int first = b * wide, count = std::min(wide, n_ - first);
-        other.rows(first, count, rows, stride, scratch[worker]);
-        (static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) > kCached ? transpose_past_cache : transpose_to_cache)(
-            rows, stride, count, n_, whole_.row(0) + first, whole_.stride);
-    });
+    draw(spectrum, normalise, seed, realization, std::max(threads, 1), difference_step);
+    if (exchanged_) sampled_.tensor = sampled_.tensor.transposed();
 }
 
 void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
@@ -182,20 +178,30 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     if (!column_plan || !row_plan_) throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
 
     // The sums go by column and are added in order, whichever thread drew them.
-    std::vector<ModeSums> sums(static_cast<std::size_t>(columns_));
-    auto& plan = *column_plan;
     const Band limits = band(spectrum);
+    std::vector<ModeSums> sums(static_cast<std::size_t>(limits.highest_kx) + 1);
+    auto& plan = *column_plan;
+    const bool at_once = spectrum.gaussian() && shear_ == 0;  // a column is complete when it is drawn
+    if (shear_ != 0) std::fill_n(store, columns_ * column_stride_, std::complex<double>());
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky), difference_step / spectrum.L);
-    parallel_for(columns_, 1, threads, [&](int kx, std::size_t worker) {
+    parallel_for(limits.highest_kx + 1, 1, threads, [&](int kx, std::size_t worker) {
         stopping_point();
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
         auto* const stored = store + kx * column_stride_;
         sums[static_cast<std::size_t>(kx)] = draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
-        if (spectrum.gaussian()) fftw_execute_dft(&plan, fftw(column), fftw(stored));
+        if (at_once) fftw_execute_dft(&plan, fftw(column), fftw(stored));
+        if (shear_ == 0) return;
+        const auto [bottom, top] = limits.column(kx);
+        for (int ky = kx > 0 ? bottom : 1; ky <= top; ++ky) {
+            const std::complex<double> c = column[ky < 0 ? ky + n_ : ky];
+            const int inner = exchanged_ ? ky : kx, k = exchanged_ ? kx + shear_ * ky : ky + shear_ * kx;
+            if (k >= 0) store[k * column_stride_ + (inner < 0 ? inner + n_ : inner)] = c;
+            if (k <= 0) store[-k * column_stride_ + (inner > 0 ? n_ - inner : -inner)] = std::conj(c);  // the same wave
+        }
     });
     HeightShape shape;
-    if (!spectrum.gaussian()) {
-        shape = reshape_heights(spectrum, store, column_stride_, n_);
+    if (!spectrum.gaussian()) shape = reshape_heights(spectrum, store, column_stride_, n_);
+    if (!at_once) {
         parallel_for(columns_, 1, threads, [&](int kx, std::size_t worker) {
             stopping_point();
             auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
@@ -286,22 +292,37 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
     }
 }
 
-HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, Moments* sampled,
-                     int threads) {
-    threads = std::max(threads, 1);
-    RowSource source(spectrum, n, normalise, seed, realization, threads);
-    if (sampled) *sampled = source.sampled();
-    if (source.whole()) return source.take();
-    HeightMap map = empty_map(spectrum.L, n);
-    std::vector<RowSource::Scratch> scratch;
-    for (int t = 0; t < threads; ++t) scratch.emplace_back(source);
-    constexpr int few = 64;  // rows of a piece
-    parallel_for((n + few - 1) / few, 1, threads, [&](int piece, std::size_t worker) {
+HeightMap RowSource::all(int threads) const {
+    HeightMap map = empty_map(L_, n_);
+    const bool direct = shear_ == 0 && !exchanged_;
+    // So many rows at once that what they write to a row of an exchanged surface is whole lines of the cache.
+    const int wide = direct ? 4 * kBlock : 2 * kBlock;
+    const std::ptrdiff_t stride = map.stride;
+    std::vector<Scratch> scratch;
+    std::vector<Buffer> block;
+    for (int t = 0; t < std::max(threads, 1); ++t) {
+        scratch.emplace_back(*this);
+        if (!direct) block.emplace_back(allocate_doubles(static_cast<std::size_t>(wide * stride), "rows of a synthetic surface"));
+    }
+    parallel_for((n_ + wide - 1) / wide, 1, std::max(threads, 1), [&](int b, std::size_t worker) {
         stopping_point();
-        const int j = piece * few;
-        source.rows(j, std::min(few, n - j), map.row(j), map.stride, scratch[worker]);
+        const int first = b * wide, count = std::min(wide, n_ - first);
+        double* const made = direct ? map.row(first) : block[worker].get();
+        rows(first, count, made, stride, scratch[worker]);
+        if (shear_ != 0)
+            place_diagonals(made, first, count, shear_, map);
+        else if (exchanged_)
+            (static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) > kCached ? transpose_past_cache : transpose_to_cache)(
+                made, stride, count, n_, map.row(0) + first, stride);
     });
     return map;
+}
+
+HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, Moments* sampled,
+                     int threads) {
+    const RowSource source(spectrum, n, normalise, seed, realization, threads, 0, RowSource::Lines::narrowest);
+    if (sampled) *sampled = source.sampled();
+    return source.all(threads);
 }
 
 }  // namespace rsc

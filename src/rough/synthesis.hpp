@@ -14,12 +14,17 @@ Spectrum transposed(const Spectrum& spectrum);
 
 class RowSource {
 public:
+    // Lines along which the second transform goes: rows of the grid, or those across which the band is narrowest, so that there are fewest
+    // columns. With a lay near 45 degrees these are diagonals, and only all() is available.
+    enum class Lines { rows, narrowest };
+
     // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is valid, n is even and shortest_wave() <=
     // n/2; Error(no_memory). `difference_step` is the grid step of differences(); 0: L/n.
     RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
-              double difference_step = 0);
+              double difference_step = 0, Lines lines = Lines::rows);
 
     int n() const { return n_; }
+    bool exchanged() const { return exchanged_; }        // x and y of rows(): made_as_transpose()
     const Moments& sampled() const { return sampled_; }  // exact sums over the modes drawn
     // Moments by finite differences with `difference_step` (grid_moments), as exact sums.
     const Moments& differences() const { return differences_; }
@@ -34,9 +39,8 @@ public:
         std::unique_ptr<double[], HeightMap::Free> coefficients_;
     };
 
-    // A surface that is synthesised as its transpose is computed at once: rows() is not available, take() returns all heights.
-    bool whole() const { return whole_.data != nullptr; }
-    HeightMap take() { return std::move(whole_); }
+    // All heights, x and y in their places.
+    HeightMap all(int threads) const;
 
     // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows must be aligned to 64 bytes. The values of a row depend,
     // bit for bit, only on j.
@@ -45,22 +49,22 @@ public:
     static constexpr int kBlock = 16;  // most efficient `count`
 
 private:
-    void transpose(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
-                   double difference_step);
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed, std::int64_t realization, int threads,
               double difference_step);
     void make_pairs(int j, int count, double* out, std::ptrdiff_t stride, double* parts) const;
     void make_rows(int j, int count, double* out, std::ptrdiff_t stride, double* coefficients) const;
 
     int n_ = 0;
+    double L_ = 0;
+    bool exchanged_ = false;
+    int shear_ = 0;                     // 1, -1: line j is the diagonal (j + shear y, y), and columns are those of ky + shear kx
     bool pairs_ = false;                // rows 2i and 2i + 1 are the parts of one complex transform
-    int columns_ = 0;                   // kx = 0 ... columns_ - 1 hold modes
+    int columns_ = 0;                   // 0 ... columns_ - 1 hold modes
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers
     std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles
     std::unique_ptr<double[], HeightMap::Free> columns_data_;
     double factor_ = 1;  // converts relative amplitudes to lengths
     Moments sampled_, differences_;
-    HeightMap whole_;
     FftwPlan row_plan_;
 };
 

@@ -123,8 +123,9 @@ void measure_correlation(const HeightMap& map, Texture& t) {
         for (int i = -t.reach_x; i <= t.reach_x; ++i) t.autocorrelation.push_back(correlation.at(i * t.step_x, j * t.step_y));
 }
 
-// ISO 13565-2: the flattest secant over 40 % of the material ratio, extended to 0 and 100 %, bounds the core. Spk and Svk are the heights
-// of triangles with the areas of the curve above and below the core, as wide as the material ratios outside it.
+// ISO 13565-2: the line of least squares through the 40 % of the material ratio with the flattest secant, extended to 0 and 100 %, bounds
+// the core. Spk and Svk are the heights of triangles with the areas of the curve above and below the core, as wide as the material ratios
+// outside it.
 void measure_heights(const HeightMap& map, Texture& t) {
     std::vector<double> heights;
     heights.reserve(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny));
@@ -140,8 +141,13 @@ void measure_heights(const HeightMap& map, Texture& t) {
     int first = 0;
     for (int m = 0; m + secant <= steps; ++m)
         if (at(m) - at(m + secant) < at(first) - at(first + secant)) first = m;
-    const double slope = (at(first) - at(first + secant)) / secant;  // per quantile step
-    const double upper = at(first) + slope * first, lower = upper - slope * steps;
+    double sum = 0, product = 0, square = 0;
+    for (int m = 0; m < secant; ++m) {
+        const double height = 0.5 * (at(first + m) + at(first + m + 1)), from_middle = m + 0.5 - secant / 2;
+        sum += height, product -= from_middle * height, square += from_middle * from_middle;
+    }
+    const double slope = product / square;  // per quantile step
+    const double upper = sum / secant + slope * (first + secant / 2), lower = upper - slope * steps;
     t.sk = upper - lower;
     double above = 0, below = 0;
     std::size_t i = 0, k = heights.size();

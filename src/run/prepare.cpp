@@ -342,18 +342,16 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
         RowSource source(spectrum, n, keys.normalise, seed, number, threads);
         RowSource::Scratch scratch(source);
         HeightMap rows;
-        if (source.whole())
-            rows = source.take();
-        else
-            rows.allocate(n, 2, (n + 7) / 8 * 8), rows.dx = rows.dy = spectrum.L / n, rows.periodic = true;
+        rows.allocate(n, 2, (n + 7) / 8 * 8), rows.dx = rows.dy = spectrum.L / n, rows.periodic = true;
         std::vector<double> z;
         int made = -1;  // the first of the two rows
         for (const Vec2& p : points) {
             stopping_point();
-            const int j = static_cast<int>(std::floor(p.y / rows.dy));
-            if (rows.ny == 2 && (z.empty() || j != made)) source.rows(j, 2, rows.row(0), rows.stride, scratch), made = j;
-            if (rows.ny == 2) rows.y0 = j * rows.dy;
-            z.push_back(height_at(rows, p.x, p.y));
+            const double x = source.exchanged() ? p.y : p.x, y = source.exchanged() ? p.x : p.y;
+            const int j = static_cast<int>(std::floor(y / rows.dy));
+            if (z.empty() || j != made) source.rows(j, 2, rows.row(0), rows.stride, scratch), made = j;
+            rows.y0 = j * rows.dy;
+            z.push_back(height_at(rows, x, y));
         }
         return z;
     };

@@ -282,6 +282,9 @@ class Numbers(Drawn):
         self.has_curve(figure, k[psd > 0], psd[psd > 0])
         self.has_curve(figure, k[fit > 0], fit[fit > 0])
         self.has_image(figure, v["height"])
+        both = self.figure("surface", "map", "one")  # beside each other
+        for name in ("map", "one"):
+            self.has_image(both, raw(name)[0]["height"])
 
     def test_study(self):
         figure = self.figure("study", *members("study", 6), step=2)
