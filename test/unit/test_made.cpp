@@ -248,9 +248,7 @@ TEST(texture) {
     CHECK_RELATIVE(both.svk, 0.3, 3e-3);
     // A curve of third power u^3, u = 1/2 - material ratio: the line of least squares over |u| < 0.2 has 3/5 of the secant's slope 0.2^2. Steps
     // of a thousandth of the curve are seen in Spk.
-    for (int j = 0; j < 64; ++j)
-        for (int i = 0; i < 64; ++i) even.row(j)[i] = std::pow(((37 * (i + 64 * j)) % 4096 + 0.5) / 4096 - 0.5, 3);
-    const Texture cubic = measure_texture(even);
+    const Texture cubic = of([&](int i, int j) { return std::pow((even(i, j) + 0.5) / 4096 - 0.5, 3); });
     const double u = std::cbrt(0.012), above = (1.0 / 16 - std::pow(u, 4)) / 4 - 0.012 * (0.5 - u);
     CHECK_RELATIVE(cubic.sk, 0.024, 3e-3);
     CHECK_RELATIVE(cubic.spk, 2 * above / (0.5 - u), 3e-3);
