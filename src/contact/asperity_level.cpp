@@ -81,9 +81,7 @@ void find_edge(const ContactBodies& bodies, double radius) {
 // represent the edge. Each point counts as if the whole edge were as deep.
 double carried_by_edge(const Level& level, const ContactBodies& bodies) {
     const Indenter& indenter = bodies.indenter;
-    double blunt = 0;
-    for (const double r : bodies.of_surface.radius) blunt += r / static_cast<double>(bodies.of_surface.size());
-    const double radius = indenter.shape->edge(blunt);
+    const double radius = indenter.shape->edge(bodies.blunt);
     if (!(radius >= 0) || !bodies.options.heights) return 0;
     find_edge(bodies, radius);
     const SmoothContact carried = indenter.shape->smooth(indenter.E_star).value_or(SmoothContact{2 * indenter.E_star * radius});
@@ -125,6 +123,7 @@ std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, 
 
 ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
     : of_surface(given),
+      blunt(std::accumulate(given.radius.begin(), given.radius.end(), 0.0) / static_cast<double>(given.size())),
       search(std::move(search_)),
       of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
       asperities(of_difference ? of_difference->summits : of_surface),

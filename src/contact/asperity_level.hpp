@@ -28,6 +28,7 @@ struct EdgePoints {
 // The bodies of a contact of asperities. The asperities are those given, or the summits of the difference that `search` finds.
 struct ContactBodies {
     const Asperities& of_surface;
+    double blunt;  // mean radius of its summits
     SummitSearch search;
     std::optional<FoundSummits> of_difference;
     mutable FlankTouch flanks;

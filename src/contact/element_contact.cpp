@@ -13,6 +13,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown =
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kMostTimes = 30;     // largest ratio to the last force for a start from its pressures
 constexpr double kMargin = 0.3;       // pixels are selected lower by this share of the step to the expected separation
+constexpr double kColdMargin = 0.05;  // and of the expected depth, if no level is known
 constexpr int kBlock = 16;            // side of the blocks whose highest points are stored [pixels]
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -276,32 +277,40 @@ std::optional<Level> ElementContact::solve_under(double N) {
         const ElementsOutcome now = solver_.solve(pixels_, g0_, tolerance, iterations, p_, sum);
         outcome = {now.converged, outcome.iterations + now.iterations, outcome.products + now.products, now.residual};
     };
-    if (cold) {  // a rough solution near N
-        constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3;
+    double power = 1.5;  // of a sphere; larger for rough surfaces, 1 in full contact
+    if (cold) {          // a rough solution near N
+        constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3, steep = 4;
         constexpr int rounds = 5, searches = 20;
         double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(top_), std::numeric_limits<double>::min());
         while (force_at_most(depth) < N) depth *= 2;
+        double shallow = 0, deep = kInfinity;
         for (int i = 0;; ++i) {
             select(top_ - depth);
             predict(top_ - depth);
             solved(rough, rounds, std::nullopt);
             remember(top_ - depth);
-            const double ratio = N / force(past_[0]);
+            const double last = force(past_[0]), ratio = N / last;
+            if (ratio > 1) power = steep;  // candidates deeper than needed cost more than another trial
+            if (past_.size() > 1) {
+                const double grown = std::log(last / force(past_[1])) / std::log(depth / (top_ - past_[1].separation));
+                if (grown >= 1) power = grown;
+            }
             if (ratio < most_below && ratio > 1 / most_above) break;
             if (i == searches) return std::nullopt;
-            depth *= std::clamp(std::pow(ratio, 1 / 1.5), 1 / widest, widest);
+            (ratio > 1 ? shallow : deep) = depth;
+            depth *= std::clamp(std::pow(ratio, 1 / (ratio > 1 ? std::max(power, steep) : power)), 1 / widest, widest);
+            if (!(depth > shallow && depth < deep)) depth = std::sqrt(shallow * deep);
         }
         past_.resize(1);
     }
     if (far()) return std::nullopt;
     const double N0 = force(past_[0]), depth = top_ - past_[0].separation;
-    double power = 1.5;  // of a sphere; larger for rough surfaces, 1 in full contact
     if (past_.size() > 1) {
         const double grown = std::log(force(past_[1]) / N0) / std::log((top_ - past_[1].separation) / depth);
         if (grown >= 1) power = grown;
     }
     double expected = top_ - depth * std::pow(N / N0, 1 / power), lowest = expected - kMargin * std::abs(expected - past_[0].separation);
-    if (cold) lowest = expected - kMargin * (top_ - expected);
+    if (cold) lowest -= kColdMargin * (top_ - expected);
     constexpr int trials = 4;
     for (int i = 0; i < trials; ++i) {
         select(lowest);

@@ -27,7 +27,7 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
         std::swap(carried_, before_);
         for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
         carried_.known.clear();
-        if (unique_ && v.size() == at(candidates.size())) {
+        if (v.size() == at(candidates.size())) {
             carried_.separation = past_.front().separation;
             carried_.place = from;
             carried_.phi.resize(asperities, kUnknown);
@@ -36,7 +36,6 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
         }
         past_.clear();
         solved_ = 0;
-        unique_ = true;
     }
     constexpr double straight = 0.2, furthest = 2.5;
     const Vec2 move{to.x - carried_.place.x, to.y - carried_.place.y};

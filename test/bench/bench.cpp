@@ -223,6 +223,7 @@ const Part kParts[] = {
     {"largest", bench_largest},
     {"many", bench_many},
     {"adhesion", bench_adhesion},
+    {"calls", bench::calls},
     {"made", bench::made},
     {"layers", bench::layers},
     {"coated_levels", bench::coated_levels, true},

@@ -66,6 +66,8 @@ void made();
 void layers();
 // bench_coated.cpp
 void coated_levels();
+// bench_calls.cpp
+void calls();
 // bench_observe.cpp
 void observe();
 void flats();

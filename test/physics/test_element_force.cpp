@@ -50,9 +50,25 @@ void compare(double R, const std::vector<double>& forces) {
     }
 }
 
+// The first level of a contact deep in a roughness, where the force rises by high powers of the depth: the search for its depth comes to an
+// end, at less than the cost of a second level.
+void first_levels() {
+    constexpr double sigma = 0.01;
+    Spectrum s{.L = 1, .L_lambda_l = 24, .L_lambda_s = 96, .sigma = sigma};
+    const HeightMap map = synthesize(s, 512, Normalise::sample, 1, 1);
+    const Indenter tip{1e5, 2.5, 0.5, 0.5};
+    for (const double Z0 : {2 * sigma, 1.73 * sigma, 1.5 * sigma, sigma, 0.0}) {
+        const Level level = make_element_contact(map, tip, {})->at_separation(Z0),
+                    under = make_element_contact(map, tip, {})->at_force(level.force);
+        CHECK(std::abs(under.separation - Z0) < 1e-5 * sigma);  // ten tolerances of the force, which rises with a power of the depth
+        CHECK(under.products <= 2 * level.products);
+    }
+}
+
 }  // namespace
 
 TEST(element_force) {
+    first_levels();
     const double flat = std::numeric_limits<double>::infinity();
     compare(5.0, {0.1, 1.0, 30.0, 1000.0});
     compare(flat, {500.0, 1000.0, 3000.0, 10000.0});  // the last ones in full contact

@@ -50,4 +50,17 @@ TEST(test_products) {
     CHECK(2 * count(true) < count(false));
 }
 
+// Where levels are not unique, a force at a new place costs less than two levels at its separation.
+TEST(not_unique) {
+    const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.3, 0.3, 7);
+    const auto moved = [&](bool force) {
+        const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
+        const Level before = contact->at_separation(-0.01);
+        CHECK(before.status == LevelStatus::not_unique);
+        contact->move_tip(0.5001, 0.5);
+        return force ? contact->at_force(before.force) : contact->at_separation(-0.01);
+    };
+    CHECK(moved(true).products < 2 * moved(false).products);
+}
+
 }  // namespace

@@ -1,0 +1,97 @@
+// What one call costs in a time loop: a prescribed force while the tip moves, through the C interface, on one thread.
+#include "bench.hpp"
+#include "rsc.h"
+
+namespace bench {
+namespace {
+
+double thread_time() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+void check(std::int32_t status) {
+    if (status != RSC_SUCCESS) std::abort();
+}
+
+// Calls with the tip moved by `step` each time; 0: the force changes instead.
+void calls(const char* law, double step, bool force) {
+    rsc_case* c = nullptr;
+    rsc_asperities* asperities = nullptr;
+    rsc_contact* contact = nullptr;
+    check(rsc_case_create(&c));
+    check(rsc_case_read(c, (std::string("&asperities law = '") + law + "' /").c_str()));
+    check(rsc_asperities_make(&asperities, c, 1));
+    check(rsc_contact_create_from_case(&contact, asperities, c));
+    double N = 0, Z0 = 0.0173, x = 0, y = 0;
+    std::int64_t contacts = 0;
+    check(rsc_contact_tip(contact, &x, &y));
+    check(rsc_contact_indent(contact, Z0, &N));
+    check(rsc_contact_result(contact, nullptr, nullptr, nullptr, &contacts));
+    std::vector<double> times;
+    double products = 0, iterations = 0;
+    constexpr int count = 400;
+    for (int k = 1; k <= count; ++k) {
+        const double start = thread_time();
+        if (step > 0) check(rsc_contact_move_tip(contact, x + step * k, y));
+        const double share = step > 0 ? 1 : 1 + 1e-4 * std::sin(0.1 * k);
+        double now = 0;
+        check(force ? rsc_contact_press(contact, N * share, &Z0) : rsc_contact_indent(contact, Z0 * share, &now));
+        times.push_back(1e6 * (thread_time() - start));
+        double one = 0;
+        check(rsc_contact_value(contact, "products", &one)), products += one / count;
+        check(rsc_contact_value(contact, "iterations", &one)), iterations += one / count;
+    }
+    std::sort(times.begin(), times.end());
+    std::printf("  %-13s %s %-12s %3ld contacts, %4.1f products, %4.1f steps: median %6.1f us, least %6.1f us\n", law,
+                force ? "force,     " : "separation,", step > 0 ? (step > 1e-5 ? "moved 1e-4" : "moved 1e-6") : "tip at rest",
+                static_cast<long>(contacts), products, iterations, times[count / 2], times[0]);
+    check(rsc_contact_destroy(&contact));
+    check(rsc_asperities_destroy(&asperities));
+    check(rsc_case_destroy(&c));
+}
+
+// A level of a new contact under a force, and at the separation it has.
+void cold(const char* keys) {
+    rsc_case* c = nullptr;
+    rsc_asperities* asperities = nullptr;
+    check(rsc_case_create(&c));
+    check(rsc_case_read(c, keys));
+    check(rsc_asperities_make(&asperities, c, 1));
+    for (const double wanted : {0.025, 0.0173, 0.01}) {
+        std::vector<double> times[2], products[2];
+        double N = 0, Z0 = wanted;
+        for (int k = -1; k < 10; ++k) {
+            rsc_contact* contact = nullptr;
+            check(rsc_contact_create_from_case(&contact, asperities, c));
+            const double start = thread_time();
+            const int force = k >= 0 && k % 2;
+            check(force ? rsc_contact_press(contact, N, &Z0) : rsc_contact_indent(contact, wanted, &N));
+            times[force].push_back(thread_time() - start);
+            double count = 0;
+            check(rsc_contact_value(contact, "products", &count)), products[force].push_back(count);
+            check(rsc_contact_destroy(&contact));
+        }
+        for (auto& t : times) std::sort(t.begin(), t.end());
+        std::printf("  %-60s Z0 = %.4f: force %5.1f ms, %.0f products; separation %5.1f ms, %.0f products: %.2f (wanted: 1.3)\n", keys,
+                    wanted, 1e3 * times[1][2], products[1][0], 1e3 * times[0][2], products[0][1], times[1][2] / times[0][2]);
+    }
+    check(rsc_asperities_destroy(&asperities));
+    check(rsc_case_destroy(&c));
+}
+
+}  // namespace
+
+void calls() {
+    std::printf("\ncalls: processor time of one call in a time loop, default surface (wanted at moved tips and 250 contacts: 30 us)\n");
+    for (const char* law : {"fourth_order", "hertz"})
+        for (const bool force : {true, false})
+            for (const double step : {1e-6, 1e-4, 0.0}) calls(law, step, force);
+    std::printf("  one level of a new contact\n");
+    for (const char* keys : {"&asperities law = 'fourth_order' /", "&asperities law = 'hertz' /",
+                             "&asperities law = 'fourth_order' / &run seed = 2 /", "&solver model = 'elements' /"})
+        cold(keys);
+}
+
+}  // namespace bench
