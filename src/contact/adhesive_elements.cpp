@@ -4,6 +4,7 @@
 
 #include "contact/adhesive_pixels.hpp"
 #include "error.hpp"
+#include "format.hpp"
 
 namespace rsc {
 namespace {
@@ -83,13 +84,19 @@ protected:
         const double way = miss < 0 ? -1 : 1;
         double before = Z, before_miss = miss, least = level.force, least_at = Z, step = 0.25 * state_.z0;
         constexpr int most = 400;
+        const double lowest = closed() + 1e-6 * state_.z0;  // nearly full contact
         bool found = precise(miss);
         for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
             if (way > 0 && state_.now.attracting.empty()) break;  // no attraction is left
             before = Z, before_miss = miss;
-            Z = std::max(Z + way * step, std::nextafter(closed(), kInfinity));
+            Z = std::max(Z + way * step, lowest);
             step *= 1.4;
             miss = look(Z);
+            if (Z == lowest && miss < 0) {
+                const double area = state_.heights.Lx() * state_.heights.Ly();
+                throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that of full contact on this surface, %.4g",
+                                                       N / area, level.force / area));
+            }
             if (level.status != LevelStatus::not_converged && level.force < least) least = level.force, least_at = Z;
             found = precise(miss);
         }

@@ -15,6 +15,9 @@
 
 namespace rsc {
 
+// Throws Error(bad_input) if the range of the attraction is less than half of the grid step.
+void require_resolved(double range, double step);
+
 // The heights, as require_elements() returns them, must outlive the contact. The options used are the tolerance, the number of iterations and
 // the adhesion with a positive range. Throws Error(bad_input) for options that are not available with adhesion, and for a range below half a
 // pixel. Of the functions of Contact:

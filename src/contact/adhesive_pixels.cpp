@@ -1,5 +1,6 @@
 #include "contact/adhesive_pixels.hpp"
 
+#include "contact/adhesive_elements.hpp"
 #include "contact/pixel_spots.hpp"
 #include "contact/validity.hpp"
 #include "error.hpp"
@@ -29,6 +30,14 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
+void require_resolved(double range, double step) {
+    if (range < kCoarsest * step)
+        throw Error(Failure::bad_input,
+                    format("solids%%adhesion_range = %.6g is %.2g of a pixel's side; boundary elements require at least "
+                           "0.5, and 2 is recommended",
+                           range, range / step));
+}
+
 AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indenter_, const SolverOptions& options_)
     : CutMap(heights_),
       heights(heights_),
@@ -41,10 +50,7 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
     if (!(z0 > 0)) refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
     if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
     if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
-    if (resolution() < kCoarsest)
-        refuse(
-            format("solids%%adhesion_range = %.6g is %.2g of a pixel's side; boundary elements require at least 0.5, and 2 is recommended",
-                   z0, resolution()));
+    require_resolved(z0, std::max(heights.dx, heights.dy));
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
         raised = heights.copy();

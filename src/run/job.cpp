@@ -1,6 +1,7 @@
 #include "run/job.hpp"
 
 #include "case/registry.hpp"
+#include "contact/adhesive_elements.hpp"
 #include "contact/answers.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/contact_curve.hpp"
@@ -213,6 +214,12 @@ Job prepare(const Case& settings) {
     for (double& level : job.levels) level *= job.level_unit;
     if (elements && indentation.control == Control::separation && (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);
+    if (elements && settings.solids.adhesion > 0) {
+        const double side = job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
+                            : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
+                                              : 0.0;
+        require_resolved(settings.solids.adhesion_range, side);
+    }
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
