@@ -154,10 +154,11 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
         lines.push_back(format("missing points%s: %ld (%.3g %%) filled%s", m.outliers.count > 0 ? " and outliers" : "", m.missing,
                                100 * m.missing_share, by_summits ? "; summits closer to them than the shortest wave are ignored" : ""));
     if (m.missing > 0 && std::abs(m.without_form.height / m.form.rms - 1) > kMuchByFilled)
-        lines.push_back(
-            format("warning: filled points change the rms height from %.4g to %.4g %s: they continue outliers at their border, or a wide "
-                   "margin of the map is missing; surface%%outliers removes the former, surface%%window crops the map",
-                   m.form.rms, m.without_form.height, l));
+        lines.push_back(format(
+            "warning: filled points change the rms height from %.4g to %.4g %s: they continue outliers at their border, a wide margin of "
+            "the map is missing, or narrow grooves were taken for outliers; a %s surface%%outliers helps, or surface%%window, which "
+            "crops the map",
+            m.form.rms, m.without_form.height, l, m.outliers.count > 0 ? "larger" : "positive"));
     std::string form = std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
         form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);
